@@ -1,0 +1,161 @@
+//! What has to hold at the edges of a contact whose limits are sought.
+
+use crate::gap::Cost;
+use crate::quadrature::Engine;
+use crate::{ContactError, Interval, Real};
+
+/// The paper's conditions at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
+/// `|P(ε_b - b) - B| ≤ ε₂`.
+///
+/// A is the pressure *at* a distance from the edge, where a smooth contact has
+/// `P ≈ p₀ sqrt(2 ε_a/L)`: with A = 0 the limits come out too close to the centre by about ε_a.
+/// And the paper's quadrature needs some segments between the two: a distance below a
+/// segment's width 2L/N gains nothing. [`Limits::Free`](crate::Limits::Free) has neither flaw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePressure<T> {
+    /// A, the pressure wanted at `a - ε_a`; a pressure.
+    pub at_a: T,
+    /// B, the pressure wanted at `ε_b - b`; a pressure.
+    pub at_b: T,
+    /// ε_a, the distance from `a`; a length, positive.
+    pub distance_a: T,
+    /// ε_b, the distance from `-b`; a length, positive.
+    pub distance_b: T,
+    /// ε₁, how far the pressure may be from A; positive.
+    pub tolerance_a: T,
+    /// ε₂, how far the pressure may be from B; positive.
+    pub tolerance_b: T,
+}
+
+impl<T: Real> EdgePressure<T> {
+    /// A = B = 0, with the same distance and the same tolerance on both sides.
+    pub fn zero(distance: T, tolerance: T) -> Self {
+        Self {
+            at_a: T::zero(),
+            at_b: T::zero(),
+            distance_a: distance,
+            distance_b: distance,
+            tolerance_a: tolerance,
+            tolerance_b: tolerance,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), ContactError<T>> {
+        let entries = [
+            ("A", self.at_a, false),
+            ("B", self.at_b, false),
+            ("ε_a", self.distance_a, true),
+            ("ε_b", self.distance_b, true),
+            ("ε₁", self.tolerance_a, true),
+            ("ε₂", self.tolerance_b, true),
+        ];
+        for (name, value, positive) in entries {
+            if !value.is_finite() || (positive && value <= T::zero()) {
+                return Err(ContactError::EdgePressure { name, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The conditions at the edges, as two numbers to be brought to zero.
+#[derive(Clone, Copy)]
+pub(super) enum Edges<T> {
+    /// K_a = K_b = 0.
+    Strength { kappa: T, load: T },
+    /// Eq. (6).
+    Pressure { kappa: T, load: T, wanted: EdgePressure<T> },
+}
+
+/// By how much a trial contact misses its conditions. Positive at an edge: the edge must move
+/// outward (the paper's readjustment rule).
+#[derive(Clone, Copy)]
+pub(super) struct Excess<T> {
+    /// At `a`.
+    pub at_a: T,
+    /// At `-b`.
+    pub at_b: T,
+    /// Up to this, shift and spread are zero to rounding, or to the tolerances.
+    floor: T,
+    /// By what factor the half-width should change.
+    pub growth: T,
+    /// Estimated error of the edges relative to the half-width, from the quadrature.
+    pub error: Option<T>,
+}
+
+impl<T: Real> Excess<T> {
+    /// Positive: the whole contact must move to the right.
+    ///
+    /// A contact that misses its load by much need not be balanced to the last digit: moving
+    /// it changes the spread by less than the shift, so with a shift a thousandth of the
+    /// spread the sign of the spread is certain. As the spread vanishes this tightens.
+    pub fn shift(&self) -> T {
+        let shift = self.at_a - self.at_b;
+        let spread = self.at_a + self.at_b;
+        let enough = self.floor.max(T::of(1e-3) * spread.abs());
+        if shift.abs() <= enough { T::zero() } else { shift }
+    }
+
+    /// Positive: the contact must widen.
+    pub fn spread(&self) -> T {
+        let spread = self.at_a + self.at_b;
+        if spread.abs() <= self.floor { T::zero() } else { spread }
+    }
+}
+
+impl<T: Real> Edges<T> {
+    pub fn kappa(&self) -> T {
+        match *self {
+            Self::Strength { kappa, .. } | Self::Pressure { kappa, .. } => kappa,
+        }
+    }
+
+    /// A contact must be wider than this.
+    pub fn least_width(&self) -> T {
+        match self {
+            Self::Strength { .. } => T::zero(),
+            Self::Pressure { wanted, .. } => wanted.distance_a.max(wanted.distance_b),
+        }
+    }
+
+    /// Tries a contact.
+    pub fn excess(
+        &self,
+        on: Interval<T>,
+        engine: &mut dyn Engine<T>,
+        cost: &mut Cost,
+    ) -> Result<Excess<T>, ContactError<T>> {
+        let two = T::of(2.0);
+        match *self {
+            // π L K at each edge: forces, which stay finite as the contact shrinks.
+            Self::Strength { kappa, load } => {
+                let m = engine.moments(on)?;
+                let stiffness = kappa * on.half_width();
+                let carried = stiffness * m.first;
+                let balance = stiffness * m.mean;
+                let ratio = load / carried;
+                // For bodies round where they touch the load goes with the square of the width.
+                let growth = if ratio > T::zero() { ratio.sqrt() } else { two };
+                Ok(Excess {
+                    at_a: load - carried - balance,
+                    at_b: load - carried + balance,
+                    floor: stiffness * m.error,
+                    growth,
+                    error: Some(m.error / m.first.abs()),
+                })
+            }
+            Self::Pressure { kappa, load, wanted } => {
+                let transform = engine.transform(on, cost)?;
+                let mut pressure = |x| -> Result<T, ContactError<T>> {
+                    let numerator = T::pi() * load - kappa * transform.at(x, cost)?;
+                    Ok(numerator / (T::pi() * T::pi() * on.edge_root(x)))
+                };
+                let at_a = pressure(on.right - wanted.distance_a)? - wanted.at_a;
+                let at_b = pressure(on.left + wanted.distance_b)? - wanted.at_b;
+                let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
+                let floor = T::of(0.5) * wanted.tolerance_a.min(wanted.tolerance_b);
+                Ok(Excess { at_a, at_b, floor, growth, error: None })
+            }
+        }
+    }
+}

@@ -1,0 +1,403 @@
+//! The search for the limits.
+//!
+//! Two conditions, one at each edge, fix two unknowns. They are taken as a *balance* (their
+//! difference, which decides where a contact of given width sits) inside a *load* (their sum,
+//! which decides how wide it is). Where the slope of the gap rises with x both are monotone,
+//! each has one root, and each is a problem of one unknown for any [`LimitSearch`]:
+//!
+//! ```text
+//! outer:  half-width L        spread(L, u(L)) = 0
+//! inner:  distance u          shift(L, u) = 0,     a = x₀ + u,  -b = x₀ + u - 2L
+//! ```
+//!
+//! `x₀` is a point of first contact, where the slope of the gap passes through zero. Every
+//! contact contains it, so `u` and the half-width are positive lengths of the contact's own
+//! size, and a relative tolerance means the same on either side and wherever the origin is.
+//!
+//! Both searches are handed a narrow bracket: the inner one steps out from the place that the
+//! last width had, the outer one from the start, by factors that a round body would need.
+
+use super::Contact;
+use super::edges::{Edges, Excess};
+use crate::gap::{Cost, Sampler, Side};
+use crate::quadrature::Engine;
+use crate::search::{Bracket, Brent, LimitSearch, SearchError};
+use crate::{ContactError, Interval, Real};
+
+/// Limits that meet the conditions at the edges.
+pub(crate) struct Found<T> {
+    pub interval: Interval<T>,
+    /// K_a and K_b, where they are what was made to vanish.
+    pub strengths: Option<[T; 2]>,
+    /// Estimated error of the limits relative to the half-width.
+    pub error: Option<T>,
+}
+
+/// Finds the limits that meet the conditions.
+pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    load: T,
+    edges: Edges<T>,
+    engine: &mut dyn Engine<T>,
+    cost: &mut Cost,
+) -> Result<Found<T>, ContactError<T>> {
+    if !(load.is_finite() && load > T::zero()) {
+        return Err(ContactError::Load { load });
+    }
+    let range = contact.gap.range();
+    let mut sampler = contact.gap.sampler();
+    let first = first_contact(&mut sampler, contact.gap.joints(), range, contact.start);
+    *cost += sampler.cost;
+    let origin = first?;
+    let half_width = match contact.start {
+        Some(start) => start.half_width(),
+        None => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
+    };
+    let mut search = Search {
+        edges,
+        engine,
+        cost,
+        strategy: contact.search,
+        origin,
+        range,
+        load,
+        share: T::of(0.5),
+        stiffness: None,
+    };
+    let trial = search.widen(half_width)?;
+    let half_width = trial.on.half_width();
+    let (at_a, at_b) = (trial.excess.at_a, trial.excess.at_b);
+    let strengths = match edges {
+        Edges::Strength { .. } => Some([at_a, at_b].map(|force| force / (T::pi() * half_width))),
+        Edges::Pressure { wanted, .. } => {
+            if at_a.abs() > wanted.tolerance_a || at_b.abs() > wanted.tolerance_b {
+                return Err(ContactError::EdgePressureNotMet { best: trial.on, at_a, at_b });
+            }
+            None
+        }
+    };
+    Ok(Found { interval: trial.on, strengths, error: trial.excess.error })
+}
+
+/// A point where the slope of the gap passes from negative to positive.
+fn first_contact<T: Real>(
+    sampler: &mut Sampler<'_, T>,
+    joints: &[T],
+    range: [T; 2],
+    start: Option<Interval<T>>,
+) -> Result<T, ContactError<T>> {
+    let (two, half) = (T::of(2.0), T::of(0.5));
+    let whole = Interval { left: range[0], right: range[1] };
+    // Not the very ends: the slope of a round body may be infinite there.
+    let margin = T::of(1e-3) * whole.half_width();
+    let within = |x: T| x.max(range[0] + margin).min(range[1] - margin);
+    let start = start.unwrap_or(Interval {
+        left: whole.centre() - T::of(0.25) * whole.half_width(),
+        right: whole.centre() + T::of(0.25) * whole.half_width(),
+    });
+    let (mut x, mut step) = ([within(start.left), within(start.right)], start.half_width());
+    let mut slope = [sampler.slope(x[0])?, sampler.slope(x[1])?];
+    // Widen until the slope is negative on the left and positive on the right.
+    let zero = T::zero();
+    while !(slope[0] <= zero && slope[1] >= zero && slope[0] < slope[1]) {
+        let wrong = slope[0] > zero && slope[1] < zero;
+        let before = x;
+        step *= two;
+        if slope[0] >= zero {
+            x[0] = within(x[0] - step);
+        }
+        if slope[1] <= zero {
+            x[1] = within(x[1] + step);
+        }
+        if wrong || x == before {
+            return Err(ContactError::NoFirstContact { x, slope });
+        }
+        for i in 0..2 {
+            if x[i] != before[i] {
+                slope[i] = sampler.slope(x[i])?;
+            }
+        }
+    }
+    // A wedge touches at a joint, where the slope has no zero but jumps through it.
+    for &joint in joints {
+        if joint <= x[0] || joint >= x[1] {
+            continue;
+        }
+        let left = sampler.slope_from(joint, Side::Left)?;
+        let right = sampler.slope_from(joint, Side::Right)?;
+        if left > zero {
+            (x[1], slope[1]) = (joint, left);
+        } else if right < zero {
+            (x[0], slope[0]) = (joint, right);
+        } else {
+            return Ok(joint);
+        }
+    }
+    let mut failed = None;
+    let mut f = |x| {
+        sampler.slope(x).unwrap_or_else(|error| {
+            failed = Some(error);
+            T::of(f64::NAN)
+        })
+    };
+    let bracket = Bracket::new(x[0], x[1]).values(slope[0], slope[1]);
+    let root = Brent::default().find(&mut f, &bracket);
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    match root {
+        Ok(root) => Ok(root.x),
+        Err(SearchError::Budget { best }) => Ok(half * best.bracket[0] + half * best.bracket[1]),
+        Err(_) => Err(ContactError::NoFirstContact { x, slope }),
+    }
+}
+
+/// A contact tried, and by how much it misses the conditions.
+#[derive(Clone, Copy)]
+struct Trial<T> {
+    on: Interval<T>,
+    excess: Excess<T>,
+}
+
+/// What became of a contact of given width.
+enum Placed<T> {
+    /// It sits here.
+    At(Trial<T>),
+    /// It would have to reach beyond the left (0) or the right (1) end of the bodies.
+    Beyond(usize),
+}
+
+struct Search<'s, T: Real> {
+    edges: Edges<T>,
+    engine: &'s mut dyn Engine<T>,
+    cost: &'s mut Cost,
+    strategy: &'s dyn LimitSearch<T>,
+    /// The point of first contact.
+    origin: T,
+    range: [T; 2],
+    load: T,
+    /// The share of the width that lay to the right of the origin the last time.
+    share: T,
+    /// By how much the shift fell the last time for each unit of length moved to the right.
+    stiffness: Option<T>,
+}
+
+impl<T: Real> Search<'_, T> {
+    fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+        let excess = self.edges.excess(on, self.engine, self.cost)?;
+        Ok(Trial { on, excess })
+    }
+
+    /// Finds the half-width at which the spread vanishes, starting from a guess.
+    fn widen(&mut self, guess: T) -> Result<Trial<T>, ContactError<T>> {
+        let (zero, half) = (T::zero(), T::of(0.5));
+        let least = half * self.edges.least_width();
+        let most = half * (self.range[1] - self.range[0]);
+        let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
+        let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
+        // By which power of the expected factor to change the width, so as to pass the root: at
+        // first a little more than one, and by no more than a tenth.
+        let (mut power, mut beyond) = (T::of(1.1), T::of(1.1));
+        let bracket = loop {
+            let trial = match self.place(half_width)? {
+                Placed::At(trial) => trial,
+                Placed::Beyond(end) if narrow.is_some() => {
+                    let trial = self.pin(end)?;
+                    if trial.excess.spread() > zero {
+                        return Err(self.too_short(end, trial.on));
+                    }
+                    trial
+                }
+                Placed::Beyond(_) if half_width * half > least => {
+                    half_width *= half;
+                    continue;
+                }
+                Placed::Beyond(_) => return Err(self.no_balance(half_width)),
+            };
+            let (last, Excess { growth, .. }) = (trial.on.half_width(), trial.excess);
+            let spread = trial.excess.spread();
+            if spread == zero {
+                return Ok(trial);
+            }
+            half_width = if spread > zero {
+                narrow = Some(trial);
+                last * growth.powf(power).min(growth * beyond).max(T::one() + ulps())
+            } else {
+                wide = Some(trial);
+                last * growth.powf(power).max(growth / beyond).min(T::one() - ulps())
+            };
+            (power, beyond) = (power + power, beyond.powi(4));
+            match (narrow, wide) {
+                // A wide bracket is narrowed from the end last tried, as long as that helps.
+                (Some(narrow), Some(wide)) => {
+                    let (from, to) = (narrow.on.half_width(), wide.on.half_width());
+                    let inside = half_width > from && half_width < to;
+                    if !inside || to <= T::of(4.0) * from || power > T::of(10.0) {
+                        break [narrow, wide];
+                    }
+                }
+                _ if spread > zero => {
+                    half_width = half_width.min(most);
+                    if half_width <= last {
+                        return Err(self.too_short(1, trial.on));
+                    }
+                }
+                _ => {
+                    half_width = half_width.max(least * (T::one() + ulps()));
+                    if half_width >= last || half_width <= zero {
+                        return Err(self.no_balance(last));
+                    }
+                }
+            }
+        };
+        let [narrow, wide] = bracket;
+        let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
+            .values(narrow.excess.spread(), wide.excess.spread());
+        let mut best = nearer(narrow, wide, Excess::spread);
+        self.run(&ends, &mut best, Excess::spread, |search, half_width| {
+            match search.place(half_width)? {
+                Placed::At(trial) => Ok(trial),
+                Placed::Beyond(_) => Err(search.no_balance(half_width)),
+            }
+        })
+    }
+
+    /// Finds where a contact of given half-width sits.
+    fn place(&mut self, half_width: T) -> Result<Placed<T>, ContactError<T>> {
+        let zero = T::zero();
+        let width = T::of(2.0) * half_width;
+        let [room_left, room_right] = self.room();
+        let (lo, hi) = ((width - room_left).max(zero), width.min(room_right));
+        if lo >= hi {
+            return Ok(Placed::Beyond(usize::from(room_right < room_left)));
+        }
+        let origin = self.origin;
+        let on = |right: T| Interval { left: origin + (right - width), right: origin + right };
+        let mut right = (self.share * width).max(lo).min(hi);
+        let mut trial = self.attempt(on(right))?;
+        let widest = T::of(0.125) * width;
+        let mut factor = T::of(2.0);
+        let [low, high] = loop {
+            let shift = trial.excess.shift();
+            if shift == zero {
+                return Ok(self.placed(trial, width));
+            }
+            // Twice as far as the balance seems to be, so as to pass it.
+            let far = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
+            let step = far.filter(|&far| far < widest).unwrap_or(widest * factor * T::of(0.5));
+            let next = if shift > zero { (right + step).min(hi) } else { (right - step).max(lo) };
+            if next == right {
+                // The balance lies beyond what is left of the bodies, or of the contact.
+                return if right == room_right {
+                    Ok(Placed::Beyond(1))
+                } else if right == width - room_left {
+                    Ok(Placed::Beyond(0))
+                } else {
+                    Err(self.no_balance(half_width))
+                };
+            }
+            let before = trial;
+            trial = self.attempt(on(next))?;
+            let moved = trial.excess.shift();
+            right = next;
+            if moved != zero {
+                let stiffness = (shift - moved) / (trial.on.right - before.on.right);
+                self.stiffness = Some(stiffness).filter(|&stiffness| stiffness > zero);
+                if (shift > zero) != (moved > zero) {
+                    break if shift > zero { [before, trial] } else { [trial, before] };
+                }
+            }
+            factor *= T::of(4.0);
+        };
+        let ends = Bracket::new(low.on.right - origin, high.on.right - origin)
+            .values(low.excess.shift(), high.excess.shift());
+        let mut best = nearer(low, high, Excess::shift);
+        let trial =
+            self.run(&ends, &mut best, Excess::shift, |search, right| search.attempt(on(right)))?;
+        Ok(self.placed(trial, width))
+    }
+
+    /// Remembers the share of a placed contact for the next.
+    fn placed(&mut self, trial: Trial<T>, width: T) -> Placed<T> {
+        self.share = (trial.on.right - self.origin) / width;
+        Placed::At(trial)
+    }
+
+    /// The balanced contact that reaches just to one end of the bodies.
+    fn pin(&mut self, end: usize) -> Result<Trial<T>, ContactError<T>> {
+        let (origin, range, room) = (self.origin, self.range, self.room());
+        let on = |other: T| match end {
+            0 => Interval { left: range[0], right: origin + other },
+            _ => Interval { left: origin - other, right: range[1] },
+        };
+        let least = T::of(1e-3) * room[1 - end];
+        let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
+        let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
+        if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {
+            return Ok(far);
+        }
+        let ends = Bracket::new(least, room[1 - end]).values(f_near, f_far);
+        let mut best = nearer(near, far, Excess::shift);
+        self.run(&ends, &mut best, Excess::shift, |search, other| search.attempt(on(other)))
+    }
+
+    /// Runs the user's strategy on one of the conditions and returns the best trial met.
+    fn run(
+        &mut self,
+        bracket: &Bracket<T>,
+        best: &mut Trial<T>,
+        condition: fn(&Excess<T>) -> T,
+        mut attempt: impl FnMut(&mut Self, T) -> Result<Trial<T>, ContactError<T>>,
+    ) -> Result<Trial<T>, ContactError<T>> {
+        let mut failed = None;
+        let strategy = self.strategy;
+        let found = strategy.find(
+            &mut |unknown| match attempt(self, unknown) {
+                Ok(trial) => {
+                    *best = nearer(trial, *best, condition);
+                    condition(&trial.excess)
+                }
+                Err(error) => {
+                    // A value that is not finite ends any search.
+                    failed = Some(error);
+                    T::of(f64::NAN)
+                }
+            },
+            bracket,
+        );
+        match (failed, found) {
+            (Some(error), _) => Err(error),
+            (None, Ok(_)) => Ok(*best),
+            (None, Err(source)) => Err(ContactError::LimitSearch { best: best.on, source }),
+        }
+    }
+
+    /// How far a contact can reach to the left and to the right of the origin.
+    fn room(&self) -> [T; 2] {
+        [self.origin - self.range[0], self.range[1] - self.origin]
+    }
+
+    fn no_balance(&self, half_width: T) -> ContactError<T> {
+        ContactError::NoBalance { half_width, near: self.origin }
+    }
+
+    /// The error for a contact that reaches the end of the bodies and must still widen.
+    fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
+        match self.engine.moments(on) {
+            Ok(m) => {
+                let carried = self.edges.kappa() * on.half_width() * m.first;
+                ContactError::TooShort { end: self.range[end], carried, load: self.load }
+            }
+            Err(error) => error,
+        }
+    }
+}
+
+fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Excess<T>) -> T) -> Trial<T> {
+    if condition(&other.excess).abs() < condition(&one.excess).abs() { other } else { one }
+}
+
+/// A relative step that is certain to change a number.
+fn ulps<T: Real>() -> T {
+    T::of(8.0) * T::epsilon()
+}

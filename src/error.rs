@@ -1,0 +1,174 @@
+//! What can go wrong with a scene, and how to mend it.
+
+use crate::search::SearchError;
+use crate::{Interval, ProfileError, Real};
+use std::fmt;
+use thiserror::Error;
+
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// Body 1, below.
+    Lower,
+    /// Body 2, above.
+    Upper,
+}
+
+impl fmt::Display for Body {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+        })
+    }
+}
+
+/// Why a contact could not be solved. Every variant says where, and with what values.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ContactError<T: Real> {
+    /// A profile is at fault.
+    #[error("{body} body: {source}")]
+    Profile {
+        /// Whose profile.
+        body: Body,
+        /// What is wrong.
+        source: ProfileError<T>,
+    },
+    /// The two bodies have no `x` in common.
+    #[error(
+        "the bodies lie beside each other: the lower covers x = {:?} to {:?}, the upper {:?} to {:?}",
+        lower[0], lower[1], upper[0], upper[1]
+    )]
+    Apart {
+        /// Range of `x` of the lower body.
+        lower: [T; 2],
+        /// Range of `x` of the upper body.
+        upper: [T; 2],
+    },
+    /// `x` is beyond one of the bodies, or NaN.
+    #[error("x = {x:?} is beyond the bodies, which both cover only {:?} to {:?}", range[0], range[1])]
+    OutsideBodies {
+        /// Where.
+        x: T,
+        /// The range of `x` that both bodies cover.
+        range: [T; 2],
+    },
+    /// `X(k) = x` could not be inverted.
+    #[error("{body} body: X(k) = {x:?} cannot be inverted: {source}")]
+    Inversion {
+        /// Whose profile.
+        body: Body,
+        /// The abscissa.
+        x: T,
+        /// What the search says, in terms of `k`.
+        source: SearchError<T>,
+    },
+    /// The load is not a positive finite number.
+    #[error("the load is {load:?}: limits can be sought for a positive finite load only")]
+    Load {
+        /// Load per unit length.
+        load: T,
+    },
+    /// The contact modulus, or κ, is not a positive finite number.
+    #[error("κ = {kappa:?}: the scale must be positive and finite (κ = π E*/2)")]
+    Scale {
+        /// κ as given, or π/2 times the modulus as given.
+        kappa: T,
+    },
+    /// Given or starting limits are not in order.
+    #[error("the interval from -b = {:?} to a = {:?} is empty, reversed or not finite",
+        interval.left, interval.right)]
+    Limits {
+        /// The interval as given.
+        interval: Interval<T>,
+    },
+    /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
+    #[error(
+        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B finite"
+    )]
+    EdgePressure {
+        /// Which of them.
+        name: &'static str,
+        /// Its value.
+        value: T,
+    },
+    /// The slope difference of the bodies nowhere goes from negative to positive, so that
+    /// they do not open on both sides of a point of first contact.
+    #[error(
+        "no point of first contact: the slope f₂' - f₁' is {:?} at x = {:?} and {:?} at x = {:?}, but a \
+         gap falls on its left and rises on its right; swap the bodies, or widen their domains",
+        slope[0], x[0], slope[1], x[1]
+    )]
+    NoFirstContact {
+        /// Two abscissae.
+        x: [T; 2],
+        /// The slope difference there.
+        slope: [T; 2],
+    },
+    /// The contact that carries the load reaches beyond a body.
+    #[error(
+        "the contact would leave the bodies at x = {end:?}: up to there they carry {carried:?} of the \
+         load {load:?}; extend the domain or lower the load"
+    )]
+    TooShort {
+        /// The end that the contact reaches first.
+        end: T,
+        /// The load carried by the largest contact that stays on the bodies.
+        carried: T,
+        /// The load asked for.
+        load: T,
+    },
+    /// No position of a contact of some width balances the pressures at its two edges.
+    #[error(
+        "a contact of half-width {half_width:?} finds no balance anywhere near x = {near:?}: the gap \
+         does not close on one place"
+    )]
+    NoBalance {
+        /// Half-width tried.
+        half_width: T,
+        /// Point of first contact.
+        near: T,
+    },
+    /// The search for the limits gave up.
+    #[error("limits not found: {source}; best so far -b = {:?}, a = {:?}", best.left, best.right)]
+    LimitSearch {
+        /// The best limits so far.
+        best: Interval<T>,
+        /// What the search says, in terms of the half-width or the distance from the point
+        /// of first contact.
+        source: SearchError<T>,
+    },
+    /// The limits are as good as the numbers allow, but Eq. (6) is not met.
+    #[error(
+        "the best limits, -b = {:?} and a = {:?}, leave P(a - ε_a) - A = {at_a:?} and \
+         P(ε_b - b) - B = {at_b:?}: more than ε₁, ε₂; take more segments or larger tolerances",
+        best.left, best.right
+    )]
+    EdgePressureNotMet {
+        /// The best limits.
+        best: Interval<T>,
+        /// What is left at `a`.
+        at_a: T,
+        /// What is left at `-b`.
+        at_b: T,
+    },
+    /// Zero segments, or more points than can be counted.
+    #[error(
+        "{segments} segments with {extrapolations} extrapolations: give at least one segment, and \
+         fewer than 2^32 points at the finest level"
+    )]
+    Segments {
+        /// N.
+        segments: usize,
+        /// ET.
+        extrapolations: u32,
+    },
+    /// The pressure at an edge where it is infinite.
+    #[error(
+        "the pressure at the fixed edge x = {x:?} is infinite; ask inside, or for the edge strength"
+    )]
+    AtFixedEdge {
+        /// The edge.
+        x: T,
+    },
+}

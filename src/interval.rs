@@ -1,0 +1,51 @@
+//! The contact as an interval of x.
+
+use crate::Real;
+
+/// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval<T> {
+    /// `-b`.
+    pub left: T,
+    /// `a`.
+    pub right: T,
+}
+
+impl<T: Real> Interval<T> {
+    /// Half-width `L = (a + b)/2`.
+    pub fn half_width(&self) -> T {
+        T::of(0.5) * (self.right - self.left)
+    }
+
+    /// Centre `c = (a - b)/2`.
+    pub fn centre(&self) -> T {
+        T::of(0.5) * self.left + T::of(0.5) * self.right
+    }
+
+    /// Whether `x` lies strictly inside.
+    pub fn contains(&self, x: T) -> bool {
+        x > self.left && x < self.right
+    }
+
+    /// `sqrt((x + b)(a - x))`, from the distances to the two ends so that it keeps its
+    /// relative accuracy next to either.
+    pub fn edge_root(&self, x: T) -> T {
+        ((x - self.left).sqrt()) * ((self.right - x).sqrt())
+    }
+
+    /// The angle of `x = c + L cos θ`, from 0 at `a` to π at `-b`.
+    pub fn angle(&self, x: T) -> T {
+        T::of(2.0) * (self.right - x).sqrt().atan2((x - self.left).sqrt())
+    }
+
+    /// The point at the angle θ, measured from the nearer end.
+    pub fn at_angle(&self, theta: T) -> T {
+        let half = T::of(0.5) * theta;
+        let width = self.right - self.left;
+        if half < T::frac_pi_4() {
+            self.right - width * half.sin().powi(2)
+        } else {
+            self.left + width * half.cos().powi(2)
+        }
+    }
+}

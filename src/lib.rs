@@ -1,0 +1,71 @@
+//! Line contact of two bodies, each given as a parametric curve `[X(k), Y(k)]`.
+//!
+//! Two bodies are pressed together with a load per unit length. This crate finds where they
+//! touch, the interval `[-b, a]` of `x`, and the pressure `P(x)` between them, for elastic
+//! half-planes without friction. Neither curve's parameter can or need be eliminated.
+//!
+//! ```text
+//! PV∫ P(s)/(x - s) ds = κ (f₂'(x) - f₁'(x)),   -b < x < a,      ∫ P ds = F
+//! f_i'(x) = Y_i'(k)/X_i'(k)   at the k that solves X_i(k) = x
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `x`, `X`, `Y`, `a`, `b` | lengths along and across the contact | free, the same for all |
+//! | `k` | parameter of a curve, its own in each body and piece | none |
+//! | `P` | pressure, positive in compression | pressure |
+//! | `F` | load per unit length; `C = π F` | pressure × length |
+//! | κ | `π E*/2`, E* the contact modulus of plane strain | pressure |
+//! | `L`, `c` | half-width `(a + b)/2` and centre `(a - b)/2` of the contact | length |
+//! | `K_a`, `K_b` | strengths of the edge singularities of `P`, zero at a free edge | pressure |
+//!
+//! Body 1 is the lower one. The equation numbers in this documentation are those of the paper
+//! *An approximate numerical method for solving Cauchy singular integral equations composed of
+//! multiple implicit parameter functions with unknown integral limits in contact mechanics*,
+//! whose method this crate implements, with three corrections: the integral in Eqs. (7), (9)
+//! and (11) carries a minus sign, `C` in Eqs. (9) and (14) is not multiplied by `(a + b)/2`,
+//! and Example 2 of the paper has κ = π/2.
+//!
+//! # Where things are
+//! - [`profile`]: bodies, from a closure, a struct of your own, or pieces joined.
+//! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
+//! - [`gap`]: two bodies as one function, the slope of the gap.
+//! - [`quadrature`]: from that slope to edge strengths and pressure.
+//! - [`contact`]: the scene, and the search for its limits.
+//! - [`Solution`], [`Pressure`]: what comes back.
+//!
+//! # Example
+//! ```
+//! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+//!
+//! let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
+//! let contact = Contact::new(&Flat, &parabola)?;
+//! let solution = contact.solve(Load::PerLength(0.02))?;
+//! assert!((solution.a() - 0.2).abs() < 1e-15);
+//! assert!((solution.b() - 0.2).abs() < 1e-15);
+//!
+//! let pressure = solution.pressure()?;
+//! let exact = (0.2f64.powi(2) - 0.1f64.powi(2)).sqrt() / std::f64::consts::PI;
+//! assert!((pressure.at(0.1)? / exact - 1.0).abs() < 1e-11);
+//! # Ok::<(), linecontact::ContactError<f64>>(())
+//! ```
+
+pub mod contact;
+mod error;
+pub mod gap;
+mod interval;
+pub mod profile;
+pub mod quadrature;
+mod real;
+pub mod search;
+mod solution;
+
+pub use contact::{Contact, EdgePressure, Limits, Load};
+pub use error::{Body, ContactError};
+pub use gap::{Cost, Gap};
+pub use interval::Interval;
+pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
+pub use profile::{Piece, ProfileError};
+pub use quadrature::{Exponents, Midpoint};
+pub use real::Real;
+pub use solution::{Pressure, Solution};

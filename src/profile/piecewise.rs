@@ -1,0 +1,194 @@
+//! The combinator that joins smooth pieces.
+
+use super::{CurvePoint, ParametricProfile, Piece, ProfileError};
+use crate::Real;
+use std::marker::PhantomData;
+use thiserror::Error;
+
+/// Smooth profiles joined end to end, from left to right.
+///
+/// Each piece has a parameter and a range of its own, over which `X` may rise or fall: a
+/// formula that holds "for x ≤ 0" usually has several branches in `k`, and the range says
+/// which is meant. Where two pieces meet the slope may jump; `X` and `Y` may not. The solver
+/// sees the pieces, inverts each on its own range, and splits its integrals at the joints.
+///
+/// As a profile in its own right it has the parameter `i + s` on piece `i`, `s` running
+/// from 0 at its left end to 1 at its right, which serves to draw it.
+///
+/// Pieces of different types go in as `Box<dyn ParametricProfile<T>>`.
+///
+/// ```
+/// use linecontact::{Curve, CurvePoint, Piecewise};
+///
+/// // A wedge, blunt on the left.
+/// let face = |slope: f64| move |k: f64| CurvePoint { x: k, y: slope * k, dx: 1.0, dy: slope };
+/// let wedge = Piecewise::new(vec![
+///     Curve::new([-1.0, 0.0], face(-0.1)),
+///     Curve::new([0.0, 1.0], face(0.4)),
+/// ]);
+/// # // Two closures of one expression have one type.
+/// assert!(wedge.is_ok());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Piecewise<T, P> {
+    parts: Vec<P>,
+    /// `k` and `x` at the left and right end of each part.
+    ends: Vec<([T; 2], [T; 2])>,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
+    /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place
+    /// of the larger of their extent and their distance from 0.
+    ///
+    /// # Errors
+    /// What [`Piece::new`] says of a piece, as [`PiecewiseError::InPiece`];
+    /// [`PiecewiseError::Gap`], [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a joint;
+    /// [`PiecewiseError::NoPieces`].
+    pub fn new(parts: Vec<P>) -> Result<Self, PiecewiseError<T>> {
+        Self::with_tolerance(parts, T::of(64.0) * T::epsilon())
+    }
+
+    /// As [`new`](Self::new), for pieces that meet only to within `tolerance` times the
+    /// larger of their extent and their distance from 0, such as measured ones.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_tolerance(parts: Vec<P>, tolerance: T) -> Result<Self, PiecewiseError<T>> {
+        let mut ends = Vec::with_capacity(parts.len());
+        for (piece, part) in parts.iter().enumerate() {
+            let Piece { k, x, .. } =
+                Piece::new(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
+            ends.push((k, x));
+        }
+        if parts.is_empty() {
+            return Err(PiecewiseError::NoPieces);
+        }
+        for joint in 0..parts.len() - 1 {
+            let [(k, x), (k_next, x_next)] = [ends[joint], ends[joint + 1]];
+            let (left, right) = (x[1], x_next[0]);
+            let mismatch = right - left;
+            if mismatch.abs() > tolerance * extent(x).max(extent(x_next)) {
+                return Err(if mismatch > T::zero() {
+                    PiecewiseError::Gap { joint, left, right }
+                } else {
+                    PiecewiseError::Overlap { joint, left, right }
+                });
+            }
+            let y = heights(&parts, joint, k)?;
+            let y_next = heights(&parts, joint + 1, k_next)?;
+            let jump = y_next[0] - y[1];
+            if jump.abs() > tolerance * extent(y).max(extent(y_next)) {
+                return Err(PiecewiseError::Jump { joint, x: left, left: y[1], right: y_next[0] });
+            }
+        }
+        Ok(Self { parts, ends, scalar: PhantomData })
+    }
+}
+
+/// `Y` at the two ends of a piece.
+fn heights<T: Real, P: ParametricProfile<T>>(
+    parts: &[P],
+    piece: usize,
+    k: [T; 2],
+) -> Result<[T; 2], PiecewiseError<T>> {
+    let y = k.map(|k| parts[piece].y(k));
+    for (k, value) in k.into_iter().zip(y) {
+        if !value.is_finite() {
+            let source = ProfileError::NotFinite { quantity: "Y", k, value };
+            return Err(PiecewiseError::InPiece { piece, source });
+        }
+    }
+    Ok(y)
+}
+
+/// The larger of the length of an interval and its distance from 0.
+fn extent<T: Real>([from, to]: [T; 2]) -> T {
+    (to - from).abs().max(from.abs()).max(to.abs())
+}
+
+impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> {
+    fn domain(&self) -> [T; 2] {
+        [T::zero(), T::count(self.parts.len())]
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        let last = self.parts.len() - 1;
+        let i = (0..last).find(|&i| k <= T::count(i + 1)).unwrap_or(last);
+        let ([from, to], _) = self.ends[i];
+        let scale = to - from;
+        let point = self.parts[i].at(from + (k - T::count(i)) * scale);
+        CurvePoint { dx: point.dx * scale, dy: point.dy * scale, ..point }
+    }
+
+    fn pieces(&self) -> Vec<Piece<'_, T>> {
+        let mut pieces = Vec::with_capacity(self.parts.len());
+        for (part, &(k, x)) in self.parts.iter().zip(&self.ends) {
+            let inner = part.pieces();
+            if inner.is_empty() {
+                pieces.push(Piece { curve: part, k, x });
+            } else {
+                pieces.extend(inner);
+            }
+        }
+        pieces
+    }
+}
+
+/// Why pieces cannot be joined.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum PiecewiseError<T: Real> {
+    /// A piece is at fault by itself.
+    #[error("piece {piece} (from 0, left to right): {source}")]
+    InPiece {
+        /// Index of the piece.
+        piece: usize,
+        /// What is wrong with it.
+        source: ProfileError<T>,
+    },
+    /// There are no pieces.
+    #[error("a piecewise profile needs at least one piece")]
+    NoPieces,
+    /// Two neighbours do not meet: `x` between them belongs to neither.
+    #[error(
+        "gap of {:?} at joint {joint}: the piece on its left ends at x = {left:?}, the next starts \
+         at x = {right:?}", *right - *left
+    )]
+    Gap {
+        /// Index of the joint, 0 between the first two pieces.
+        joint: usize,
+        /// Where the left piece ends.
+        left: T,
+        /// Where the right piece starts.
+        right: T,
+    },
+    /// Two neighbours overlap: `x` between them belongs to both. Also what pieces in the
+    /// wrong order look like.
+    #[error(
+        "overlap of {:?} at joint {joint}: the piece on its left ends at x = {left:?}, the next \
+         starts at x = {right:?}; pieces go from left to right", *left - *right
+    )]
+    Overlap {
+        /// Index of the joint, 0 between the first two pieces.
+        joint: usize,
+        /// Where the left piece ends.
+        left: T,
+        /// Where the right piece starts.
+        right: T,
+    },
+    /// Two neighbours meet at different heights.
+    #[error(
+        "jump of {:?} at joint {joint} (x = {x:?}): Y = {left:?} on its left, {right:?} on its right",
+        *right - *left
+    )]
+    Jump {
+        /// Index of the joint, 0 between the first two pieces.
+        joint: usize,
+        /// Where.
+        x: T,
+        /// `Y` at the end of the left piece.
+        left: T,
+        /// `Y` at the start of the right piece.
+        right: T,
+    },
+}

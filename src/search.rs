@@ -1,0 +1,215 @@
+//! Searches for the root of one function of one variable.
+//!
+//! The solver meets two such problems, and takes any [`LimitSearch`] for either:
+//! inverting `X(k) = x` on a profile, and adjusting the limits `a` and `b` until the
+//! conditions at the edges hold.
+//!
+//! | strategy | wants | typical evaluations from a wide bracket |
+//! |---|---|---|
+//! | [`Bisection`] | a sign change | 50 (one for each bit) |
+//! | [`Secant`] | a sign change | 6 to 10 |
+//! | [`Brent`] | a sign change | 7 to 12, never many more than bisection |
+//! | [`Newton`] | a sign change and, where it is at hand, the slope | 4 to 6; 2 to 3 from a close guess |
+//!
+//! All four keep the tightest sign change they have seen and never evaluate outside the
+//! bracket. None compares with an absolute number unless told to: multiplying `x` and `f`
+//! by powers of two gives the same iterates, bit for bit, and the same counts.
+
+mod bisection;
+mod brent;
+mod newton;
+mod roots_adapter;
+mod secant;
+mod tracker;
+
+pub use bisection::Bisection;
+pub use brent::Brent;
+pub use newton::Newton;
+pub use secant::Secant;
+
+use crate::Real;
+use thiserror::Error;
+
+/// A strategy that finds where a function is zero.
+///
+/// Usable as a trait object, so that strategies can sit side by side in one array:
+///
+/// ```
+/// use linecontact::search::{Bisection, Bracket, Brent, LimitSearch, Newton, Secant};
+///
+/// let all: [&dyn LimitSearch<f64>; 4] =
+///     [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
+/// for search in all {
+///     let root = search.find(&mut |x| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
+///     assert!((root.x / 2f64.sqrt() - 1.0).abs() < 1e-15);
+/// }
+/// # Ok::<(), linecontact::search::SearchError<f64>>(())
+/// ```
+///
+/// Implement [`find`](Self::find) for a strategy of your own; override
+/// [`find_with_slope`](Self::find_with_slope) if it can use the derivative.
+pub trait LimitSearch<T: Real>: Send + Sync {
+    /// Finds a zero of `f` in the bracket.
+    ///
+    /// # Errors
+    /// See [`SearchError`]; each variant says where the search stood.
+    fn find(
+        &self,
+        f: &mut dyn FnMut(T) -> T,
+        bracket: &Bracket<T>,
+    ) -> Result<Root<T>, SearchError<T>>;
+
+    /// The same, for a function that returns its value and its slope together. A strategy
+    /// that has no use for the slope need not implement this.
+    ///
+    /// # Errors
+    /// As [`find`](Self::find).
+    fn find_with_slope(
+        &self,
+        f: &mut dyn FnMut(T) -> (T, T),
+        bracket: &Bracket<T>,
+    ) -> Result<Root<T>, SearchError<T>> {
+        self.find(&mut |x| f(x).0, bracket)
+    }
+}
+
+/// An interval over which a function changes its sign, with what is known beforehand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bracket<T> {
+    /// Lower end.
+    pub lo: T,
+    /// Upper end.
+    pub hi: T,
+    /// The function at `lo` and `hi`, where they are known: two evaluations saved.
+    pub values: Option<[T; 2]>,
+    /// Where to look first. Ignored unless it lies inside.
+    pub guess: Option<T>,
+}
+
+impl<T: Real> Bracket<T> {
+    /// The bracket from `lo` to `hi`, about which nothing else is known.
+    pub fn new(lo: T, hi: T) -> Self {
+        Self { lo, hi, values: None, guess: None }
+    }
+
+    /// With the values of the function at `lo` and `hi`.
+    pub fn values(self, at_lo: T, at_hi: T) -> Self {
+        Self { values: Some([at_lo, at_hi]), ..self }
+    }
+
+    /// With a first guess.
+    pub fn guess(self, x: T) -> Self {
+        Self { guess: Some(x), ..self }
+    }
+}
+
+/// What a search found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root<T> {
+    /// The point with the smallest value of the function met.
+    pub x: T,
+    /// The function at `x`.
+    pub residual: T,
+    /// The tightest sign change seen; both ends are `x` where the function is zero.
+    pub bracket: [T; 2],
+    /// How often the function was evaluated.
+    pub evaluations: usize,
+}
+
+/// When a search stops. The default asks for all that the number type can give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
+    pub absolute: f64,
+    /// Largest error of `x` as a fraction of `|x|`. Never taken below four units in the
+    /// last place of the number type, which is what the default 0 stands for.
+    pub relative: f64,
+    /// A point with `|f(x)|` up to this counts as the root. Default 0: no such test.
+    pub residual: f64,
+    /// Evaluations of the function after which the search gives up. Default 2200, which
+    /// is what bisection needs at worst to reach any `f64` from any bracket.
+    pub max_evaluations: usize,
+}
+
+impl Tolerance {
+    /// All that the number type can give.
+    pub const FULL: Self =
+        Self { absolute: 0.0, relative: 0.0, residual: 0.0, max_evaluations: 2200 };
+
+    /// A relative error of `x`, the rest as by default.
+    pub const fn relative(relative: f64) -> Self {
+        Self { relative, ..Self::FULL }
+    }
+
+    /// The error allowed in a root of about the size of `x`.
+    fn width<T: Real>(&self, x: T) -> T {
+        let relative = T::of(self.relative).max(T::of(4.0) * T::epsilon());
+        T::of(self.absolute).max(relative * x.abs())
+    }
+
+    fn check<T: Real>(&self) -> Result<(), SearchError<T>> {
+        for value in [self.absolute, self.relative, self.residual] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(SearchError::Tolerance { value });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self::FULL
+    }
+}
+
+/// Why a search found no root.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum SearchError<T: Real> {
+    /// The bracket has a NaN or infinite end, or its ends are the wrong way round.
+    #[error("[{lo:?}, {hi:?}] is no bracket: give two finite ends in rising order")]
+    Bracket {
+        /// Lower end as given.
+        lo: T,
+        /// Upper end as given.
+        hi: T,
+    },
+    /// The function has the same sign at both ends.
+    #[error(
+        "no sign change: f({lo:?}) = {f_lo:?} and f({hi:?}) = {f_hi:?}; widen or move the bracket"
+    )]
+    NoSignChange {
+        /// Lower end.
+        lo: T,
+        /// Upper end.
+        hi: T,
+        /// Value at the lower end.
+        f_lo: T,
+        /// Value at the upper end.
+        f_hi: T,
+    },
+    /// The function returned NaN or an infinity.
+    #[error("the function is {value:?} at {x:?}; it must be finite on the whole bracket")]
+    NotFinite {
+        /// Where.
+        x: T,
+        /// What it returned.
+        value: T,
+    },
+    /// The evaluations ran out.
+    #[error(
+        "no convergence in {} evaluations; best so far f({:?}) = {:?}, sign change in [{:?}, {:?}]; \
+         raise max_evaluations or loosen the tolerance",
+        best.evaluations, best.x, best.residual, best.bracket[0], best.bracket[1]
+    )]
+    Budget {
+        /// The best point so far.
+        best: Root<T>,
+    },
+    /// A tolerance is negative, NaN or infinite.
+    #[error("{value:?} is no tolerance: give a finite number that is not negative")]
+    Tolerance {
+        /// The tolerance as given.
+        value: f64,
+    },
+}

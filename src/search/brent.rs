@@ -1,0 +1,25 @@
+//! Brent's method.
+
+use super::roots_adapter::{Method, run};
+use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use crate::Real;
+
+/// Brent's method: inverse quadratic interpolation where it converges, halving where not.
+///
+/// Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4, as
+/// implemented by the `roots` crate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Brent {
+    /// When to stop.
+    pub tolerance: Tolerance,
+}
+
+impl<T: Real> LimitSearch<T> for Brent {
+    fn find(
+        &self,
+        f: &mut dyn FnMut(T) -> T,
+        bracket: &Bracket<T>,
+    ) -> Result<Root<T>, SearchError<T>> {
+        run(Method::Brent, f, bracket, self.tolerance)
+    }
+}

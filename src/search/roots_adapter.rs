@@ -1,0 +1,228 @@
+//! The `roots` crate behind our own bookkeeping; nothing of it shows outside this file.
+//!
+//! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for
+//! `x` and `f`, tests signs by a product that can underflow, cannot report NaN, returns
+//! errors that carry nothing, and its Brent lacks the least step of the textbook, so that it
+//! ends in some fifty halvings. So it only *proposes* points here. The [`Tracker`] evaluates
+//! them (never twice, never outside the sign change), decides when the root is found, and
+//! ends a run that goes nowhere; then the bracket is halved and a new run begins.
+
+use super::tracker::Tracker;
+use super::{Bracket, Root, SearchError, Tolerance};
+use crate::Real;
+use std::cell::RefCell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Method {
+    Brent,
+    Secant,
+}
+
+impl Method {
+    /// Iterations after which a run has to make way for a halving. A secant that converges
+    /// needs fewer; Brent's method halves by itself.
+    fn patience(self) -> usize {
+        match self {
+            Self::Brent => usize::MAX,
+            Self::Secant => 12,
+        }
+    }
+}
+
+pub(super) fn run<T: Real>(
+    method: Method,
+    f: &mut dyn FnMut(T) -> T,
+    bracket: &Bracket<T>,
+    tolerance: Tolerance,
+) -> Result<Root<T>, SearchError<T>> {
+    let mut f = |x| (f(x), None);
+    let mut tracker = Tracker::new(&mut f, bracket, tolerance)?;
+    while !tracker.done() {
+        let ended = propose(method, &mut tracker)?;
+        if ended == Ended::Close && !tracker.done() {
+            tracker.nudge()?;
+        }
+        if !tracker.done() && !tracker.halve()? {
+            break;
+        }
+    }
+    Ok(tracker.root())
+}
+
+/// Why a run of the `roots` crate ended.
+#[derive(Clone, Copy, PartialEq)]
+enum Ended {
+    /// It proposed a point within the tolerance of a known one.
+    Close,
+    /// It left the sign change, or did nothing new, or ran out of patience.
+    Stuck,
+}
+
+/// Lets the `roots` crate propose points until the root is found or the run ends.
+fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ended, SearchError<T>> {
+    let (lo, hi) = (Number(tracker.lo.x), Number(tracker.hi.x));
+    // Scaled to 1 and kept off 0, no product of two values can underflow and lose its sign.
+    let unit = tracker.lo.f.abs().max(tracker.hi.f.abs());
+    let least = T::epsilon() * T::epsilon() * T::epsilon().sqrt();
+    let scaled = |f: T| Number((f / unit).abs().max(least).copysign(f));
+
+    let run = RefCell::new(Run { tracker, ended: None, fresh: false });
+    let f = |Number(x)| {
+        let mut run = run.borrow_mut();
+        if run.ended.is_some() {
+            return scaled(T::zero());
+        }
+        for known in [run.tracker.lo, run.tracker.hi, run.tracker.last] {
+            if x == known.x {
+                return scaled(known.f);
+            }
+        }
+        if run.tracker.close(x, run.tracker.lo.x) || run.tracker.close(x, run.tracker.hi.x) {
+            run.ended = Some(Ok(Ended::Close));
+            return scaled(T::zero());
+        }
+        match run.tracker.visit(x) {
+            Ok(Some(seen)) => {
+                run.fresh = true;
+                if run.tracker.done() {
+                    run.ended = Some(Ok(Ended::Stuck));
+                }
+                scaled(seen.f)
+            }
+            Ok(None) => {
+                run.ended = Some(Ok(Ended::Stuck));
+                scaled(T::zero())
+            }
+            Err(error) => {
+                run.ended = Some(Err(error));
+                scaled(T::zero())
+            }
+        }
+    };
+    let mut rule = Rule { run: &run, patience: method.patience() };
+    // The root it returns is left aside: the tracker knows more.
+    let result = match method {
+        Method::Brent => roots::find_root_brent(lo, hi, f, &mut rule),
+        Method::Secant => roots::find_root_secant(lo, hi, f, &mut rule),
+    };
+    let ended = run.borrow_mut().ended.take();
+    ended.unwrap_or(Ok(if result.is_ok() { Ended::Close } else { Ended::Stuck }))
+}
+
+struct Run<'r, 'f, T: Real> {
+    tracker: &'r mut Tracker<'f, T>,
+    ended: Option<Result<Ended, SearchError<T>>>,
+    /// Whether this iteration has evaluated anything.
+    fresh: bool,
+}
+
+/// Tells the `roots` crate when to stop.
+struct Rule<'c, 'r, 'f, T: Real> {
+    run: &'c RefCell<Run<'r, 'f, T>>,
+    patience: usize,
+}
+
+impl<T: Real> roots::Convergency<Number<T>> for Rule<'_, '_, '_, T> {
+    fn is_root_found(&mut self, Number(y): Number<T>) -> bool {
+        y == T::zero() || self.run.borrow().ended.is_some()
+    }
+
+    fn is_converged(&mut self, Number(x1): Number<T>, Number(x2): Number<T>) -> bool {
+        let run = self.run.borrow();
+        run.ended.is_some() || run.tracker.close(x1, x2)
+    }
+
+    fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {
+        let mut run = self.run.borrow_mut();
+        let idle = !std::mem::replace(&mut run.fresh, false);
+        if run.ended.is_none() && (idle || iteration >= self.patience) {
+            run.ended = Some(Ok(Ended::Stuck));
+        }
+        run.ended.is_some()
+    }
+}
+
+/// A [`Real`] in the dress that the `roots` crate asks for.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Number<T>(T);
+
+impl<T: Real> From<i16> for Number<T> {
+    fn from(n: i16) -> Self {
+        Self(T::of(f64::from(n)))
+    }
+}
+
+impl<T: Real> Neg for Number<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<T: Real> Add for Number<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl<T: Real> Sub for Number<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl<T: Real> Mul for Number<T> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+}
+
+impl<T: Real> Div for Number<T> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0)
+    }
+}
+
+impl<T: Real> roots::FloatType for Number<T> {
+    fn zero() -> Self {
+        Self(T::zero())
+    }
+    fn one() -> Self {
+        Self(T::one())
+    }
+    fn one_third() -> Self {
+        Self(T::of(1.0 / 3.0))
+    }
+    fn pi() -> Self {
+        Self(T::pi())
+    }
+    fn two_third_pi() -> Self {
+        Self(T::of(2.0) * T::frac_pi_3())
+    }
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    fn atan(self) -> Self {
+        Self(self.0.atan())
+    }
+    fn acos(self) -> Self {
+        Self(self.0.acos())
+    }
+    fn sin(self) -> Self {
+        Self(self.0.sin())
+    }
+    fn cos(self) -> Self {
+        Self(self.0.cos())
+    }
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    fn powf(self, n: Self) -> Self {
+        Self(self.0.powf(n.0))
+    }
+}

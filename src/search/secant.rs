@@ -1,0 +1,23 @@
+//! The secant method.
+
+use super::roots_adapter::{Method, run};
+use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use crate::Real;
+
+/// The secant method of the `roots` crate, kept inside the bracket: where it would step
+/// out, meets two equal values or crawls, the bracket is halved and it starts again.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Secant {
+    /// When to stop.
+    pub tolerance: Tolerance,
+}
+
+impl<T: Real> LimitSearch<T> for Secant {
+    fn find(
+        &self,
+        f: &mut dyn FnMut(T) -> T,
+        bracket: &Bracket<T>,
+    ) -> Result<Root<T>, SearchError<T>> {
+        run(Method::Secant, f, bracket, self.tolerance)
+    }
+}

@@ -1,0 +1,147 @@
+//! What all searches have in common: the tightest sign change seen, and the count.
+
+use super::{Bracket, Root, SearchError, Tolerance};
+use crate::Real;
+
+/// A point and the function there.
+#[derive(Clone, Copy)]
+pub(super) struct Seen<T> {
+    pub x: T,
+    pub f: T,
+    /// Slope, where the function gives one.
+    pub slope: Option<T>,
+}
+
+/// Evaluates the function for a strategy, keeps the sign change, refuses what is not
+/// finite, counts, and knows when the work is done.
+pub(super) struct Tracker<'f, T: Real> {
+    function: &'f mut dyn FnMut(T) -> (T, Option<T>),
+    tolerance: Tolerance,
+    pub lo: Seen<T>,
+    pub hi: Seen<T>,
+    /// The last point evaluated; an end of the bracket before there was any.
+    pub last: Seen<T>,
+    evaluations: usize,
+}
+
+impl<'f, T: Real> Tracker<'f, T> {
+    /// Checks the bracket, evaluates its ends unless they are known, then the guess.
+    pub fn new(
+        function: &'f mut dyn FnMut(T) -> (T, Option<T>),
+        bracket: &Bracket<T>,
+        tolerance: Tolerance,
+    ) -> Result<Self, SearchError<T>> {
+        tolerance.check()?;
+        let Bracket { lo, hi, values, guess } = *bracket;
+        if !(lo.is_finite() && hi.is_finite() && lo <= hi) {
+            return Err(SearchError::Bracket { lo, hi });
+        }
+        let end = |x| Seen { x, f: T::zero(), slope: None };
+        let (lo_end, hi_end) = (end(lo), end(hi));
+        let mut it =
+            Self { function, tolerance, lo: lo_end, hi: hi_end, last: lo_end, evaluations: 0 };
+        match values {
+            Some([f_lo, f_hi]) => {
+                it.lo.f = finite(lo, f_lo)?;
+                it.hi.f = finite(hi, f_hi)?;
+            }
+            None => {
+                it.lo = it.call(lo)?;
+                if it.small(it.lo.f) {
+                    it.hi = it.lo;
+                    return Ok(it);
+                }
+                it.hi = it.call(hi)?;
+            }
+        }
+        for end in [it.lo, it.hi] {
+            if it.small(end.f) {
+                (it.lo, it.hi) = (end, end);
+                return Ok(it);
+            }
+        }
+        if (it.lo.f < T::zero()) == (it.hi.f < T::zero()) {
+            return Err(SearchError::NoSignChange { lo, hi, f_lo: it.lo.f, f_hi: it.hi.f });
+        }
+        it.last = it.best();
+        if let Some(x) = guess {
+            it.visit(x)?;
+        }
+        Ok(it)
+    }
+
+    /// Evaluates at `x` and narrows the sign change. A point that is not strictly inside
+    /// is not evaluated: it could not narrow anything.
+    pub fn visit(&mut self, x: T) -> Result<Option<Seen<T>>, SearchError<T>> {
+        if !(x > self.lo.x && x < self.hi.x) {
+            return Ok(None);
+        }
+        if self.evaluations >= self.tolerance.max_evaluations {
+            return Err(SearchError::Budget { best: self.root() });
+        }
+        let seen = self.call(x)?;
+        if self.small(seen.f) {
+            (self.lo, self.hi) = (seen, seen);
+        } else if (seen.f < T::zero()) == (self.lo.f < T::zero()) {
+            self.lo = seen;
+        } else {
+            self.hi = seen;
+        }
+        Ok(Some(seen))
+    }
+
+    /// Halves the sign change. `false` when no number lies between its ends.
+    pub fn halve(&mut self) -> Result<bool, SearchError<T>> {
+        let half = T::of(0.5);
+        Ok(self.visit(half * self.lo.x + half * self.hi.x)?.is_some())
+    }
+
+    /// Whether the sign change is as tight as was asked for.
+    pub fn done(&self) -> bool {
+        self.close(self.lo.x, self.hi.x)
+    }
+
+    /// Whether two points are as close as was asked for.
+    pub fn close(&self, x: T, y: T) -> bool {
+        self.negligible(x - y, x.abs().min(y.abs()))
+    }
+
+    /// Whether an error of a root near `x` is as small as was asked for.
+    pub fn negligible(&self, error: T, x: T) -> bool {
+        error.abs() <= self.tolerance.width(x)
+    }
+
+    /// Looks at the point just within the tolerance of the best one, on the side where the
+    /// sign changes: if the root is as close as it seems, this closes the bracket on it.
+    pub fn nudge(&mut self) -> Result<(), SearchError<T>> {
+        let best = self.best();
+        let step = T::of(0.75) * self.tolerance.width(best.x);
+        self.visit(if best.x == self.lo.x { best.x + step } else { best.x - step })?;
+        Ok(())
+    }
+
+    /// The end of the sign change with the smaller value.
+    pub fn best(&self) -> Seen<T> {
+        if self.hi.f.abs() < self.lo.f.abs() { self.hi } else { self.lo }
+    }
+
+    pub fn root(&self) -> Root<T> {
+        let Seen { x, f: residual, .. } = self.best();
+        Root { x, residual, bracket: [self.lo.x, self.hi.x], evaluations: self.evaluations }
+    }
+
+    fn call(&mut self, x: T) -> Result<Seen<T>, SearchError<T>> {
+        self.evaluations += 1;
+        let (f, slope) = (self.function)(x);
+        self.last = Seen { x, f: finite(x, f)?, slope };
+        Ok(self.last)
+    }
+
+    fn small(&self, f: T) -> bool {
+        f.abs() <= T::of(self.tolerance.residual)
+    }
+}
+
+fn finite<T: Real>(x: T, value: T) -> Result<T, SearchError<T>> {
+    if value.is_finite() { Ok(value) } else { Err(SearchError::NotFinite { x, value }) }
+}
