@@ -40,6 +40,23 @@ impl<T: Real> EdgePressure<T> {
         }
     }
 
+    /// `a - ε_a` and `ε_b - b`.
+    fn places(&self, on: Interval<T>) -> [T; 2] {
+        [on.right - self.distance_a, on.left + self.distance_b]
+    }
+
+    /// Whether a contact meets the conditions, given by how much it misses them.
+    pub(super) fn met(&self, on: Interval<T>, excess: &Excess<T>) -> Result<(), ContactError<T>> {
+        let [x_a, x_b] = self.places(on);
+        let at_a = excess.at_a / (T::pi() * on.edge_root(x_a));
+        let at_b = excess.at_b / (T::pi() * on.edge_root(x_b));
+        if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {
+            Ok(())
+        } else {
+            Err(ContactError::EdgePressureNotMet { best: on, at_a, at_b })
+        }
+    }
+
     pub(super) fn check(&self) -> Result<(), ContactError<T>> {
         let entries = [
             ("A", self.at_a, false),
@@ -67,8 +84,8 @@ pub(super) enum Edges<T> {
     Pressure { kappa: T, load: T, wanted: EdgePressure<T> },
 }
 
-/// By how much a trial contact misses its conditions. Positive at an edge: the edge must move
-/// outward (the paper's readjustment rule).
+/// By how much a trial contact misses its conditions, as forces per unit length. Positive at an
+/// edge: the edge must move outward (the paper's readjustment rule).
 #[derive(Clone, Copy)]
 pub(super) struct Excess<T> {
     /// At `a`.
@@ -144,16 +161,21 @@ impl<T: Real> Edges<T> {
                     error: Some(m.error / m.first.abs()),
                 })
             }
+            // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
+            // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
                 let transform = engine.transform(on, cost)?;
-                let mut pressure = |x| -> Result<T, ContactError<T>> {
-                    let numerator = T::pi() * load - kappa * transform.at(x, cost)?;
-                    Ok(numerator / (T::pi() * T::pi() * on.edge_root(x)))
+                let [x_a, x_b] = wanted.places(on);
+                let mut excess = |x, pressure| -> Result<T, ContactError<T>> {
+                    let edge = T::pi() * on.edge_root(x);
+                    let wanted = edge * pressure;
+                    Ok(load - kappa * transform.at(x, cost)? / T::pi() - wanted)
                 };
-                let at_a = pressure(on.right - wanted.distance_a)? - wanted.at_a;
-                let at_b = pressure(on.left + wanted.distance_b)? - wanted.at_b;
+                let (at_a, at_b) = (excess(x_a, wanted.at_a)?, excess(x_b, wanted.at_b)?);
                 let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
-                let floor = T::of(0.5) * wanted.tolerance_a.min(wanted.tolerance_b);
+                let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
+                let tolerance_a = tolerance(x_a, wanted.tolerance_a);
+                let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
                 Ok(Excess { at_a, at_b, floor, growth, error: None })
             }
         }

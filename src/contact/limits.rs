@@ -65,14 +65,16 @@ pub(super) fn find<T: Real>(
         stiffness: None,
     };
     let trial = search.widen(half_width)?;
-    let half_width = trial.on.half_width();
-    let (at_a, at_b) = (trial.excess.at_a, trial.excess.at_b);
+    if trial.cornered {
+        return Err(search.no_balance(trial.on.half_width()));
+    }
+    let Excess { at_a, at_b, .. } = trial.excess;
     let strengths = match edges {
-        Edges::Strength { .. } => Some([at_a, at_b].map(|force| force / (T::pi() * half_width))),
+        Edges::Strength { .. } => {
+            Some([at_a, at_b].map(|force| force / (T::pi() * trial.on.half_width())))
+        }
         Edges::Pressure { wanted, .. } => {
-            if at_a.abs() > wanted.tolerance_a || at_b.abs() > wanted.tolerance_b {
-                return Err(ContactError::EdgePressureNotMet { best: trial.on, at_a, at_b });
-            }
+            wanted.met(trial.on, &trial.excess)?;
             None
         }
     };
@@ -157,6 +159,8 @@ fn first_contact<T: Real>(
 struct Trial<T> {
     on: Interval<T>,
     excess: Excess<T>,
+    /// Not balanced: it would have to let go of the point of first contact.
+    cornered: bool,
 }
 
 /// What became of a contact of given width.
@@ -185,7 +189,7 @@ struct Search<'s, T: Real> {
 impl<T: Real> Search<'_, T> {
     fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
         let excess = self.edges.excess(on, self.engine, self.cost)?;
-        Ok(Trial { on, excess })
+        Ok(Trial { on, excess, cornered: false })
     }
 
     /// Finds the half-width at which the spread vanishes, starting from a guess.
@@ -285,6 +289,7 @@ impl<T: Real> Search<'_, T> {
             // Twice as far as the balance seems to be, so as to pass it.
             let far = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
             let step = far.filter(|&far| far < widest).unwrap_or(widest * factor * T::of(0.5));
+            let step = step.max(ulps::<T>() * right);
             let next = if shift > zero { (right + step).min(hi) } else { (right - step).max(lo) };
             if next == right {
                 // The balance lies beyond what is left of the bodies, or of the contact.
@@ -293,7 +298,8 @@ impl<T: Real> Search<'_, T> {
                 } else if right == width - room_left {
                     Ok(Placed::Beyond(0))
                 } else {
-                    Err(self.no_balance(half_width))
+                    // It still tells whether to widen; another width may find its balance.
+                    Ok(Placed::At(Trial { cornered: true, ..trial }))
                 };
             }
             let before = trial;
@@ -351,11 +357,21 @@ impl<T: Real> Search<'_, T> {
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut failed = None;
         let strategy = self.strategy;
+        // Far from x = 0, contacts closer than this are the same numbers.
+        let resolution = T::epsilon() * self.origin.abs();
+        let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
+        let [mut lo, mut hi] = [bracket.lo, bracket.hi];
         let found = strategy.find(
             &mut |unknown| match attempt(self, unknown) {
                 Ok(trial) => {
                     *best = nearer(trial, *best, condition);
-                    condition(&trial.excess)
+                    let value = condition(&trial.excess);
+                    if (value > T::zero()) == falls {
+                        lo = unknown
+                    } else {
+                        hi = unknown
+                    }
+                    if hi - lo <= resolution { T::zero() } else { value }
                 }
                 Err(error) => {
                     // A value that is not finite ends any search.

@@ -1,0 +1,212 @@
+//! What the integration tests share: reference solutions and the scenes they belong to.
+#![allow(dead_code, missing_docs)] // Each test crate uses its own part.
+
+#[path = "../../examples/paper/curves.rs"]
+pub mod paper;
+
+use linecontact::{Contact, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
+use serde_json::Value;
+use std::f64::consts::PI;
+
+pub type Profile = Box<dyn ParametricProfile<f64>>;
+
+/// A solution to 25 digits, from `tests/data`.
+pub struct Reference {
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+    pub kappa: f64,
+    /// x and P(x).
+    pub points: Vec<[f64; 2]>,
+    /// By how much a relative error of the data is magnified in each pressure.
+    pub amplification: Vec<f64>,
+}
+
+impl Reference {
+    pub fn half_width(&self) -> f64 {
+        (self.a + self.b) / 2.0
+    }
+
+    pub fn z(&self, x: f64) -> f64 {
+        (x - (self.a - self.b) / 2.0) / self.half_width()
+    }
+}
+
+pub fn reference(name: &str) -> Reference {
+    let path = format!("{}/tests/data/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let json: Value = serde_json::from_str(&text).expect("valid JSON");
+    let number = |v: &Value| v.as_str().expect("a decimal in a string").parse().expect("a number");
+    let list = |key: &str| json[key].as_array().cloned().unwrap_or_default();
+    Reference {
+        a: number(&json["a"]),
+        b: number(&json["b"]),
+        c: number(&json["C"]),
+        kappa: json.get("scale_value").map_or(1.0, number),
+        points: list("points").iter().map(|p| [number(&p[0]), number(&p[1])]).collect(),
+        amplification: list("points_amplification").iter().map(number).collect(),
+    }
+}
+
+/// A scene with a reference solution: its name, its bodies, and the relative accuracy of the
+/// limits that its formulas allow in binary64.
+pub struct Scene {
+    pub name: &'static str,
+    pub lower: Profile,
+    pub upper: Profile,
+    pub accuracy: f64,
+}
+
+impl Scene {
+    pub fn contact(&self) -> Contact<'_, f64> {
+        let kappa = reference(self.name).kappa;
+        Contact::new(&*self.lower, &*self.upper).expect(self.name).kappa(kappa)
+    }
+}
+
+/// y = f(x) and f'(x) over a range of x.
+pub fn graph(
+    from: f64,
+    to: f64,
+    y: impl Fn(f64) -> [f64; 2] + Send + Sync + 'static,
+) -> Box<dyn ParametricProfile<f64>> {
+    Box::new(Curve::new([from, to], move |k| {
+        let [y, dy] = y(k);
+        CurvePoint { x: k, y, dx: 1.0, dy }
+    }))
+}
+
+pub fn parabola(reach: f64) -> Profile {
+    graph(-reach, reach, |x| [x * x / 2.0, x])
+}
+
+pub fn join(pieces: Vec<Profile>) -> Profile {
+    Box::new(Piecewise::new(pieces).expect("the pieces meet"))
+}
+
+/// |x|^n/n, in two pieces.
+fn power(n: f64) -> Profile {
+    join(vec![
+        graph(-2.0, 0.0, move |x| [(-x).powf(n) / n, -(-x).powf(n - 1.0)]),
+        graph(0.0, 2.0, move |x| [x.powf(n) / n, x.powf(n - 1.0)]),
+    ])
+}
+
+fn cubic_parameter(eps: f64) -> Profile {
+    Box::new(Curve::new([-2.0, 2.0], move |k: f64| {
+        let (x, dx) = (k * k * k + eps * k, 3.0 * k * k + eps);
+        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+    }))
+}
+
+fn gear(radius: f64, sign: f64) -> Profile {
+    let t0 = 93.0 / 256.0;
+    Box::new(Curve::new([-0.36, 1.0], move |k: f64| {
+        let (r, t, (s, c)) = (sign * radius, t0 + k, k.sin_cos());
+        CurvePoint {
+            x: r * (c + t * s - 1.0),
+            y: r * (s - t * c + t0),
+            dx: r * t * c,
+            dy: r * t * s,
+        }
+    }))
+}
+
+pub fn scenes() -> Vec<Scene> {
+    let flat = || -> Profile { Box::new(Flat) };
+    let on_flat = |name, upper, accuracy| Scene { name, lower: flat(), upper, accuracy };
+    let printed = |name, example: paper::Example, accuracy| {
+        let paper::Example { lower, upper, .. } = example;
+        Scene { name, lower, upper, accuracy }
+    };
+    vec![
+        printed("paper_example_2", paper::two(), 1e-15),
+        printed("paper_example_3_scale_one", paper::three(), 2e-14),
+        printed("paper_example_3_scale_half_pi", paper::three(), 2e-14),
+        printed("paper_example_4_scale_one", paper::four(), 2e-12),
+        printed("paper_example_4_scale_half_pi", paper::four(), 2e-12),
+        printed("paper_example_5_scale_one", paper::five(), 2e-13),
+        printed("paper_example_5_scale_half_pi", paper::five(), 2e-13),
+        on_flat("power_n_1", power(1.0), 2e-15),
+        on_flat("power_n_3", power(3.0), 2e-15),
+        on_flat("power_n_6", power(6.0), 2e-15),
+        on_flat("power_n_20", power(20.0), 2e-15),
+        on_flat(
+            "tilted_wedge",
+            join(vec![
+                graph(-9.0, 0.0, |x| [-x / 4.0, -0.25]),
+                graph(0.0, 9.0, |x| [1.75 * x, 1.75]),
+            ]),
+            5e-15,
+        ),
+        on_flat(
+            "asym_parabola_1e6",
+            join(vec![
+                graph(-9.0, 0.0, |x| [x * x / 2.0, x]),
+                graph(0.0, 9.0, |x| [5e5 * x * x, 1e6 * x]),
+            ]),
+            1e-13,
+        ),
+        on_flat("hertz_tiny", parabola(1.0), 1e-15),
+        on_flat("hertz_huge", graph(-4e150, 4e150, |x| [x * x / 2.0, x]), 1e-15),
+        on_flat(
+            "hertz_offcentre",
+            graph(134217720.0, 134217740.0, |x| [(x - 134217728.0).powi(2) / 2.0, x - 134217728.0]),
+            1e-15,
+        ),
+        on_flat(
+            "sinh40_param",
+            Box::new(Curve::new([-1.0, 1.0], |k: f64| {
+                let (x, dx) =
+                    ((40.0 * k).sinh() / 40f64.sinh(), 40.0 * (40.0 * k).cosh() / 40f64.sinh());
+                CurvePoint { x, y: (3.0 * x).cosh() - 1.0, dx, dy: 3.0 * (3.0 * x).sinh() * dx }
+            })),
+            1e-14,
+        ),
+        on_flat("k3eps_hertz", cubic_parameter(1.0 / 1073741824.0), 2e-15),
+        on_flat(
+            "rounded_punch_1e-6",
+            join(vec![
+                graph(-3.0, -1.0, |x| [(x + 1.0).powi(2) / 2.0, x + 1.0]),
+                graph(-1.0, 1.0, |_| [0.0, 0.0]),
+                graph(1.0, 3.0, |x| [(x - 1.0).powi(2) / 2.0, x - 1.0]),
+            ]),
+            2e-15,
+        ),
+        on_flat(
+            "wavy_convex",
+            graph(-3.0, 3.0, |x| {
+                let (s, c) = (16.0 * x).sin_cos();
+                [x * x / 2.0 + c / 1024.0, x - s / 64.0]
+            }),
+            2e-15,
+        ),
+        Scene {
+            name: "gear_involute_pitch_point",
+            lower: gear(37.5, -1.0),
+            upper: gear(112.5, 1.0),
+            accuracy: 1e-13,
+        },
+    ]
+}
+
+/// Least-squares slope of log(error) against log(n), sign turned: the order of convergence.
+pub fn order(errors: &[(usize, f64)]) -> f64 {
+    let points: Vec<(f64, f64)> = errors.iter().map(|&(n, e)| ((n as f64).ln(), e.ln())).collect();
+    let count = points.len() as f64;
+    let mean_x = points.iter().map(|p| p.0).sum::<f64>() / count;
+    let mean_y = points.iter().map(|p| p.1).sum::<f64>() / count;
+    let covariance: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
+    let variance: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
+    -covariance / variance
+}
+
+/// The exact pressure of the paper's Example 1.
+pub fn example_1_exact(x: f64) -> f64 {
+    -(2.0 * x + (1.0 - x * x) * ((1.0 + x) / (1.0 - x)).ln()) / (PI * PI * (1.0 - x * x).sqrt())
+}
+
+/// The exact pressure of the paper's Example 2.
+pub fn example_2_exact(x: f64) -> f64 {
+    16.0 * ((1.0 - x) * (0.6 + x)).sqrt()
+}
