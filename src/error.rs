@@ -129,6 +129,15 @@ pub enum ContactError<T: Real> {
         /// Point of first contact.
         near: T,
     },
+    /// The forces on a contact are beyond the range of the number type.
+    #[error(
+        "the forces on a contact from {:?} to {:?} overflow: choose units in which they are \
+         nearer to 1", interval.left, interval.right
+    )]
+    Overflow {
+        /// The contact.
+        interval: Interval<T>,
+    },
     /// The search for the limits gave up.
     #[error("limits not found: {source}; best so far -b = {:?}, a = {:?}", best.left, best.right)]
     LimitSearch {
@@ -163,12 +172,25 @@ pub enum ContactError<T: Real> {
         /// ET.
         extrapolations: u32,
     },
-    /// The pressure at an edge where it is infinite.
-    #[error(
-        "the pressure at the fixed edge x = {x:?} is infinite; ask inside, or for the edge strength"
-    )]
-    AtFixedEdge {
+    /// The pressure at an edge where it is infinite, because the edge is fixed or because
+    /// Eq. (6) has put it where a singularity is left.
+    #[error("the pressure at the edge x = {x:?} is infinite; ask inside, or for edge_strengths()")]
+    SingularEdge {
         /// The edge.
         x: T,
+    },
+    /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
+    /// segments.
+    #[error(
+        "the pressure at x = {x:?} is not resolved: {pressure:?} with an error of about \
+         {error:?}; take more segments, or stay further away from the edge"
+    )]
+    Unresolved {
+        /// Where.
+        x: T,
+        /// What the rule gives.
+        pressure: T,
+        /// Its estimated error.
+        error: T,
     },
 }

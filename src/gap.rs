@@ -32,6 +32,14 @@ pub struct Cost {
     pub evaluations: usize,
 }
 
+impl std::ops::Add for Cost {
+    type Output = Self;
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
 impl std::ops::AddAssign for Cost {
     fn add_assign(&mut self, other: Self) {
         self.samples += other.samples;
@@ -161,11 +169,6 @@ impl<T: Real> Sampler<'_, T> {
             return if slope.is_finite() { Ok(slope) } else { fault("slope_at(x)", x, slope) };
         }
         let Near { k, point, .. } = self.invert(body, index, x)?;
-        let rises = piece.k[0] < piece.k[1];
-        if (point.dx < T::zero()) == rises && !point.dx.is_zero() {
-            let source = ProfileError::TurnsBack { k, x: point.x };
-            return Err(ContactError::Profile { body, source });
-        }
         let slope = point.dy / point.dx;
         if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", k, slope) }
     }
@@ -175,13 +178,14 @@ impl<T: Real> Sampler<'_, T> {
         let gap = self.gap;
         let piece = &gap.bodies[body as usize][index];
         let near = self.near[body as usize].filter(|near| near.piece == index);
-        let mut last: Option<Near<T>> = None;
+        let rises = piece.k[0] < piece.k[1];
+        let turns =
+            |near: &Near<T>| (near.point.dx < T::zero()) == rises && !near.point.dx.is_zero();
         let mut at = |k: T| {
-            let point = piece.curve.at(k);
-            last = Some(Near { piece: index, k, point });
             self.cost.evaluations += 1;
-            point
+            Near { piece: index, k, point: piece.curve.at(k) }
         };
+        let (mut last, mut turned) = (None, None);
         let k = if x <= piece.x[0] {
             piece.k[0]
         } else if x >= piece.x[1] {
@@ -195,8 +199,10 @@ impl<T: Real> Sampler<'_, T> {
                 }
             };
             let mut f = |k: T| {
-                let point = at(k);
-                (point.x - x, point.dx)
+                let here = at(k);
+                last = Some(here);
+                turned = turned.or(last.filter(turns));
+                (here.point.x - x, here.point.dx)
             };
             let ends = [(piece.k[0], piece.x[0] - x), (piece.k[1], piece.x[1] - x)];
             let [(lo, f_lo), (hi, f_hi)] =
@@ -211,17 +217,11 @@ impl<T: Real> Sampler<'_, T> {
                 Err(source) => return Err(ContactError::Inversion { body, x, source }),
             }
         };
-        let found = match last {
-            Some(found) if found.k == k => found,
-            _ => Near {
-                piece: index,
-                k,
-                point: {
-                    self.cost.evaluations += 1;
-                    piece.curve.at(k)
-                },
-            },
-        };
+        let found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
+        if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
+            let source = ProfileError::TurnsBack { k, x: point.x };
+            return Err(ContactError::Profile { body, source });
+        }
         self.near[body as usize] = Some(found);
         Ok(found)
     }

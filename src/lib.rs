@@ -66,6 +66,6 @@ pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use profile::{Piece, ProfileError};
-pub use quadrature::{Exponents, Midpoint};
+pub use quadrature::{Estimate, Exponents, Midpoint};
 pub use real::Real;
 pub use solution::{Pressure, Solution};

@@ -64,7 +64,16 @@ pub trait Transform<T: Real>: Send + Sync {
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn at(&self, x: T, cost: &mut Cost) -> Result<T, ContactError<T>>;
+    fn at(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>>;
+}
+
+/// A value and how far it can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate<T> {
+    /// The value.
+    pub value: T,
+    /// Estimated absolute error; `None` from a rule that has nothing to compare with.
+    pub error: Option<T>,
 }
 
 /// The integrals of the gap slope that decide on the edges of a contact.

@@ -2,7 +2,7 @@
 
 use crate::contact::Found;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Quadrature, Transform};
+use crate::quadrature::{Engine, Estimate, Quadrature, Transform};
 use crate::{ContactError, Interval, Real};
 
 /// A solved contact: its limits, and on request its pressure.
@@ -114,31 +114,47 @@ impl<T: Real> Pressure<'_, T> {
     /// `P(x)`. Zero outside the contact and at a free edge.
     ///
     /// # Errors
+    /// [`ContactError::Unresolved`] where the estimated error is larger than the pressure, as
+    /// it becomes in the last part of a segment before a free edge;
     /// [`ContactError::OutsideBodies`] beyond either body, and for NaN;
-    /// [`ContactError::AtFixedEdge`]; those of sampling the gap at `x`.
+    /// [`ContactError::SingularEdge`]; those of sampling the gap at `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
-        self.at_cost(x, &mut Cost::default())
+        let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
+        match error {
+            Some(error) if error > pressure.abs() => {
+                Err(ContactError::Unresolved { x, pressure, error })
+            }
+            _ => Ok(pressure),
+        }
     }
 
-    /// The same, adding to `cost` what this point takes: nothing on the grid of the rule, one
-    /// sample of the gap elsewhere, seven next to one of its points.
+    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point
+    /// takes: nothing on the grid of the rule, one sample of the gap elsewhere, seven next to
+    /// one of its points.
+    ///
+    /// The error is that of the quadrature, on the limits as they are. A rule of one level,
+    /// ET = 0 or 1, has no estimate.
     ///
     /// # Errors
-    /// As [`at`](Self::at).
-    pub fn at_cost(&self, x: T, cost: &mut Cost) -> Result<T, ContactError<T>> {
+    /// As [`at`](Self::at), without [`ContactError::Unresolved`].
+    pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         if !(x >= self.range[0] && x <= self.range[1]) {
             return Err(ContactError::OutsideBodies { x, range: self.range });
         }
         if !self.on.contains(x) {
             let at_edge = x == self.on.left || x == self.on.right;
             return if at_edge && !self.free {
-                Err(ContactError::AtFixedEdge { x })
+                Err(ContactError::SingularEdge { x })
             } else {
-                Ok(T::zero())
+                Ok(Estimate { value: T::zero(), error: Some(T::zero()) })
             };
         }
-        let numerator = T::pi() * self.load - self.kappa * self.transform.at(x, cost)?;
-        Ok(numerator / (T::pi() * T::pi() * self.on.edge_root(x)))
+        let Estimate { value, error } = self.transform.at(x, cost)?;
+        let edge = T::pi() * T::pi() * self.on.edge_root(x);
+        Ok(Estimate {
+            value: (T::pi() * self.load - self.kappa * value) / edge,
+            error: error.map(|error| self.kappa * error / edge),
+        })
     }
 
     /// What sampling the gap has cost.

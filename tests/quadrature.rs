@@ -240,7 +240,7 @@ fn a_sharp_flat_punch() {
         let exact = (load - m * x) / (PI * (0.25f64 - x * x).sqrt());
         assert_relative_eq!(pressure.at(x).unwrap(), exact, epsilon = 0.0, max_relative = 1e-9);
     }
-    assert_eq!(pressure.at(0.5), Err(ContactError::AtFixedEdge { x: 0.5 }));
+    assert_eq!(pressure.at(0.5), Err(ContactError::SingularEdge { x: 0.5 }));
 }
 
 #[test]
@@ -267,10 +267,10 @@ fn cost_is_counted() {
     assert_eq!(pressure.cost().samples, 64 + 128);
     let centre = solution.interval().centre();
     let mut on_grid = linecontact::Cost::default();
-    pressure.at_cost(centre, &mut on_grid).unwrap();
+    pressure.estimate(centre, &mut on_grid).unwrap();
     assert_eq!(on_grid.samples, 0);
     let mut off_grid = linecontact::Cost::default();
-    pressure.at_cost(centre + 0.01234, &mut off_grid).unwrap();
+    pressure.estimate(centre + 0.01234, &mut off_grid).unwrap();
     assert_eq!(off_grid.samples, 1);
 }
 

@@ -24,6 +24,10 @@ use crate::quadrature::Engine;
 use crate::search::{Bracket, Brent, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 
+/// Widths tried before the search gives up bracketing the load: what halving takes from the
+/// largest number to the smallest.
+const MOST_WIDTHS: usize = 2200;
+
 /// Limits that meet the conditions at the edges.
 pub(crate) struct Found<T> {
     pub interval: Interval<T>,
@@ -189,6 +193,9 @@ struct Search<'s, T: Real> {
 impl<T: Real> Search<'_, T> {
     fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
         let excess = self.edges.excess(on, self.engine, self.cost)?;
+        if !excess.is_finite() {
+            return Err(ContactError::Overflow { interval: on });
+        }
         Ok(Trial { on, excess, cornered: false })
     }
 
@@ -202,7 +209,9 @@ impl<T: Real> Search<'_, T> {
         // By which power of the expected factor to change the width, so as to pass the root: at
         // first a little more than one, and by no more than a tenth.
         let (mut power, mut beyond) = (T::of(1.1), T::of(1.1));
+        let mut tries = 0;
         let bracket = loop {
+            tries += 1;
             let trial = match self.place(half_width)? {
                 Placed::At(trial) => trial,
                 Placed::Beyond(end) if narrow.is_some() => {
@@ -212,7 +221,7 @@ impl<T: Real> Search<'_, T> {
                     }
                     trial
                 }
-                Placed::Beyond(_) if half_width * half > least => {
+                Placed::Beyond(_) if half_width * half > least && tries < MOST_WIDTHS => {
                     half_width *= half;
                     continue;
                 }
@@ -222,6 +231,9 @@ impl<T: Real> Search<'_, T> {
             let spread = trial.excess.spread();
             if spread == zero {
                 return Ok(trial);
+            }
+            if tries > MOST_WIDTHS {
+                return Err(self.no_balance(last));
             }
             half_width = if spread > zero {
                 narrow = Some(trial);
@@ -282,7 +294,7 @@ impl<T: Real> Search<'_, T> {
         let widest = T::of(0.125) * width;
         let mut factor = T::of(2.0);
         let [low, high] = loop {
-            let shift = trial.excess.shift();
+            let shift = trial.excess.rough_shift();
             if shift == zero {
                 return Ok(self.placed(trial, width));
             }
@@ -304,7 +316,7 @@ impl<T: Real> Search<'_, T> {
             }
             let before = trial;
             trial = self.attempt(on(next))?;
-            let moved = trial.excess.shift();
+            let moved = trial.excess.rough_shift();
             right = next;
             if moved != zero {
                 let stiffness = (shift - moved) / (trial.on.right - before.on.right);
@@ -316,10 +328,11 @@ impl<T: Real> Search<'_, T> {
             factor *= T::of(4.0);
         };
         let ends = Bracket::new(low.on.right - origin, high.on.right - origin)
-            .values(low.excess.shift(), high.excess.shift());
-        let mut best = nearer(low, high, Excess::shift);
-        let trial =
-            self.run(&ends, &mut best, Excess::shift, |search, right| search.attempt(on(right)))?;
+            .values(low.excess.rough_shift(), high.excess.rough_shift());
+        let mut best = nearer(low, high, Excess::rough_shift);
+        let trial = self.run(&ends, &mut best, Excess::rough_shift, |search, right| {
+            search.attempt(on(right))
+        })?;
         Ok(self.placed(trial, width))
     }
 

@@ -51,7 +51,11 @@ impl<'a, T: Real> Piece<'a, T> {
         for i in 0..STEPS {
             let turned = i > 0 && forward(points[i].dx) < T::zero();
             if turned || forward(points[i + 1].x - points[i].x) <= T::zero() {
-                let (k, x) = turning_point(curve, k(i.saturating_sub(1)), k(i + 1));
+                // X turns where X' changes its sign, which may be far from where it first runs
+                // the wrong way.
+                let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
+                let j = (0..STEPS).find(turns).unwrap_or(i);
+                let (k, x) = turning_point(curve, k(j), k(j + 1));
                 return Err(ProfileError::TurnsBack { k, x });
             }
         }

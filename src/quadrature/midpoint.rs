@@ -27,9 +27,13 @@
 //! root and the error expands in w^{3/2}, w^{5/2}, ...: then the paper's extrapolation gains a
 //! factor 7 and no order, and [`Exponents::HalfOdd`] restores it. A joint inside the contact
 //! breaks either expansion unless it lies on the grid.
+//!
+//! **Next to an edge** the expansion holds from about a segment inward. Closer, the error of the
+//! rule stays while the pressure of a free edge goes to zero, and is soon larger than it. With two
+//! levels or more the last extrapolation shows that: see [`Estimate::error`].
 
 use super::moments::moments;
-use super::{Engine, Moments, Quadrature, Transform};
+use super::{Engine, Estimate, Moments, Quadrature, Transform};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::real::Sum;
 use crate::{ContactError, Interval, Real};
@@ -70,8 +74,9 @@ impl Midpoint {
         Self { segments, extrapolations, exponents: Exponents::Even }
     }
 
-    /// 64 segments and three powers of w taken away, for free edges: 960 samples, and an
-    /// error of about 1e-12 where the gap is smooth.
+    /// 64 segments and three powers of w taken away, for free edges: 960 samples. Where the gap
+    /// is smooth the relative error is about 1e-13 in the middle of the contact, 1e-9 at 0.8 L
+    /// from it, and 1e-5 a segment (L/32) from an edge.
     pub const DEFAULT: Self =
         Self { segments: 64, extrapolations: 4, exponents: Exponents::HalfOdd };
 
@@ -144,20 +149,27 @@ struct Sums<'g, T: Real> {
 }
 
 impl<T: Real> Transform<T> for Sums<'_, T> {
-    fn at(&self, x: T, cost: &mut Cost) -> Result<T, ContactError<T>> {
+    fn at(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let mut pole = Pole { on: self.on, x, slope: None, sampler: self.gap.sampler() };
         let mut values = Vec::with_capacity(self.levels.len());
         for level in &self.levels {
             values.push(level.at(&mut pole)?);
         }
         *cost += pole.sampler.cost;
+        // What the last extrapolation changed bounds the error of what came of it.
+        let mut error = None;
         for i in 0..values.len() - 1 {
             let gain = T::of(2.0).powf(self.exponents.power(i)) - T::one();
-            for j in 0..values.len() - 1 - i {
+            error = values.last().copied();
+            for j in 0..values.len() - 1 {
                 values[j] = values[j + 1] + (values[j + 1] - values[j]) / gain;
             }
+            values.pop();
+            error = error.map(|before| (before - values[values.len() - 1]).abs());
         }
-        Ok(self.on.half_width() * values[0])
+        let half_width = self.on.half_width();
+        let error = error.map(|error: T| half_width * error);
+        Ok(Estimate { value: half_width * values[0], error })
     }
 }
 

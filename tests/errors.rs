@@ -1,0 +1,292 @@
+//! Every way in which a scene can be wrong ends in an error that says where and why.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::{graph, parabola};
+use linecontact::search::{Brent, SearchError, Tolerance};
+use linecontact::{
+    Body, Contact, ContactError, Curve, CurvePoint, EdgePressure, Flat, Interval, Limits, Load,
+    Midpoint, ParametricProfile, ProfileError,
+};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+fn error(
+    lower: &dyn ParametricProfile<f64>,
+    upper: &dyn ParametricProfile<f64>,
+    load: f64,
+) -> ContactError<f64> {
+    let contact = Contact::new(lower, upper);
+    contact.and_then(|contact| contact.solve(Load::PerLength(load)).map(|_| ())).unwrap_err()
+}
+
+#[test]
+fn loads_that_are_none() {
+    for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = error(&Flat, &*parabola(1.0), load);
+        assert!(matches!(error, ContactError::Load { .. }), "{load}: {error}");
+    }
+    // With known limits any finite load makes sense.
+    let body = parabola(1.0);
+    let on = Limits::Fixed(Interval { left: -0.3, right: 0.4 });
+    let contact = Contact::new(&Flat, &*body).unwrap().limits(on);
+    for load in [0.0, -1.0] {
+        assert!(contact.solve(Load::PerLength(load)).is_ok());
+    }
+    let error = contact.solve(Load::PerLength(f64::NAN)).unwrap_err();
+    assert!(matches!(error, ContactError::Load { .. }));
+}
+
+#[test]
+fn scales_that_are_none() {
+    let body = parabola(1.0);
+    for kappa in [0.0, -2.0, f64::NAN, f64::INFINITY] {
+        let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(kappa);
+        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        assert!(matches!(error, ContactError::Scale { .. }), "{kappa}: {error}");
+    }
+}
+
+#[test]
+fn a_load_too_large_for_the_domain() {
+    // A parabola that reaches to x = ±1 carries F = 1/2 at most.
+    for load in [0.51, 2.0, 1e10, 1e300] {
+        let ContactError::TooShort { end, carried, load: asked } =
+            error(&Flat, &*parabola(1.0), load)
+        else {
+            panic!("load {load}")
+        };
+        assert_eq!((end.abs(), asked), (1.0, load));
+        assert!((carried / 0.5 - 1.0).abs() < 1e-12, "{carried}");
+    }
+    // Short on one side only: the contact reaches that side first.
+    let short = |left, right| graph(left, right, |x| [x * x / 2.0, x]);
+    for (left, right, end) in [(-0.3, 5.0, -0.3), (-5.0, 0.2, 0.2)] {
+        let ContactError::TooShort { end: reached, carried, .. } =
+            error(&Flat, &*short(left, right), 0.32)
+        else {
+            panic!("[{left}, {right}]")
+        };
+        assert_eq!(reached, end);
+        // A symmetric contact that fits: F = L²/2.
+        assert!((carried / (end * end / 2.0) - 1.0).abs() < 1e-9, "{carried}");
+    }
+    // Exactly as large as it may be.
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    assert!((contact.solve(Load::PerLength(0.5 * (1.0 - 1e-12))).unwrap().a() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn bodies_that_do_not_meet() {
+    let parabola_at = |from, to| graph(from, to, |x| [x * x / 2.0, x]);
+    // Upside down: the gap closes away from x = 0.
+    let inverted = error(&*parabola(1.0), &Flat, 0.1);
+    assert!(matches!(inverted, ContactError::NoFirstContact { .. }), "{inverted}");
+    // Flat on flat: no edge anywhere.
+    let level = graph(-1.0, 1.0, |_| [0.0, 0.0]);
+    let flat = error(&Flat, &*level, 0.1);
+    assert!(matches!(flat, ContactError::NoFirstContact { .. }), "{flat}");
+    // The lowest point lies beyond the domain.
+    let beyond = error(&Flat, &*parabola_at(0.1, 1.0), 0.1);
+    assert!(matches!(beyond, ContactError::NoFirstContact { .. }), "{beyond}");
+    // Side by side.
+    let beside = error(&*parabola_at(-2.0, -1.0), &*parabola_at(0.0, 1.0), 0.1);
+    assert_eq!(beside, ContactError::Apart { lower: [-2.0, -1.0], upper: [0.0, 1.0] });
+}
+
+#[test]
+fn a_fold_is_an_error_of_that_body() {
+    let fold = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
+        x: k * k * k - k / 4.0,
+        y: k * k,
+        dx: 3.0 * k * k - 0.25,
+        dy: 2.0 * k,
+    });
+    let error = error(&Flat, &fold, 1.0);
+    assert!(matches!(
+        error,
+        ContactError::Profile { body: Body::Upper, source: ProfileError::TurnsBack { .. } }
+    ));
+    assert!(error.to_string().contains("upper body: X turns back at k = -0.288"), "{error}");
+}
+
+#[test]
+fn nan_from_the_user_comes_back_with_its_place() {
+    type Point = fn(f64) -> CurvePoint<f64>;
+    let points: [(Point, &str); 3] = [
+        (
+            |k| CurvePoint {
+                x: if (0.21..0.23).contains(&k) { f64::NAN } else { k },
+                y: 0.0,
+                dx: 1.0,
+                dy: k,
+            },
+            "X",
+        ),
+        (
+            |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: if k > 0.21 { f64::NAN } else { k } },
+            "the slope Y'/X'",
+        ),
+        (
+            |k| CurvePoint {
+                x: k,
+                y: 0.0,
+                dx: if (0.21..0.23).contains(&k) { f64::NAN } else { 1.0 },
+                dy: k,
+            },
+            "the slope Y'/X'",
+        ),
+    ];
+    for (point, name) in points {
+        let body = Curve::new([-1.0, 1.0], point);
+        let error = error(&body_below(), &body, 0.1);
+        let ContactError::Profile {
+            body: Body::Upper,
+            source: ProfileError::NotFinite { quantity, k, value },
+        } = error
+        else {
+            panic!("{error}")
+        };
+        assert_eq!(quantity, name);
+        assert!(k > 0.2 && k < 1.0 && !value.is_finite(), "{k} {value}");
+    }
+}
+
+fn body_below() -> impl ParametricProfile<f64> {
+    Curve::new([-2.0, 2.0], |k: f64| CurvePoint { x: -k, y: 0.0, dx: -1.0, dy: 0.0 })
+}
+
+#[test]
+fn limits_out_of_order_or_off_the_bodies() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for (left, right) in [(0.3, -0.2), (0.1, 0.1), (f64::NAN, 1.0), (-1.0, f64::INFINITY)] {
+        let fixed = contact.clone().limits(Limits::Fixed(Interval { left, right }));
+        let error = fixed.solve(Load::PerLength(0.1)).unwrap_err();
+        assert!(matches!(error, ContactError::Limits { .. }), "{error}");
+        let started = contact.clone().start(-left, right);
+        let error = started.solve(Load::PerLength(0.1)).unwrap_err();
+        assert!(matches!(error, ContactError::Limits { .. }), "{error}");
+    }
+    let wide = contact.limits(Limits::Fixed(Interval { left: -1.5, right: 0.5 }));
+    let error = wide.solve(Load::PerLength(0.1)).unwrap_err();
+    assert_eq!(error, ContactError::OutsideBodies { x: -1.5, range: [-1.0, 1.0] });
+}
+
+#[test]
+fn unusable_edge_pressures() {
+    let body = parabola(1.0);
+    let good = EdgePressure::zero(1e-3, 1e-6);
+    let bad = [
+        EdgePressure { distance_a: 0.0, ..good },
+        EdgePressure { distance_b: -1.0, ..good },
+        EdgePressure { tolerance_a: 0.0, ..good },
+        EdgePressure { tolerance_b: f64::NAN, ..good },
+        EdgePressure { at_a: f64::INFINITY, ..good },
+    ];
+    for edges in bad {
+        let contact = Contact::new(&Flat, &*body).unwrap().limits(Limits::EdgePressure(edges));
+        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        assert!(matches!(error, ContactError::EdgePressure { .. }), "{error}");
+    }
+    // A distance wider than the contact can ever be.
+    let far = Limits::EdgePressure(EdgePressure::zero(3.0, 1e-6));
+    let contact = Contact::new(&Flat, &*body).unwrap().limits(far);
+    assert!(contact.solve(Load::PerLength(0.1)).is_err());
+    // A tolerance that rounding does not let be met: the error carries what was reached.
+    let strict = EdgePressure { at_a: 0.1, at_b: 0.1, ..EdgePressure::zero(0.05, 1e-30) };
+    let contact = Contact::new(&Flat, &*body).unwrap().limits(Limits::EdgePressure(strict));
+    match contact.solve(Load::PerLength(0.1)) {
+        Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => {
+            assert!(at_a.abs() < 1e-12 && at_b.abs() < 1e-12);
+            assert!((best.half_width() / 0.2f64.sqrt() - 1.0).abs() < 0.2, "{best:?}");
+        }
+        Ok(solution) => panic!("{solution:?}"),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_spent_budget_carries_the_best_limits() {
+    let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]);
+    let hasty = Brent { tolerance: Tolerance { max_evaluations: 2, ..Tolerance::FULL } };
+    let contact = Contact::new(&Flat, &*body).unwrap().search(&hasty);
+    let error = contact.solve(Load::PerLength(0.03)).unwrap_err();
+    let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
+        panic!("{error}")
+    };
+    assert!((best.half_width() / 0.24 - 1.0).abs() < 0.5, "{best:?}");
+}
+
+#[test]
+fn an_inversion_that_gives_up() {
+    let body = common::paper::three();
+    let hasty = Brent { tolerance: Tolerance { max_evaluations: 2, ..Tolerance::FULL } };
+    let contact = Contact::new(&*body.lower, &*body.upper).unwrap().inversion(&hasty);
+    let error = contact.solve(Load::Constant(body.c)).unwrap_err();
+    assert!(matches!(error, ContactError::Inversion { source: SearchError::Budget { .. }, .. }));
+}
+
+#[test]
+fn errors_travel_and_read_well() {
+    fn travels<E: std::error::Error + Send + Sync + 'static>(_: &E) {}
+    let error = error(&Flat, &*parabola(1.0), 1e300);
+    travels(&error);
+    let message = error.to_string();
+    assert!(message.contains("1e300") && message.len() < 250, "{message}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
+
+    /// Whatever the numbers: no panic, no endless loop, and no result that is not finite.
+    #[test]
+    fn no_input_is_fatal(
+        load in prop::num::f64::ANY, kappa in prop::num::f64::ANY,
+        start in (prop::num::f64::ANY, prop::num::f64::ANY),
+        reach in prop::num::f64::POSITIVE, bend in prop::num::f64::NORMAL, mode in 0..6,
+        eps in prop::num::f64::ANY, tolerance in prop::num::f64::ANY,
+    ) {
+        let body = graph(-reach, 0.7 * reach, move |x| [bend * x * x / 2.0, bend * x]);
+        let Ok(contact) = Contact::new(&Flat, &*body) else { return Ok(()) };
+        let contact = contact.quadrature(&Midpoint { segments: 9, extrapolations: 2, exponents: linecontact::Exponents::Even });
+        let contact = if mode % 2 == 0 { contact.kappa(kappa) } else { contact };
+        let contact = match mode / 2 {
+            0 => contact,
+            1 => contact.start(start.0, start.1),
+            _ => contact.limits(Limits::EdgePressure(EdgePressure::zero(eps, tolerance))),
+        };
+        if let Ok(solution) = contact.solve(Load::PerLength(load)) {
+            prop_assert!(solution.a().is_finite() && solution.b().is_finite());
+            prop_assert!(solution.interval().left < solution.interval().right);
+        }
+    }
+
+    /// A parabola of any curvature under any load is Hertz's, or does not fit.
+    #[test]
+    fn hertz_at_any_scale(
+        load in -80..80i32, kappa in -80..80i32, curvature in -80..80i32, reach in -80..80i32,
+        fraction in 1.0..2.0f64,
+    ) {
+        let two = |i: i32| 2f64.powi(i);
+        let bend = two(curvature);
+        let reach = two(reach);
+        let body = graph(-reach, 1.3 * reach, move |x| [bend * x * x / 2.0, bend * x]);
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(two(kappa));
+        let load = fraction * two(load);
+        let exact = (2.0 * load / two(kappa) / bend).sqrt();
+        match contact.solve(Load::PerLength(load)) {
+            Ok(solution) => {
+                prop_assert!((solution.a() / exact - 1.0).abs() < 4e-15, "{:?} {}", solution, exact);
+                prop_assert!((solution.b() / exact - 1.0).abs() < 4e-15, "{:?} {}", solution, exact);
+            }
+            Err(error) => {
+                prop_assert!(exact > reach * (1.0 - 1e-12), "{} at {}", error, exact);
+                let too_short = matches!(error, ContactError::TooShort { .. });
+                prop_assert!(too_short, "{}", error);
+            }
+        }
+    }
+}

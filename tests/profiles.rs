@@ -1,0 +1,278 @@
+//! Profiles: every way to make one, and everything that can be wrong with one.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::{graph, paper, parabola};
+use linecontact::{
+    Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piece, Piecewise, PiecewiseError,
+    ProfileError,
+};
+use std::sync::Arc;
+
+type Profile = Box<dyn ParametricProfile<f64>>;
+
+/// A user's own struct.
+struct Roller {
+    radius: f64,
+}
+
+impl ParametricProfile<f64> for Roller {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        let (s, c) = k.sin_cos();
+        let r = self.radius;
+        CurvePoint { x: r * s, y: r * (1.0 - c), dx: r * c, dy: r * s }
+    }
+}
+
+fn half_width(upper: &dyn ParametricProfile<f64>) -> f64 {
+    let contact = Contact::new(&Flat, upper).unwrap();
+    contact.solve(Load::PerLength(0.01)).unwrap().a()
+}
+
+#[test]
+fn by_value_reference_box_and_arc() {
+    let plain = half_width(&Roller { radius: 2.0 });
+    assert_eq!(half_width(&&Roller { radius: 2.0 }), plain);
+    assert_eq!(half_width(&Box::new(Roller { radius: 2.0 })), plain);
+    let arc: Arc<dyn ParametricProfile<f64>> = Arc::new(Roller { radius: 2.0 });
+    assert_eq!(half_width(&arc), plain);
+    let dynamic: Profile = Box::new(Roller { radius: 2.0 });
+    assert_eq!(half_width(&dynamic), plain);
+    // The load of a circle on a flat, L²/(2 R) to first order.
+    assert!((plain / 0.2 - 1.0).abs() < 2e-3, "{plain}");
+    // Single accessors come with the trait.
+    let roller = Roller { radius: 2.0 };
+    let CurvePoint { x, y, dx, dy } = roller.at(0.3);
+    assert_eq!([roller.x(0.3), roller.y(0.3), roller.dx(0.3), roller.dy(0.3)], [x, y, dx, dy]);
+}
+
+#[test]
+fn closures_may_borrow_and_scenes_may_move_between_threads() {
+    let radius = 3.0;
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let (s, c) = k.sin_cos();
+        CurvePoint { x: radius * s, y: radius * (1.0 - c), dx: radius * c, dy: radius * s }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let here = contact.solve(Load::PerLength(0.01)).unwrap();
+    let there = std::thread::scope(|scope| {
+        scope.spawn(|| contact.solve(Load::PerLength(0.01)).unwrap().a()).join().unwrap()
+    });
+    assert_eq!(here.a(), there);
+}
+
+#[test]
+fn a_known_slope_inverts_nothing() {
+    struct Graph;
+    impl ParametricProfile<f64> for Graph {
+        fn domain(&self) -> [f64; 2] {
+            [-1.0, 1.0]
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            Some(x)
+        }
+    }
+    let contact = Contact::new(&Flat, &Graph).unwrap();
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    assert!((solution.a() / 0.2 - 1.0).abs() < 1e-15);
+    assert_eq!(solution.cost().evaluations, 0);
+}
+
+#[test]
+fn pieces_have_parameters_of_their_own() {
+    // x²/2 in three pieces: by k = x; by k = -3 x, falling; by k³ + k = x.
+    let joint = (0..20).fold(0.1, |k: f64, _| k - (k * k * k + k - 0.1) / (3.0 * k * k + 1.0));
+    let pieces: Vec<Profile> = vec![
+        graph(-2.0, -0.1, |x| [x * x / 2.0, x]),
+        Box::new(Curve::new([-0.3, 0.3], |k: f64| {
+            let x = -k / 3.0;
+            CurvePoint { x, y: x * x / 2.0, dx: -1.0 / 3.0, dy: -x / 3.0 }
+        })),
+        Box::new(Curve::new([joint, 1.0], |k: f64| {
+            let (x, dx) = (k * k * k + k, 3.0 * k * k + 1.0);
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        })),
+    ];
+    let joined = Piecewise::new(pieces).unwrap();
+    let whole = half_width(&*parabola(2.0));
+    assert!((half_width(&joined) / whole - 1.0).abs() < 1e-14);
+
+    // Breakpoints are known to whoever integrates.
+    let pieces = joined.pieces();
+    assert_eq!(pieces.len(), 3);
+    assert!(pieces[1].k[0] > pieces[1].k[1], "the middle piece falls");
+    assert!(pieces.windows(2).all(|pair| (pair[0].x[1] - pair[1].x[0]).abs() < 1e-15));
+
+    // One running parameter draws the whole.
+    assert_eq!(joined.domain(), [0.0, 3.0]);
+    for k in [0.0, 0.4, 1.0, 1.3, 2.0, 2.9, 3.0] {
+        let point = joined.at(k);
+        assert!((point.y - point.x * point.x / 2.0).abs() < 1e-15, "{k}");
+        assert!((point.dy / point.dx - point.x).abs() < 1e-14, "{k}");
+        assert!(point.dx > 0.0, "left to right, whatever the pieces do");
+    }
+}
+
+#[test]
+fn pieces_of_pieces() {
+    let quarter = |from, to| graph(from, to, |x| [x * x / 2.0, x]);
+    let left: Profile =
+        Box::new(Piecewise::new(vec![quarter(-2.0, -1.0), quarter(-1.0, 0.1)]).unwrap());
+    let right: Profile =
+        Box::new(Piecewise::new(vec![quarter(0.1, 0.15), quarter(0.15, 2.0)]).unwrap());
+    let whole = Piecewise::new(vec![left, right]).unwrap();
+    assert_eq!(whole.pieces().len(), 4);
+    assert!((half_width(&whole) / half_width(&*parabola(2.0)) - 1.0).abs() < 1e-14);
+}
+
+fn line(from: f64, to: f64, shift: f64, up: f64) -> Profile {
+    Box::new(Curve::new([from, to], move |k: f64| CurvePoint {
+        x: k + shift,
+        y: k + up,
+        dx: 1.0,
+        dy: 1.0,
+    }))
+}
+
+#[test]
+fn joints_are_checked() {
+    let join = |pieces| Piecewise::new(pieces).map(|_: Piecewise<f64, Profile>| ()).unwrap_err();
+    let first = || line(-1.0, 0.0, 0.0, 0.0);
+    assert_eq!(
+        join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]),
+        PiecewiseError::Gap { joint: 0, left: 0.0, right: 1e-6 }
+    );
+    assert_eq!(
+        join(vec![first(), line(0.0, 1.0, 0.0, 0.0), line(1.0, 2.0, -0.25, 0.0)]),
+        PiecewiseError::Overlap { joint: 1, left: 1.0, right: 0.75 }
+    );
+    assert_eq!(
+        join(vec![first(), line(0.0, 1.0, 0.0, 1e-9)]),
+        PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 1e-9 }
+    );
+    // The wrong order is an overlap.
+    assert!(matches!(
+        join(vec![line(0.0, 1.0, 0.0, 0.0), first()]),
+        PiecewiseError::Overlap { joint: 0, left: 1.0, right: -1.0 }
+    ));
+    assert_eq!(join(vec![]), PiecewiseError::NoPieces);
+    let message = join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]).to_string();
+    assert!(message.contains("gap of 1e-6 at joint 0"), "{message}");
+
+    // Rounding is no gap, and measured pieces may be met with a tolerance.
+    let off = |by| vec![first(), line(0.0, 1.0, by, 0.0)];
+    assert!(Piecewise::new(off(1e-15)).is_ok());
+    assert!(Piecewise::with_tolerance(off(1e-6), 1e-5).is_ok());
+}
+
+#[test]
+fn a_piece_that_turns_back_is_found_where_it_turns() {
+    let fold = |from, to| {
+        Curve::new([from, to], |k: f64| CurvePoint {
+            x: k * k * k - k / 4.0,
+            y: k * k,
+            dx: 3.0 * k * k - 0.25,
+            dy: 2.0 * k,
+        })
+    };
+    let turning = 1.0 / 12f64.sqrt();
+    for (from, to, at) in [(-1.0, 1.0, -turning), (0.0, 1.0, turning), (-0.2, 1.3, turning)] {
+        let body = fold(from, to);
+        let error = Piece::new(&body).map(|_| ()).unwrap_err();
+        let ProfileError::TurnsBack { k, x } = error else { panic!("{error}") };
+        assert!((k - at).abs() < 1e-15, "{k} for {at}");
+        assert!((x - (at.powi(3) - at / 4.0)).abs() < 1e-15);
+    }
+    // Each branch alone is fine, up to the very fold.
+    for (from, to) in [(turning, 1.0), (-turning, turning), (-1.0, -turning)] {
+        assert!(Piece::new(&fold(from, to)).is_ok(), "[{from}, {to}]");
+    }
+    let joined = Piecewise::new(vec![fold(-1.0, 1.0)]).map(|_| ()).unwrap_err();
+    assert!(matches!(
+        joined,
+        PiecewiseError::InPiece { piece: 0, source: ProfileError::TurnsBack { .. } }
+    ));
+}
+
+#[test]
+fn a_narrow_fold_is_found_when_it_is_met() {
+    // X turns back only for |k| < 0.012, between the points of the check, but at the contact.
+    let dimple = Curve::new([-1.0, 1.05], |k: f64| CurvePoint {
+        x: k * k * k - 4.3e-4 * k,
+        y: k * k,
+        dx: 3.0 * k * k - 4.3e-4,
+        dy: 2.0 * k,
+    });
+    assert!(Piece::new(&dimple).is_ok());
+    let contact = Contact::new(&Flat, &dimple);
+    let result = contact.and_then(|contact| contact.solve(Load::PerLength(1e-3)).map(|_| ()));
+    let message = result.unwrap_err().to_string();
+    assert!(message.contains("turns back"), "{message}");
+}
+
+#[test]
+fn domains_and_values_are_checked() {
+    let body = |from: f64, to: f64| {
+        Curve::new([from, to], |k: f64| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 })
+    };
+    for (from, to) in [(1.0, 0.0), (0.5, 0.5), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        let error = Piece::new(&body(from, to)).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ProfileError::Domain { .. }), "{error}");
+    }
+    let hole = Curve::new([0.0, 3.2], |k: f64| CurvePoint {
+        x: if k > 3.0 { f64::NAN } else { k },
+        y: 0.0,
+        dx: 1.0,
+        dy: 0.0,
+    });
+    let error = Piece::new(&hole).map(|_| ()).unwrap_err();
+    assert!(
+        matches!(error, ProfileError::NotFinite { quantity: "X", k, value } if k > 3.0 && value.is_nan())
+    );
+    // X' may be infinite at the very ends, but not inside.
+    let root = |from| {
+        Curve::new([from, 1.0], |k: f64| CurvePoint {
+            x: k.cbrt(),
+            y: k,
+            dx: k.cbrt().powi(-2) / 3.0,
+            dy: 1.0,
+        })
+    };
+    assert!(Piece::new(&root(0.0)).is_ok());
+    assert!(matches!(
+        Piece::new(&root(-1.0)).map(|_| ()),
+        Err(ProfileError::NotFinite { quantity: "X'", k: 0.0, .. })
+    ));
+    // A standstill: X constant over part of the range.
+    let still =
+        Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k.max(0.0), y: k, dx: 1.0, dy: 1.0 });
+    assert!(matches!(Piece::new(&still).map(|_| ()), Err(ProfileError::TurnsBack { .. })));
+}
+
+#[test]
+fn the_papers_derivatives_are_right() {
+    // Central differences of X and Y against X' and Y', on every piece.
+    let examples = [paper::one(), paper::two(), paper::three(), paper::four(), paper::five()];
+    for (number, example) in examples.iter().enumerate() {
+        for body in [&example.lower, &example.upper] {
+            let [from, to] = body.domain();
+            for i in 1..40 {
+                let k = from + (to - from) * (f64::from(i) + 0.03) / 40.0;
+                let h = 1e-5 * (to - from);
+                let (before, at, after) = (body.at(k - h), body.at(k), body.at(k + h));
+                let scale = |d: f64, v: f64| d.abs() + 1e-6 * v.abs() / h;
+                let dx = (after.x - before.x) / (2.0 * h) - at.dx;
+                let dy = (after.y - before.y) / (2.0 * h) - at.dy;
+                assert!(dx.abs() < 1e-4 * scale(at.dx, at.x), "example {} X' at {k}", number + 1);
+                assert!(dy.abs() < 1e-4 * scale(at.dy, at.y), "example {} Y' at {k}", number + 1);
+            }
+        }
+    }
+}
