@@ -239,7 +239,7 @@ fn errors_travel_and_read_well() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Whatever the numbers: no panic, no endless loop, and no result that is not finite.
     #[test]

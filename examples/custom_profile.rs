@@ -1,0 +1,55 @@
+//! A profile of your own: two spur gear teeth, pressed together at the pitch point.
+//!
+//! A flank is the involute of its base circle. By the angle `k` rolled off beyond the pitch
+//! point it is two short formulas; as `y = f(x)` it has no closed form. Lengths in m, pressures
+//! in Pa, load in N/m. The figures are checked against a solution of 25 digits.
+
+use linecontact::{Contact, ContactError, CurvePoint, Load, ParametricProfile};
+
+/// The flank of a tooth. `x` runs along the common tangent at the pitch point, `y` across it.
+struct Flank {
+    base_radius: f64,
+    /// Tangent of the pressure angle: the angle rolled off up to the pitch point.
+    pitch: f64,
+    /// 1 for the upper tooth; -1, half a turn, for the lower.
+    side: f64,
+}
+
+impl ParametricProfile<f64> for Flank {
+    fn domain(&self) -> [f64; 2] {
+        [-0.36, 1.0] // from next to the base circle, where the involute begins
+    }
+
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        let ((sin, cos), roll) = (k.sin_cos(), self.pitch + k);
+        let scale = self.side * self.base_radius;
+        CurvePoint {
+            x: scale * (cos + roll * sin - 1.0),
+            y: scale * (sin - roll * cos + self.pitch),
+            dx: scale * roll * cos,
+            dy: scale * roll * sin,
+        }
+    }
+}
+
+fn main() -> Result<(), ContactError<f64>> {
+    let pitch = 93.0 / 256.0; // tan 19.97°
+    let pinion = Flank { base_radius: 37.5e-3, pitch, side: -1.0 };
+    let wheel = Flank { base_radius: 112.5e-3, pitch, side: 1.0 };
+    let contact = Contact::new(&pinion, &wheel)?.contact_modulus(113.187e9);
+    let solution = contact.solve(Load::PerLength(1571e3 / std::f64::consts::PI))?;
+
+    let (a, b) = (solution.a(), solution.b());
+    let pressure = solution.pressure()?;
+    let mut peak = 0.0f64;
+    for i in 1..1000 {
+        peak = peak.max(pressure.at(-b + (a + b) * f64::from(i) / 1000.0)?);
+    }
+    println!("contact from x = {:.6} mm to {:.6} mm", -b * 1e3, a * 1e3);
+    println!("peak pressure {:.3} MPa", peak / 1e6);
+
+    assert!((a / 2.3773942151913456e-4 - 1.0).abs() < 1e-12);
+    assert!((b / 2.4161411179371945e-4 - 1.0).abs() < 1e-12);
+    assert!((peak / 1.3280819681515775e9 - 1.0).abs() < 1e-6, "seen on a grid of 1000 points");
+    Ok(())
+}
