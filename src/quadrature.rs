@@ -72,8 +72,8 @@ pub trait Transform<T: Real>: Send + Sync {
 pub struct Estimate<T> {
     /// The value.
     pub value: T,
-    /// Estimated absolute error; `None` from a rule that has nothing to compare with.
-    pub error: Option<T>,
+    /// Estimated absolute error.
+    pub error: T,
 }
 
 /// The integrals of the gap slope that decide on the edges of a contact.

@@ -166,6 +166,23 @@ fn mirror_swap_shift_and_scale() {
 }
 
 #[test]
+fn a_gap_that_is_not_convex() {
+    // f = x²/2 + x³ has a second level point at x = -1/3. With g = x + 3 x² the conditions are
+    // c + 3 c² + 3 L²/2 = 0 and 2 F = L² (1 + 6 c): F = L² sqrt(1 - 18 L²)/2, at most 0.010692.
+    let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3), x + 3.0 * x * x]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for load in [1e-6, 1e-3, 5e-3, 0.01, 0.0106] {
+        let l = contact.solve(Load::PerLength(load)).unwrap().interval().half_width();
+        let carried = l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
+        assert_relative_eq!(carried, load, epsilon = 0.0, max_relative = 1e-14);
+        assert!(l * l < 1.0 / 27.0, "the branch that grows with the load");
+    }
+    for load in [0.0107, 0.011, 0.02] {
+        assert!(contact.solve(Load::PerLength(load)).is_err(), "{load}");
+    }
+}
+
+#[test]
 fn load_and_scale_have_two_names_each() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();

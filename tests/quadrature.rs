@@ -227,6 +227,55 @@ fn pressures_agree_with_the_references() {
 }
 
 #[test]
+fn a_pressure_carries_its_doubt() {
+    // Up to the very edge, the estimate covers the error, and is not idle where there is none.
+    let rules =
+        [rule(64, 4, HALF_ODD), rule(1024, 2, EVEN), rule(256, 1, EVEN), rule(128, 3, EVEN)];
+    for (name, scene) in
+        [("paper_example_2", paper::two()), ("paper_example_3_scale_one", paper::three())]
+    {
+        let want = reference(name);
+        for rule in rules {
+            let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
+            let contact = contact.kappa(want.kappa).quadrature(&rule);
+            let solution = contact.solve(Load::Constant(want.c)).unwrap();
+            let pressure = solution.pressure().unwrap();
+            for &[x, p] in &want.points {
+                let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
+                let error = (estimate.value - p).abs();
+                let place = format!("{name} {rule:?} at z = {}: {error:e}", want.z(x));
+                assert!(error <= 1.5 * estimate.error + 1e-11 * p, "{place} {estimate:?}");
+                if rule.exponents == EVEN && want.z(x).abs() > 1e-9 {
+                    assert!(estimate.error <= 6.0 * error, "{place} {estimate:?}");
+                }
+                match pressure.at(x) {
+                    Ok(value) => assert!((value / p - 1.0).abs() < 0.6, "{place}"),
+                    Err(ContactError::Unresolved { .. }) => assert!(error > 0.1 * p, "{place}"),
+                    Err(other) => panic!("{place}: {other}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_joint_shows_in_the_estimate() {
+    for (name, scene) in
+        [("paper_example_4_scale_one", paper::four()), ("paper_example_5_scale_one", paper::five())]
+    {
+        let want = reference(name);
+        let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
+        let solution = contact.solve(Load::Constant(want.c)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        for &[x, p] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.97) {
+            let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
+            let error = (estimate.value - p).abs();
+            assert!(error <= 20.0 * estimate.error, "{name} at {x:e}: {error:e} {estimate:?}");
+        }
+    }
+}
+
+#[test]
 fn a_sharp_flat_punch() {
     // P = (F - m x)/(π sqrt(L² - x²)), κ = 1, as a rule with smooth ends finds to rounding.
     let (m, load) = (0.3, 2.0);

@@ -173,6 +173,8 @@ enum Placed<T> {
     At(Trial<T>),
     /// It would have to reach beyond the left (0) or the right (1) end of the bodies.
     Beyond(usize),
+    /// It would have to let go of the point of first contact, and be no contact.
+    Adrift,
 }
 
 struct Search<'s, T: Real> {
@@ -209,11 +211,22 @@ impl<T: Real> Search<'_, T> {
         // By which power of the expected factor to change the width, so as to pass the root: at
         // first a little more than one, and by no more than a tenth.
         let (mut power, mut beyond) = (T::of(1.1), T::of(1.1));
+        // The least width known to have no balance.
+        let mut adrift: Option<T> = None;
         let mut tries = 0;
         let bracket = loop {
             tries += 1;
             let trial = match self.place(half_width)? {
                 Placed::At(trial) => trial,
+                Placed::Adrift => {
+                    adrift = Some(half_width);
+                    let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
+                    half_width = half * from + half * half_width;
+                    if half_width - from <= T::of(1e-3) * from || half_width <= least {
+                        return Err(self.no_balance(half_width));
+                    }
+                    continue;
+                }
                 Placed::Beyond(end) if narrow.is_some() => {
                     let trial = self.pin(end)?;
                     if trial.excess.spread() > zero {
@@ -254,6 +267,9 @@ impl<T: Real> Search<'_, T> {
                 }
                 _ if spread > zero => {
                     half_width = half_width.min(most);
+                    if let Some(adrift) = adrift.filter(|&adrift| half_width >= adrift) {
+                        half_width = half * last + half * adrift;
+                    }
                     if half_width <= last {
                         return Err(self.too_short(1, trial.on));
                     }
@@ -273,7 +289,7 @@ impl<T: Real> Search<'_, T> {
         self.run(&ends, &mut best, Excess::spread, |search, half_width| {
             match search.place(half_width)? {
                 Placed::At(trial) => Ok(trial),
-                Placed::Beyond(_) => Err(search.no_balance(half_width)),
+                Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
             }
         })
     }
@@ -310,8 +326,11 @@ impl<T: Real> Search<'_, T> {
                 } else if right == width - room_left {
                     Ok(Placed::Beyond(0))
                 } else {
-                    // It still tells whether to widen; another width may find its balance.
-                    Ok(Placed::At(Trial { cornered: true, ..trial }))
+                    Ok(match self.edges {
+                        Edges::Strength { .. } => Placed::Adrift,
+                        // It still tells whether to widen; then it may find its balance.
+                        Edges::Pressure { .. } => Placed::At(Trial { cornered: true, ..trial }),
+                    })
                 };
             }
             let before = trial;

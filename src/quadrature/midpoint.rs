@@ -29,8 +29,12 @@
 //! breaks either expansion unless it lies on the grid.
 //!
 //! **Next to an edge** the expansion holds from about a segment inward. Closer, the error of the
-//! rule stays while the pressure of a free edge goes to zero, and is soon larger than it. With two
-//! levels or more the last extrapolation shows that: see [`Estimate::error`].
+//! rule stays while the pressure of a free edge goes to zero, and is soon larger than it.
+//!
+//! **The error estimate.** What spoils the rule are the ends of h, and there g is nearly the line
+//! A + B t through its values at the edges. The rule is run on that line as well, for which the
+//! integrals are known (π z for 1, π (z² - 1/2) for t), and what it misses is its error, up to
+//! and into the last segment. What the last extrapolation changed is added: that sees joints, too.
 
 use super::moments::moments;
 use super::{Engine, Estimate, Moments, Quadrature, Transform};
@@ -151,25 +155,41 @@ struct Sums<'g, T: Real> {
 impl<T: Real> Transform<T> for Sums<'_, T> {
     fn at(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let mut pole = Pole { on: self.on, x, slope: None, sampler: self.gap.sampler() };
-        let mut values = Vec::with_capacity(self.levels.len());
+        let mut rows = Vec::with_capacity(self.levels.len());
         for level in &self.levels {
-            values.push(level.at(&mut pole)?);
+            rows.push(level.at(&mut pole)?);
         }
         *cost += pole.sampler.cost;
-        // What the last extrapolation changed bounds the error of what came of it.
-        let mut error = None;
+        let [value, of_one, of_t] =
+            [0, 1, 2].map(|i| self.extrapolate(rows.iter().map(|row| row[i]).collect()));
+
+        // The line through the slopes next to the two edges, A + B t.
+        let [left, right] = self.levels[self.levels.len() - 1].end_slopes();
+        let [a, b] = [T::of(0.5) * (right + left), T::of(0.5) * (right - left)];
+        let z = (x - self.on.centre()) / self.on.half_width();
+        let one_missed = of_one.0 - T::pi() * z;
+        let t_missed = of_t.0 - T::pi() * (z * z - T::of(0.5));
+        let error = (a * one_missed + b * t_missed).abs() + value.1.abs();
+        let half_width = self.on.half_width();
+        Ok(Estimate { value: half_width * value.0, error: half_width * error })
+    }
+}
+
+impl<T: Real> Sums<'_, T> {
+    /// What Richardson extrapolation makes of the levels, and what its last step has changed.
+    fn extrapolate(&self, mut values: Vec<T>) -> (T, T) {
+        let mut changed = T::zero();
         for i in 0..values.len() - 1 {
             let gain = T::of(2.0).powf(self.exponents.power(i)) - T::one();
-            error = values.last().copied();
-            for j in 0..values.len() - 1 {
-                values[j] = values[j + 1] + (values[j + 1] - values[j]) / gain;
+            let finest = values.pop().expect("one more value than steps are left");
+            let before = *values.last().expect("likewise");
+            changed = (finest - before) / gain;
+            let mut next = finest;
+            for value in values.iter_mut().rev() {
+                (*value, next) = (next + (next - *value) / gain, *value);
             }
-            values.pop();
-            error = error.map(|before| (before - values[values.len() - 1]).abs());
         }
-        let half_width = self.on.half_width();
-        let error = error.map(|error: T| half_width * error);
-        Ok(Estimate { value: half_width * values[0], error })
+        (values[0], changed)
     }
 }
 
@@ -193,10 +213,6 @@ impl<T: Real> Pole<'_, T> {
     fn root(&self) -> T {
         self.on.edge_root(self.x) / self.on.half_width()
     }
-
-    fn h(&mut self) -> Result<T, ContactError<T>> {
-        Ok(self.root() * self.slope()?)
-    }
 }
 
 /// h at the points of one level. Places are counted in segments from the left edge, so that
@@ -207,6 +223,8 @@ struct Level<T> {
     first: T,
     trapezoidal: bool,
     h: Vec<T>,
+    /// sqrt(1 - t²)
+    root: Vec<T>,
 }
 
 impl<T: Real> Level<T> {
@@ -217,12 +235,25 @@ impl<T: Real> Level<T> {
         trapezoidal: bool,
     ) -> Result<Self, ContactError<T>> {
         let (first, points) = if trapezoidal { (T::one(), n - 1) } else { (T::of(0.5), n) };
-        let mut level = Self { n, first, trapezoidal, h: Vec::with_capacity(points) };
+        let [h, root] = [(); 2].map(|()| Vec::with_capacity(points));
+        let mut level = Self { n, first, trapezoidal, h, root };
+        let count = T::count(n);
         for i in 0..points {
-            let h = level.root(i) * sampler.slope(level.x(on, i))?;
-            level.h.push(h);
+            let from_left = level.place(i);
+            let root = T::of(2.0) * (from_left * (count - from_left)).sqrt() / count;
+            level.root.push(root);
+            level.h.push(root * sampler.slope(level.x(on, i))?);
         }
         Ok(level)
+    }
+
+    /// The slopes at the first and the last point.
+    fn end_slopes(&self) -> [T; 2] {
+        let end = |h: Option<&T>, root: Option<&T>| match (h, root) {
+            (Some(&h), Some(&root)) => h / root,
+            _ => T::zero(),
+        };
+        [end(self.h.first(), self.root.first()), end(self.h.last(), self.root.last())]
     }
 
     fn place(&self, i: usize) -> T {
@@ -240,48 +271,61 @@ impl<T: Real> Level<T> {
         }
     }
 
-    /// sqrt(1 - t²) at point i.
-    fn root(&self, i: usize) -> T {
-        let (n, from_left) = (T::count(self.n), self.place(i));
-        T::of(2.0) * (from_left * (n - from_left)).sqrt() / n
+    /// t at a place.
+    fn t(&self, place: T) -> T {
+        T::of(2.0) * place / T::count(self.n) - T::one()
     }
 
-    /// The rule's value for the pole.
-    fn at(&self, pole: &mut Pole<'_, T>) -> Result<T, ContactError<T>> {
+    /// The rule's values for the pole: for g itself, and for 1 and t in the place of g.
+    fn at(&self, pole: &mut Pole<'_, T>) -> Result<[T; 3], ContactError<T>> {
         let (n, on) = (T::count(self.n), pole.on);
         let place = n * ((pole.x - on.left) / (on.right - on.left));
         let nearest = (place - self.first).round();
         let delta = (place - self.first) - nearest;
         let index = nalgebra::try_convert::<T, f64>(nearest).filter(|&i| i >= 0.0);
         let index = index.map(|i| i as usize).filter(|&i| i < self.h.len());
-
         let near = index.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
-        let mut sum = Sum::new();
-        for (i, &h) in self.h.iter().enumerate() {
+
+        let (mut of_g, mut of_one, mut of_t) = (Sum::new(), T::zero(), T::zero());
+        for (i, (&h, &root)) in self.h.iter().zip(&self.root).enumerate() {
             if Some(i) != near {
-                sum.add(h / (place - self.place(i)));
+                let point = self.place(i);
+                let distance = place - point;
+                of_g.add(h / distance);
+                let one = root / distance;
+                of_one += one;
+                of_t += one * self.t(point);
             }
         }
-        let half = T::of(0.5);
-        Ok(sum.value()
-            + match near {
-                None if delta.abs() == half => T::zero(),
-                None => -T::pi() * pole.h()? / (T::pi() * delta).tan(),
-                Some(_) if self.trapezoidal => {
-                    if delta.is_zero() {
-                        T::zero()
-                    } else {
-                        pole.h()? * pole_remainder(delta)
-                    }
-                }
-                Some(i) => {
-                    let spread = self.divided_difference(pole, i, delta)?;
-                    pole.h()? * pole_remainder(delta) - T::of(2.0) * spread / n
-                }
-            })
+
+        // What makes up for the pole, for each of the three functions.
+        let z = self.t(place);
+        let root = pole.root();
+        let mut sums = [of_g.value(), of_one, of_t];
+        let factor = match near {
+            // On the grid of the midpoint rule, or at a left-out point: nothing is missing.
+            None if delta.abs() == T::of(0.5) => return Ok(sums),
+            Some(_) if self.trapezoidal && delta.is_zero() => return Ok(sums),
+            None => -T::pi() / (T::pi() * delta).tan(),
+            Some(_) => pole_remainder(delta),
+        };
+        for (sum, slope) in sums.iter_mut().zip([pole.slope()?, T::one(), z]) {
+            *sum += factor * root * slope;
+        }
+        if let Some(i) = near.filter(|_| !self.trapezoidal) {
+            // [z, t_i] of sqrt(1 - t²) times each function, by the rule for products.
+            let t = self.t(self.place(i));
+            let of_root = -(z + t) / (root + self.root[i]);
+            let slopes = [pole.slope()?, T::one(), z];
+            let spreads = [self.divided_difference(pole, i, delta)?, T::zero(), T::one()];
+            for ((sum, slope), spread) in sums.iter_mut().zip(slopes).zip(spreads) {
+                *sum -= T::of(2.0) * (slope * of_root + self.root[i] * spread) / n;
+            }
+        }
+        Ok(sums)
     }
 
-    /// `(h(z) - h(t_i))/(z - t_i)` for z a fraction `delta` of a segment from t_i.
+    /// `(g(z) - g(t_i))/(z - t_i)` for z a fraction `delta` of a segment from t_i.
     fn divided_difference(
         &self,
         pole: &mut Pole<'_, T>,
@@ -289,11 +333,6 @@ impl<T: Real> Level<T> {
         delta: T,
     ) -> Result<T, ContactError<T>> {
         let n = T::count(self.n);
-        let (root_z, root_t) = (pole.root(), self.root(i));
-        // z + t = 2 (place of z + place of t)/n - 2
-        let z_plus_t = T::of(2.0) * ((T::of(2.0) * self.place(i) + delta) / n - T::one());
-        let of_root = -z_plus_t / (root_z + root_t);
-
         // Half spreads of 1/8, 2/8, 3/8 of a segment about the middle of z and t_i, and the
         // polynomial of degree two in the square of the half spread through them.
         let segment = (pole.on.right - pole.on.left) / n;
@@ -312,7 +351,7 @@ impl<T: Real> Level<T> {
             // A segment is 2/n long in t.
             of_slope += weight * (right - left) * n / (T::of(4.0) * half_spread);
         }
-        Ok(pole.slope()? * of_root + root_t * of_slope)
+        Ok(of_slope)
     }
 }
 
