@@ -69,3 +69,8 @@ pub use profile::{Piece, ProfileError};
 pub use quadrature::{Estimate, Exponents, Midpoint};
 pub use real::Real;
 pub use solution::{Pressure, Solution};
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
