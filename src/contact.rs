@@ -1,6 +1,7 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod edges;
+mod first_contact;
 mod limits;
 
 pub use edges::EdgePressure;

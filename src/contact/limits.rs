@@ -19,9 +19,10 @@
 
 use super::Contact;
 use super::edges::{Edges, Excess};
-use crate::gap::{Cost, Sampler, Side};
+use super::first_contact::first_contact;
+use crate::gap::Cost;
 use crate::quadrature::Engine;
-use crate::search::{Bracket, Brent, LimitSearch, SearchError};
+use crate::search::{Bracket, LimitSearch};
 use crate::{ContactError, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
@@ -85,79 +86,6 @@ pub(super) fn find<T: Real>(
     Ok(Found { interval: trial.on, strengths, error: trial.excess.error })
 }
 
-/// A point where the slope of the gap passes from negative to positive.
-fn first_contact<T: Real>(
-    sampler: &mut Sampler<'_, T>,
-    joints: &[T],
-    range: [T; 2],
-    start: Option<Interval<T>>,
-) -> Result<T, ContactError<T>> {
-    let (two, half) = (T::of(2.0), T::of(0.5));
-    let whole = Interval { left: range[0], right: range[1] };
-    // Not the very ends: the slope of a round body may be infinite there.
-    let margin = T::of(1e-3) * whole.half_width();
-    let within = |x: T| x.max(range[0] + margin).min(range[1] - margin);
-    let start = start.unwrap_or(Interval {
-        left: whole.centre() - T::of(0.25) * whole.half_width(),
-        right: whole.centre() + T::of(0.25) * whole.half_width(),
-    });
-    let (mut x, mut step) = ([within(start.left), within(start.right)], start.half_width());
-    let mut slope = [sampler.slope(x[0])?, sampler.slope(x[1])?];
-    // Widen until the slope is negative on the left and positive on the right.
-    let zero = T::zero();
-    while !(slope[0] <= zero && slope[1] >= zero && slope[0] < slope[1]) {
-        let wrong = slope[0] > zero && slope[1] < zero;
-        let before = x;
-        step *= two;
-        if slope[0] >= zero {
-            x[0] = within(x[0] - step);
-        }
-        if slope[1] <= zero {
-            x[1] = within(x[1] + step);
-        }
-        if wrong || x == before {
-            return Err(ContactError::NoFirstContact { x, slope });
-        }
-        for i in 0..2 {
-            if x[i] != before[i] {
-                slope[i] = sampler.slope(x[i])?;
-            }
-        }
-    }
-    // A wedge touches at a joint, where the slope has no zero but jumps through it.
-    for &joint in joints {
-        if joint <= x[0] || joint >= x[1] {
-            continue;
-        }
-        let left = sampler.slope_from(joint, Side::Left)?;
-        let right = sampler.slope_from(joint, Side::Right)?;
-        if left > zero {
-            (x[1], slope[1]) = (joint, left);
-        } else if right < zero {
-            (x[0], slope[0]) = (joint, right);
-        } else {
-            return Ok(joint);
-        }
-    }
-    let mut failed = None;
-    let mut f = |x| {
-        sampler.slope(x).unwrap_or_else(|error| {
-            failed = Some(error);
-            T::of(f64::NAN)
-        })
-    };
-    let bracket = Bracket::new(x[0], x[1]).values(slope[0], slope[1]);
-    let root = Brent::default().find(&mut f, &bracket);
-    if let Some(error) = failed {
-        return Err(error);
-    }
-    match root {
-        Ok(root) => Ok(root.x),
-        Err(SearchError::Budget { best }) => Ok(half * best.bracket[0] + half * best.bracket[1]),
-        Err(_) => Err(ContactError::NoFirstContact { x, slope }),
-    }
-}
-
 /// A contact tried, and by how much it misses the conditions.
 #[derive(Clone, Copy)]
 struct Trial<T> {
@@ -203,6 +131,23 @@ impl<T: Real> Search<'_, T> {
 
     /// Finds the half-width at which the spread vanishes, starting from a guess.
     fn widen(&mut self, guess: T) -> Result<Trial<T>, ContactError<T>> {
+        let [narrow, wide] = self.enclose(guess)?;
+        if narrow.excess.spread() == T::zero() {
+            return Ok(narrow);
+        }
+        let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
+            .values(narrow.excess.spread(), wide.excess.spread());
+        let mut best = nearer(narrow, wide, Excess::spread);
+        self.run(&ends, &mut best, Excess::spread, |search, half_width| {
+            match search.place(half_width)? {
+                Placed::At(trial) => Ok(trial),
+                Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
+            }
+        })
+    }
+
+    /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
+    fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
         let least = half * self.edges.least_width();
         let most = half * (self.range[1] - self.range[0]);
@@ -214,7 +159,7 @@ impl<T: Real> Search<'_, T> {
         // The least width known to have no balance.
         let mut adrift: Option<T> = None;
         let mut tries = 0;
-        let bracket = loop {
+        loop {
             tries += 1;
             let trial = match self.place(half_width)? {
                 Placed::At(trial) => trial,
@@ -243,7 +188,7 @@ impl<T: Real> Search<'_, T> {
             let (last, Excess { growth, .. }) = (trial.on.half_width(), trial.excess);
             let spread = trial.excess.spread();
             if spread == zero {
-                return Ok(trial);
+                return Ok([trial, trial]);
             }
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(last));
@@ -262,7 +207,7 @@ impl<T: Real> Search<'_, T> {
                     let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                     let inside = half_width > from && half_width < to;
                     if !inside || to <= T::of(4.0) * from || power > T::of(10.0) {
-                        break [narrow, wide];
+                        return Ok([narrow, wide]);
                     }
                 }
                 _ if spread > zero => {
@@ -281,17 +226,7 @@ impl<T: Real> Search<'_, T> {
                     }
                 }
             }
-        };
-        let [narrow, wide] = bracket;
-        let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
-            .values(narrow.excess.spread(), wide.excess.spread());
-        let mut best = nearer(narrow, wide, Excess::spread);
-        self.run(&ends, &mut best, Excess::spread, |search, half_width| {
-            match search.place(half_width)? {
-                Placed::At(trial) => Ok(trial),
-                Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
-            }
-        })
+        }
     }
 
     /// Finds where a contact of given half-width sits.
