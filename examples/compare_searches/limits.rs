@@ -29,10 +29,9 @@ fn solve(scene: &Scene, contact: &Contact<'_, f64>) -> Outcome {
 
 impl Tally {
     fn add(&mut self, strategy: usize, outcome: &Outcome) {
-        self.evaluations[strategy] += outcome.cost.evaluations;
+        self.count(strategy, outcome.cost.evaluations as f64);
         if let Some(text) = &outcome.failure {
-            println!("    {} failed: {text}", NAMES[strategy]);
-            self.failures += 1;
+            self.fail(strategy, text);
         }
     }
 }

@@ -95,7 +95,9 @@ pub(super) struct Excess<T> {
     pub at_b: T,
     /// Up to this, shift and spread are zero to rounding, or to the tolerances.
     floor: T,
-    /// By what factor the half-width should change.
+    /// The load that the contact carries, where that is known.
+    carried: Option<T>,
+    /// By what factor the width of a round body should change, whose load goes with its square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
     pub error: Option<T>,
@@ -118,6 +120,15 @@ impl<T: Real> Excess<T> {
     /// Positive: the contact must widen.
     pub fn spread(&self) -> T {
         self.above(self.floor, self.at_a + self.at_b)
+    }
+
+    /// The spread on a scale on which the width is found in fewer steps: the logarithm of the
+    /// load over the load carried, which falls evenly whatever the shape of the bodies.
+    pub fn deficit(&self) -> T {
+        let spread = self.spread();
+        let positive = self.carried.filter(|&carried| carried > T::zero());
+        let log = positive.map(|carried| (T::of(0.5) * spread / carried).ln_1p());
+        log.filter(|log| log.is_finite()).unwrap_or(spread)
     }
 
     fn above(&self, floor: T, value: T) -> T {
@@ -159,12 +170,13 @@ impl<T: Real> Edges<T> {
                 let stiffness = kappa * on.half_width();
                 let carried = stiffness * m.first;
                 let balance = stiffness * m.mean;
-                // For bodies round where they touch the load goes with the square of the width.
+                // By roots, so as not to underflow.
                 let growth = if carried > T::zero() { load.sqrt() / carried.sqrt() } else { two };
                 Ok(Excess {
                     at_a: load - carried - balance,
                     at_b: load - carried + balance,
                     floor: stiffness * m.error,
+                    carried: Some(carried),
                     growth,
                     error: Some(m.error / m.first.abs()),
                 })
@@ -184,7 +196,7 @@ impl<T: Real> Edges<T> {
                 let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
                 let tolerance_a = tolerance(x_a, wanted.tolerance_a);
                 let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
-                Ok(Excess { at_a, at_b, floor, growth, error: None })
+                Ok(Excess { at_a, at_b, floor, carried: None, growth, error: None })
             }
         }
     }

@@ -136,9 +136,9 @@ impl<T: Real> Search<'_, T> {
             return Ok(narrow);
         }
         let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
-            .values(narrow.excess.spread(), wide.excess.spread());
-        let mut best = nearer(narrow, wide, Excess::spread);
-        self.run(&ends, &mut best, Excess::spread, |search, half_width| {
+            .values(narrow.excess.deficit(), wide.excess.deficit());
+        let mut best = nearer(narrow, wide, Excess::deficit);
+        self.run(&ends, &mut best, Excess::deficit, |search, half_width| {
             match search.place(half_width)? {
                 Placed::At(trial) => Ok(trial),
                 Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
@@ -153,6 +153,9 @@ impl<T: Real> Search<'_, T> {
         let most = half * (self.range[1] - self.range[0]);
         let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
+        // The load goes with this power of the width, as far as the last two trials show.
+        let mut exponent = T::of(2.0);
+        let mut before: Option<Trial<T>> = None;
         // By which power of the expected factor to change the width, so as to pass the root: at
         // first a little more than one, and by no more than a tenth.
         let (mut power, mut beyond) = (T::of(1.1), T::of(1.1));
@@ -185,7 +188,7 @@ impl<T: Real> Search<'_, T> {
                 }
                 Placed::Beyond(_) => return Err(self.no_balance(half_width)),
             };
-            let (last, Excess { growth, .. }) = (trial.on.half_width(), trial.excess);
+            let (last, growth) = (trial.on.half_width(), trial.excess.growth);
             let spread = trial.excess.spread();
             if spread == zero {
                 return Ok([trial, trial]);
@@ -193,12 +196,18 @@ impl<T: Real> Search<'_, T> {
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(last));
             }
+            if let Some(before) = before.replace(trial) {
+                let wider = last / before.on.half_width();
+                let seen = T::of(-2.0) * (growth / before.excess.growth).ln() / wider.ln();
+                exponent = if seen > T::of(0.5) { seen.min(T::of(40.0)) } else { exponent };
+            }
+            let pull = growth.powf(T::of(2.0) / exponent);
             half_width = if spread > zero {
                 narrow = Some(trial);
-                last * growth.powf(power).min(growth * beyond).max(T::one() + ulps())
+                last * pull.powf(power).min(pull * beyond).max(T::one() + ulps())
             } else {
                 wide = Some(trial);
-                last * growth.powf(power).max(growth / beyond).min(T::one() - ulps())
+                last * pull.powf(power).max(pull / beyond).min(T::one() - ulps())
             };
             (power, beyond) = (power + power, beyond.powi(4));
             match (narrow, wide) {
@@ -206,7 +215,7 @@ impl<T: Real> Search<'_, T> {
                 (Some(narrow), Some(wide)) => {
                     let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                     let inside = half_width > from && half_width < to;
-                    if !inside || to <= T::of(4.0) * from || power > T::of(10.0) {
+                    if !inside || to <= T::of(1.5) * from || power > T::of(20.0) {
                         return Ok([narrow, wide]);
                     }
                 }
@@ -252,7 +261,7 @@ impl<T: Real> Search<'_, T> {
             // Twice as far as the balance seems to be, so as to pass it.
             let far = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
             let step = far.filter(|&far| far < widest).unwrap_or(widest * factor * T::of(0.5));
-            let step = step.max(ulps::<T>() * right);
+            let step = step.max(ulps::<T>() * right).max(self.resolution());
             let next = if shift > zero { (right + step).min(hi) } else { (right - step).max(lo) };
             if next == right {
                 // The balance lies beyond what is left of the bodies, or of the contact.
@@ -324,8 +333,7 @@ impl<T: Real> Search<'_, T> {
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut failed = None;
         let strategy = self.strategy;
-        // Far from x = 0, contacts closer than this are the same numbers.
-        let resolution = T::epsilon() * self.origin.abs();
+        let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
         let [mut lo, mut hi] = [bracket.lo, bracket.hi];
         let found = strategy.find(
@@ -353,6 +361,11 @@ impl<T: Real> Search<'_, T> {
             (None, Ok(_)) => Ok(*best),
             (None, Err(source)) => Err(ContactError::LimitSearch { best: best.on, source }),
         }
+    }
+
+    /// Far from x = 0, contacts closer than this are the same numbers.
+    fn resolution(&self) -> T {
+        T::of(2.0) * T::epsilon() * self.origin.abs()
     }
 
     /// How far a contact can reach to the left and to the right of the origin.

@@ -10,12 +10,13 @@ use crate::Real;
 /// it (a safeguarded secant). A step that would leave the sign change, or that did not
 /// halve the step before last, is replaced by a halving of the bracket.
 ///
-/// The value of a function that cancels large terms has noise, and near the root the steps
+/// The value of a function that cancels large terms has noise (looked for only where the slope is
+/// known, for a chord shows no such regularity), and near the root the steps
 /// then stop shrinking long before they reach the tolerance. The search ends there. It is
 /// taken for noise if the steps have shrunk a hundredfold at once, as they do close to a simple
 /// root, and then one fails to shrink though it is tiny: below the square root of the rounding
-/// unit compared with `x`, or with a value at the rounding of those at the ends of the bracket.
-/// So is a value of that size that does not change from one point to the next.
+/// unit compared with `x`, or with a value at the rounding of both at the ends of the bracket.
+/// So is a value of that size that stays the same where the slope says that it should change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Newton {
     /// When to stop.
@@ -52,41 +53,37 @@ impl Newton {
         f: &mut dyn FnMut(T) -> (T, Option<T>),
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>> {
-        let mut tracker = Tracker::new(f, &Bracket { guess: None, ..*bracket }, self.tolerance)?;
-        let rounding = T::of(4.0) * T::epsilon() * tracker.lo.f.abs().max(tracker.hi.f.abs());
-        if let Some(guess) = bracket.guess {
-            tracker.visit(guess)?;
-        }
+        let mut tracker = Tracker::new(f, bracket, self.tolerance)?;
         // The last two steps since the last halving, and whether they shrank as they should.
         let (mut last, mut before_last, mut converging) = (None, None, false);
         let mut at = tracker.last;
-        let mut chord = (tracker.hi.f - tracker.lo.f) / (tracker.hi.x - tracker.lo.x);
+        let mut chord = (tracker.hi.f - tracker.lo.f) / tracker.width();
         while !tracker.done() {
             let step = -at.f / at.slope.unwrap_or(chord);
+            let next = at.x + step;
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
-            if usable {
-                if tracker.negligible(step, at.x) {
-                    break;
-                }
-                let left = left_after(step, last, before_last, at.slope.is_some());
-                if tracker.negligible(left, at.x) {
-                    tracker.visit(at.x + step)?;
-                    break;
-                }
-                converging |= last.is_some_and(|last| step.abs() < T::of(0.01) * last.abs());
-                let tiny = |last: T| {
-                    last.abs() <= T::epsilon().sqrt() * at.x.abs() || at.f.abs() <= rounding
-                };
-                let stalled = |last: T| tiny(last) && step.abs() >= T::of(0.25) * last.abs();
-                if converging && last.is_some_and(stalled) {
-                    break;
-                }
+            if usable && tracker.negligible(step, at.x) {
+                break;
             }
-            let shrinks = |before: T| step.abs() <= T::of(0.5) * before.abs();
-            let good = usable && before_last.is_none_or(shrinks);
-            let next = if good { tracker.visit(at.x + step)? } else { None };
-            (before_last, last) = match next {
+            let halves = |before: T| step.abs() <= T::of(0.5) * before.abs();
+            // Each step is a multiple of the square of the one before; so will be the next.
+            let left = at.slope.and(last).map(|last| step * (step / last).powi(2));
+            if usable && left.is_some_and(|left| tracker.negligible(left, next)) && halves(at.x) {
+                tracker.visit(next)?;
+                break;
+            }
+            converging |= last.is_some_and(|last| step.abs() < T::of(0.01) * last.abs());
+            let tiny = |last: T| {
+                last.abs() <= T::epsilon().sqrt() * at.x.abs() || at.f.abs() <= tracker.rounding
+            };
+            let stalled = |last: T| tiny(last) && step.abs() >= T::of(0.25) * last.abs();
+            if at.slope.is_some() && usable && converging && last.is_some_and(stalled) {
+                break;
+            }
+            let good = usable && before_last.is_none_or(halves);
+            let seen = if good { tracker.visit(next)? } else { None };
+            (before_last, last) = match seen {
                 Some(seen) => (last, Some(seen.x - at.x)),
                 None if tracker.halve()? => {
                     converging = false;
@@ -95,23 +92,15 @@ impl Newton {
                 None => break,
             };
             let next = tracker.last;
-            if next.f == at.f && next.f.abs() <= rounding {
+            // The slope says that the value should have changed, but it has not.
+            let due = at.slope.map_or(T::zero(), |slope| slope * (next.x - at.x)).abs();
+            let same = next.f == at.f && next.f.abs() <= tracker.rounding;
+            if same && due >= T::of(0.5) * next.f.abs() {
                 break;
             }
             chord = (next.f - at.f) / (next.x - at.x);
             at = next;
         }
         Ok(tracker.root())
-    }
-}
-
-/// The error to be expected after a step, from how the last ones have shrunk: each is a
-/// multiple of the square of the one before (Newton), or of the product of the two before
-/// (chord). Infinite as long as too few have been made.
-fn left_after<T: Real>(step: T, last: Option<T>, before_last: Option<T>, quadratic: bool) -> T {
-    match (last, before_last) {
-        (Some(last), _) if quadratic => step * (step / last).powi(2),
-        (Some(_), Some(before_last)) => step * (step / before_last),
-        _ => T::one() / T::zero(),
     }
 }

@@ -5,7 +5,8 @@
 //! errors that carry nothing, and its Brent lacks the least step of the textbook, so that it
 //! ends in some fifty halvings. So it only *proposes* points here. The [`Tracker`] evaluates
 //! them (never twice, never outside the sign change), decides when the root is found, and
-//! ends a run that goes nowhere; then the bracket is halved and a new run begins.
+//! ends a run that goes nowhere; then the bracket is halved and a new run begins. Where a run
+//! comes within the tolerance of a known point, steps outward from it supply the least step.
 
 use super::tracker::Tracker;
 use super::{Bracket, Root, SearchError, Tolerance};
@@ -39,11 +40,13 @@ pub(super) fn run<T: Real>(
     let mut f = |x| (f(x), None);
     let mut tracker = Tracker::new(&mut f, bracket, tolerance)?;
     while !tracker.done() {
-        let ended = propose(method, &mut tracker)?;
-        if ended == Ended::Close && !tracker.done() {
-            tracker.nudge()?;
+        let width = tracker.width();
+        if propose(method, &mut tracker)? == Ended::Close {
+            tracker.close_in()?;
         }
-        if !tracker.done() && !tracker.halve()? {
+        // Whatever a run did, the bracket is at least halved before the next.
+        let halved = tracker.width() <= T::of(0.5) * width;
+        if !tracker.done() && !halved && !tracker.halve()? {
             break;
         }
     }
@@ -55,7 +58,7 @@ pub(super) fn run<T: Real>(
 enum Ended {
     /// It proposed a point within the tolerance of a known one.
     Close,
-    /// It left the sign change, or did nothing new, or ran out of patience.
+    /// It left the sign change, or ran out of patience.
     Stuck,
 }
 
@@ -82,11 +85,14 @@ fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ende
             run.ended = Some(Ok(Ended::Close));
             return scaled(T::zero());
         }
+        let best = run.tracker.best().x;
         match run.tracker.visit(x) {
             Ok(Some(seen)) => {
                 run.fresh = true;
-                if run.tracker.done() {
-                    run.ended = Some(Ok(Ended::Stuck));
+                // A step this short leaves nothing for interpolation to do but follow noise.
+                let short = T::of(1e-3) * (x - best).abs() <= Tolerance::FULL.width(x);
+                if short || run.tracker.done() {
+                    run.ended = Some(Ok(Ended::Close));
                 }
                 scaled(seen.f)
             }
@@ -135,8 +141,11 @@ impl<T: Real> roots::Convergency<Number<T>> for Rule<'_, '_, '_, T> {
 
     fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {
         let mut run = self.run.borrow_mut();
+        // An iteration that only came back to known points has a step below their spacing.
         let idle = !std::mem::replace(&mut run.fresh, false);
-        if run.ended.is_none() && (idle || iteration >= self.patience) {
+        if run.ended.is_none() && idle {
+            run.ended = Some(Ok(Ended::Close));
+        } else if run.ended.is_none() && iteration >= self.patience {
             run.ended = Some(Ok(Ended::Stuck));
         }
         run.ended.is_some()

@@ -21,6 +21,8 @@ pub(super) struct Tracker<'f, T: Real> {
     pub hi: Seen<T>,
     /// The last point evaluated; an end of the bracket before there was any.
     pub last: Seen<T>,
+    /// Rounding of the smaller of the values at the ends of the bracket as given.
+    pub rounding: T,
     evaluations: usize,
 }
 
@@ -38,8 +40,15 @@ impl<'f, T: Real> Tracker<'f, T> {
         }
         let end = |x| Seen { x, f: T::zero(), slope: None };
         let (lo_end, hi_end) = (end(lo), end(hi));
-        let mut it =
-            Self { function, tolerance, lo: lo_end, hi: hi_end, last: lo_end, evaluations: 0 };
+        let mut it = Self {
+            function,
+            tolerance,
+            lo: lo_end,
+            hi: hi_end,
+            last: lo_end,
+            rounding: T::zero(),
+            evaluations: 0,
+        };
         match values {
             Some([f_lo, f_hi]) => {
                 it.lo.f = finite(lo, f_lo)?;
@@ -63,6 +72,7 @@ impl<'f, T: Real> Tracker<'f, T> {
         if (it.lo.f < T::zero()) == (it.hi.f < T::zero()) {
             return Err(SearchError::NoSignChange { lo, hi, f_lo: it.lo.f, f_hi: it.hi.f });
         }
+        it.rounding = T::of(4.0) * T::epsilon() * it.lo.f.abs().min(it.hi.f.abs());
         it.last = it.best();
         if let Some(x) = guess {
             it.visit(x)?;
@@ -82,11 +92,10 @@ impl<'f, T: Real> Tracker<'f, T> {
         let seen = self.call(x)?;
         if self.small(seen.f) {
             (self.lo, self.hi) = (seen, seen);
-        } else if (seen.f < T::zero()) == (self.lo.f < T::zero()) {
-            self.lo = seen;
-        } else {
-            self.hi = seen;
+            return Ok(Some(seen));
         }
+        let below = (seen.f < T::zero()) == (self.lo.f < T::zero());
+        *(if below { &mut self.lo } else { &mut self.hi }) = seen;
         Ok(Some(seen))
     }
 
@@ -101,6 +110,11 @@ impl<'f, T: Real> Tracker<'f, T> {
         self.close(self.lo.x, self.hi.x)
     }
 
+    /// The length of the bracket.
+    pub fn width(&self) -> T {
+        self.hi.x - self.lo.x
+    }
+
     /// Whether two points are as close as was asked for.
     pub fn close(&self, x: T, y: T) -> bool {
         self.negligible(x - y, x.abs().min(y.abs()))
@@ -111,12 +125,22 @@ impl<'f, T: Real> Tracker<'f, T> {
         error.abs() <= self.tolerance.width(x)
     }
 
-    /// Looks at the point just within the tolerance of the best one, on the side where the
-    /// sign changes: if the root is as close as it seems, this closes the bracket on it.
-    pub fn nudge(&mut self) -> Result<(), SearchError<T>> {
-        let best = self.best();
-        let step = T::of(0.75) * self.tolerance.width(best.x);
-        self.visit(if best.x == self.lo.x { best.x + step } else { best.x - step })?;
+    /// Steps from the best point to where the sign changes, by lengths that grow from the
+    /// tolerance: if the root is as close as it seems the first step closes the bracket on it,
+    /// and if noise has hidden it, one of the next does.
+    pub fn close_in(&mut self) -> Result<(), SearchError<T>> {
+        let best = self.best().x;
+        let rightward = best == self.lo.x;
+        let mut step = T::of(0.75) * self.tolerance.width(best);
+        while !self.done() && step < T::of(0.25) * self.width() {
+            let x = if rightward { best + step } else { best - step };
+            let crossed = |it: &Self| if rightward { it.hi.x == x } else { it.lo.x == x };
+            // From x = 0 there is no relative step.
+            if self.visit(x)?.is_none() || crossed(self) {
+                break;
+            }
+            step *= T::of(8.0);
+        }
         Ok(())
     }
 
