@@ -2,7 +2,8 @@
 //!
 //! A flank is the involute of its base circle. By the angle `k` rolled off beyond the pitch
 //! point it is two short formulas; as `y = f(x)` it has no closed form. Lengths in m, pressures
-//! in Pa, load in N/m. The figures are checked against a solution of 25 digits.
+//! in Pa, load in N/m. The figures are checked against a solution of 25 digits
+//! (`tests/data/gear_involute_pitch_point.json`).
 
 use linecontact::{Contact, ContactError, CurvePoint, Load, ParametricProfile};
 

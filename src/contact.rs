@@ -87,7 +87,7 @@ const MIDPOINT: Midpoint = Midpoint::DEFAULT;
 impl<'a, T: Real> Contact<'a, T> {
     /// The scene of two bodies, `lower` (body 1) and `upper` (body 2).
     ///
-    /// Each smooth body is checked once, with the 33 evaluations of
+    /// Each smooth body is checked once, with the 39 evaluations of
     /// [`Piece::new`](crate::profile::Piece::new).
     ///
     /// # Errors
@@ -123,10 +123,10 @@ impl<'a, T: Real> Contact<'a, T> {
         Self { limits, ..self }
     }
 
-    /// Where the search for the limits starts: `[-b, a]`. Without it, in the middle of the
-    /// bodies' common range.
-    pub fn start(self, b: T, a: T) -> Self {
-        Self { start: Some(Interval { left: -b, right: a }), ..self }
+    /// Where the search for the limits starts. Without it, or where it is not on the bodies, in
+    /// the middle of their common range.
+    pub fn start(self, interval: Interval<T>) -> Self {
+        Self { start: Some(interval), ..self }
     }
 
     /// The strategy that inverts `X(k) = x`. Default [`Newton`].
@@ -148,7 +148,13 @@ impl<'a, T: Real> Contact<'a, T> {
     /// [`Solution::pressure`].
     ///
     /// # Errors
-    /// See [`ContactError`].
+    /// [`ContactError::Load`], [`ContactError::Scale`], [`ContactError::Limits`],
+    /// [`ContactError::EdgePressure`], [`ContactError::Segments`] for what was set;
+    /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
+    /// [`ContactError::NoBalance`], [`ContactError::OutsideBodies`] for bodies and loads that
+    /// do not go together; [`ContactError::Profile`], [`ContactError::Inversion`] from sampling
+    /// the bodies; [`ContactError::LimitSearch`], [`ContactError::EdgePressureNotMet`],
+    /// [`ContactError::Overflow`] from the search.
     pub fn solve(&self, load: Load<T>) -> Result<Solution<'_, T>, ContactError<T>> {
         let load = load.per_length();
         let kappa = self.kappa;

@@ -64,7 +64,7 @@ pub enum ContactError<T: Real> {
         source: SearchError<T>,
     },
     /// The load is not a positive finite number.
-    #[error("the load is {load:?}: limits can be sought for a positive finite load only")]
+    #[error("the load is {load:?}: it must be finite, and positive where limits are sought")]
     Load {
         /// Load per unit length.
         load: T,
@@ -84,7 +84,7 @@ pub enum ContactError<T: Real> {
     },
     /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
     #[error(
-        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B finite"
+        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B finite, distances shorter than the bodies"
     )]
     EdgePressure {
         /// Which of them.
@@ -132,7 +132,7 @@ pub enum ContactError<T: Real> {
     /// The forces on a contact are beyond the range of the number type.
     #[error(
         "the forces on a contact from {:?} to {:?} overflow: choose units in which they are \
-         nearer to 1", interval.left, interval.right
+         nearer to 1, or give a start nearer to the contact", interval.left, interval.right
     )]
     Overflow {
         /// The contact.
@@ -164,7 +164,7 @@ pub enum ContactError<T: Real> {
     /// Zero segments, or more points than can be counted.
     #[error(
         "{segments} segments with {extrapolations} extrapolations: give at least one segment, and \
-         fewer than 2^32 points at the finest level"
+         fewer than 2^24 points at the finest level"
     )]
     Segments {
         /// N.

@@ -92,7 +92,7 @@ impl<'a, T: Real> Gap<'a, T> {
 
     /// A sampler, which takes values of the slope one after the other.
     pub fn sampler(&self) -> Sampler<'_, T> {
-        Sampler { gap: self, near: [None; 2], cost: Cost::default() }
+        Sampler { gap: self, near: [None; 2], cost: Cost::default(), missed: T::zero() }
     }
 }
 
@@ -120,6 +120,8 @@ pub struct Sampler<'g, T: Real> {
     near: [Option<Near<T>>; 2],
     /// What it has cost so far.
     pub cost: Cost,
+    /// The largest `|X(k) - x|` that the inversions have left.
+    pub(crate) missed: T,
 }
 
 /// The last point of a curve, from which the next inversion starts.
@@ -209,7 +211,11 @@ impl<T: Real> Sampler<'_, T> {
                 if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
             let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
             match gap.inversion.find_with_slope(&mut f, &bracket) {
-                Ok(root) => root.x,
+                Ok(root) if root.x >= lo && root.x <= hi => root.x,
+                Ok(root) => {
+                    let source = SearchError::Astray { x: root.x, lo, hi };
+                    return Err(ContactError::Inversion { body, x, source });
+                }
                 Err(SearchError::NotFinite { x: k, value }) => {
                     let source = ProfileError::NotFinite { quantity: "X", k, value };
                     return Err(ContactError::Profile { body, source });
@@ -222,6 +228,7 @@ impl<T: Real> Sampler<'_, T> {
             let source = ProfileError::TurnsBack { k, x: point.x };
             return Err(ContactError::Profile { body, source });
         }
+        self.missed = self.missed.max((found.point.x - x).abs());
         self.near[body as usize] = Some(found);
         Ok(found)
     }

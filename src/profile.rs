@@ -114,6 +114,18 @@ macro_rules! forward {
             fn pieces(&self) -> Vec<Piece<'_, T>> {
                 (**self).pieces()
             }
+            fn x(&self, k: T) -> T {
+                (**self).x(k)
+            }
+            fn y(&self, k: T) -> T {
+                (**self).y(k)
+            }
+            fn dx(&self, k: T) -> T {
+                (**self).dx(k)
+            }
+            fn dy(&self, k: T) -> T {
+                (**self).dy(k)
+            }
         }
     )*};
 }
@@ -124,7 +136,7 @@ forward!(&P, Box<P>, Arc<P>);
 pub enum ProfileError<T: Real> {
     /// The range of `k` is empty, reversed, or not finite.
     #[error(
-        "k cannot run from {from:?} to {to:?}: the domain needs two finite ends in rising order"
+        "k cannot run from {from:?} to {to:?}: the domain needs two finite ends in rising order, a finite distance apart"
     )]
     Domain {
         /// Start of the range.
@@ -141,6 +153,21 @@ pub enum ProfileError<T: Real> {
         k: T,
         /// What it is there.
         value: T,
+    },
+    /// A derivative is not that of its function.
+    #[error(
+        "{quantity} is {given:?} at k = {k:?}, but differences give {difference:?}: check the \
+         formula of the derivative"
+    )]
+    Derivative {
+        /// `X'` or `Y'`.
+        quantity: &'static str,
+        /// Where.
+        k: T,
+        /// What the profile says.
+        given: T,
+        /// The central difference.
+        difference: T,
     },
     /// `X` does not rise, or fall, all the way.
     #[error(

@@ -85,6 +85,8 @@ pub struct Moments<T> {
     pub first: T,
     /// `(1/π) ∫ |g| dθ`, against which the rounding of the other two is measured.
     pub size: T,
-    /// Estimated error of the other two.
+    /// Estimated error of the first two.
     pub error: T,
+    /// The largest `|X(k) - x|` that the inversions have left; a length.
+    pub inversion: T,
 }

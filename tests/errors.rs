@@ -119,20 +119,25 @@ fn nan_from_the_user_comes_back_with_its_place() {
         (
             |k| CurvePoint {
                 x: if (0.21..0.23).contains(&k) { f64::NAN } else { k },
-                y: 0.0,
+                y: k * k / 2.0,
                 dx: 1.0,
                 dy: k,
             },
             "X",
         ),
         (
-            |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: if k > 0.21 { f64::NAN } else { k } },
+            |k| CurvePoint {
+                x: k,
+                y: k * k / 2.0,
+                dx: 1.0,
+                dy: if k > 0.21 { f64::NAN } else { k },
+            },
             "the slope Y'/X'",
         ),
         (
             |k| CurvePoint {
                 x: k,
-                y: 0.0,
+                y: k * k / 2.0,
                 dx: if (0.21..0.23).contains(&k) { f64::NAN } else { 1.0 },
                 dy: k,
             },
@@ -166,7 +171,7 @@ fn limits_out_of_order_or_off_the_bodies() {
         let fixed = contact.clone().limits(Limits::Fixed(Interval { left, right }));
         let error = fixed.solve(Load::PerLength(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::Limits { .. }), "{error}");
-        let started = contact.clone().start(-left, right);
+        let started = contact.clone().start(Interval { left, right });
         let error = started.solve(Load::PerLength(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::Limits { .. }), "{error}");
     }
@@ -255,7 +260,7 @@ proptest! {
         let contact = if mode % 2 == 0 { contact.kappa(kappa) } else { contact };
         let contact = match mode / 2 {
             0 => contact,
-            1 => contact.start(start.0, start.1),
+            1 => contact.start(Interval { left: start.0, right: start.1 }),
             _ => contact.limits(Limits::EdgePressure(EdgePressure::zero(eps, tolerance))),
         };
         if let Ok(solution) = contact.solve(Load::PerLength(load)) {

@@ -301,3 +301,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn ends_of_any_size_are_no_trap() {
+    // The length of the first bracket overflows; the second goes down to the smallest number;
+    // in the third the chord says that the root is at the flat end.
+    let tiny = f64::MIN_POSITIVE / 4.0;
+    for (search, name) in all(Tolerance::FULL).iter().zip(NAMES) {
+        let found = search.find(&mut |x| x - 1.0, &Bracket::new(-1.7e308, 1.7e308)).unwrap();
+        assert!((found.x - 1.0).abs() < 1e-15, "{name}: {found:?}");
+        let mut step = |x: f64| if x < 0.0 { -1.0 } else { 1.0 + x };
+        let found = search.find(&mut step, &Bracket::new(-tiny, 3.0 * tiny)).unwrap();
+        assert!(found.x.abs() <= 1e-323, "{name}: {found:?}");
+        let mut steep = |x: f64| (100.0 * x).exp() - 1e-20;
+        let found = search.find(&mut steep, &Bracket::new(-1.0, 1.0)).unwrap();
+        assert!((found.x / (1e-20f64.ln() / 100.0) - 1.0).abs() < 1e-15, "{name}: {found:?}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use crate::scenes::{self, Scene};
 use crate::{NAMES, Tally, searches};
-use linecontact::{Contact, ContactError, Cost, Load};
+use linecontact::{Contact, ContactError, Cost, Interval, Load};
 
 /// What became of one contact.
 struct Outcome {
@@ -103,7 +103,10 @@ pub fn poor_starts() -> Result<Tally, ContactError<f64>> {
             let mut outcomes = Vec::new();
             for search in &searches() {
                 let contact = scene.contact()?.search(&**search);
-                let outcome = solve(&scene, &contact.start(reach - middle, reach + middle));
+                let outcome = solve(
+                    &scene,
+                    &contact.start(Interval { left: middle - reach, right: middle + reach }),
+                );
                 print!(" {:>9}", outcome.cost.evaluations);
                 outcomes.push(outcome);
             }

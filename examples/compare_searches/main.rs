@@ -59,9 +59,9 @@ fn main() -> Result<(), ContactError<f64>> {
 
     println!();
     println!("# Evaluations, geometric mean over the rows of a table, the fewest first");
-    println!("X(k) = x from the whole domain:     {}", cold.winner());
-    println!("limits, from the solver's start:    {}", limits.winner());
-    println!("limits, from poor starts:           {}", poor.winner());
+    println!("X(k) = x from the whole domain:      {}", cold.winner());
+    println!("limits, from the solver's start:     {}", limits.winner());
+    println!("limits, from poor starts:            {}", poor.winner());
     println!("contact, by the search that inverts: {}", warm.winner());
     assert_eq!([cold.failures, limits.failures, poor.failures, warm.failures], [0; 4]);
     Ok(())

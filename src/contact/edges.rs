@@ -11,7 +11,7 @@ use crate::{ContactError, Interval, Real};
 /// `P ≈ p₀ sqrt(2 ε_a/L)`. With A = 0 the limits come out too wide, by about 2 ε_a: the pressure
 /// then ends in a small negative singularity. And the paper's quadrature needs some segments
 /// between the two: a distance below a segment's width 2L/N gains nothing.
-/// [`Limits::Free`](crate::Limits::Free) has neither flaw, and costs a tenth.
+/// [`Limits::Free`](crate::Limits::Free) has neither flaw, and costs a twentieth or less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgePressure<T> {
     /// A, the pressure wanted at `a - ε_a`; a pressure.
@@ -100,7 +100,7 @@ pub(super) struct Excess<T> {
     /// By what factor the width of a round body should change, whose load goes with its square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
-    pub error: Option<T>,
+    pub error: T,
 }
 
 impl<T: Real> Excess<T> {
@@ -128,7 +128,12 @@ impl<T: Real> Excess<T> {
         let spread = self.spread();
         let positive = self.carried.filter(|&carried| carried > T::zero());
         let log = positive.map(|carried| (T::of(0.5) * spread / carried).ln_1p());
-        log.filter(|log| log.is_finite()).unwrap_or(spread)
+        match (log, self.carried) {
+            (Some(log), _) if log.is_finite() => log,
+            // Nothing is carried: larger than any logarithm.
+            (_, Some(_)) => T::epsilon().recip(),
+            (_, None) => spread,
+        }
     }
 
     fn above(&self, floor: T, value: T) -> T {
@@ -145,6 +150,18 @@ impl<T: Real> Edges<T> {
         match *self {
             Self::Strength { kappa, .. } | Self::Pressure { kappa, .. } => kappa,
         }
+    }
+
+    /// Whether the conditions can be looked at on bodies that cover this range of x.
+    pub fn check(&self, range: [T; 2]) -> Result<(), ContactError<T>> {
+        if let Self::Pressure { wanted, .. } = self {
+            for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
+                if value >= range[1] - range[0] {
+                    return Err(ContactError::EdgePressure { name, value });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// A contact must be wider than this.
@@ -178,7 +195,7 @@ impl<T: Real> Edges<T> {
                     floor: stiffness * m.error,
                     carried: Some(carried),
                     growth,
-                    error: Some(m.error / m.first.abs()),
+                    error: m.error / m.first.abs() + m.inversion / on.half_width(),
                 })
             }
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
@@ -186,17 +203,19 @@ impl<T: Real> Edges<T> {
             Self::Pressure { kappa, load, wanted } => {
                 let transform = engine.transform(on, cost)?;
                 let [x_a, x_b] = wanted.places(on);
+                let mut error = T::zero();
                 let mut excess = |x, pressure| -> Result<T, ContactError<T>> {
-                    let edge = T::pi() * on.edge_root(x);
-                    let wanted = edge * pressure;
-                    Ok(load - kappa * transform.at(x, cost)?.value / T::pi() - wanted)
+                    let integral = transform.at(x, cost)?;
+                    error += kappa * integral.error / T::pi() / load;
+                    let wanted = T::pi() * on.edge_root(x) * pressure;
+                    Ok(load - kappa * integral.value / T::pi() - wanted)
                 };
                 let (at_a, at_b) = (excess(x_a, wanted.at_a)?, excess(x_b, wanted.at_b)?);
                 let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
                 let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
                 let tolerance_a = tolerance(x_a, wanted.tolerance_a);
                 let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
-                Ok(Excess { at_a, at_b, floor, carried: None, growth, error: None })
+                Ok(Excess { at_a, at_b, floor, carried: None, growth, error })
             }
         }
     }

@@ -25,34 +25,33 @@ pub(super) fn first_contact<T: Real>(
     }
 }
 
-/// Widens until the slope is negative on the left and positive on the right.
+/// Widens until the slope is negative on the left and positive on the right. The ends of the
+/// bodies are approached but not reached: the slope of a round body may be infinite there.
 fn widen<T: Real>(
     sampler: &mut Sampler<'_, T>,
     whole: Interval<T>,
     start: Option<Interval<T>>,
 ) -> Result<Signs<T>, ContactError<T>> {
-    let zero = T::zero();
-    // Not the very ends: the slope of a round body may be infinite there.
-    let margin = T::of(1e-3) * whole.half_width();
-    let within = |x: T| x.max(whole.left + margin).min(whole.right - margin);
+    let (zero, half) = (T::zero(), T::of(0.5));
     let quarter = T::of(0.25) * whole.half_width();
     let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
-    let start = start.unwrap_or(middle);
+    let inside = |start: &Interval<T>| whole.contains(start.left) && whole.contains(start.right);
+    let start = start.filter(inside).unwrap_or(middle);
 
-    let (mut x, mut step) = ([within(start.left), within(start.right)], start.half_width());
+    let (mut x, mut step) = ([start.left, start.right], start.half_width());
     let mut slope = [sampler.slope(x[0])?, sampler.slope(x[1])?];
     while !(slope[0] <= zero && slope[1] >= zero && slope[0] < slope[1]) {
-        let closes_outward = slope[0] > zero && slope[1] < zero;
         let before = x;
         step *= T::of(2.0);
+        // Outward by the step, or half the way to the end.
         if slope[0] >= zero {
-            x[0] = within(x[0] - step);
+            x[0] = (x[0] - step).max(half * x[0] + half * whole.left);
         }
         if slope[1] <= zero {
-            x[1] = within(x[1] + step);
+            x[1] = (x[1] + step).min(half * x[1] + half * whole.right);
         }
-        if closes_outward || x == before {
-            return Err(ContactError::NoFirstContact { x: before, slope });
+        if x == before || !(whole.contains(x[0]) && whole.contains(x[1])) {
+            return scan(sampler, start, ContactError::NoFirstContact { x: before, slope });
         }
         for i in 0..2 {
             if x[i] != before[i] {
@@ -61,6 +60,26 @@ fn widen<T: Real>(
         }
     }
     Ok(Signs { x, slope })
+}
+
+/// Looks between the ends of the start for what was not found outside it.
+fn scan<T: Real>(
+    sampler: &mut Sampler<'_, T>,
+    start: Interval<T>,
+    not_found: ContactError<T>,
+) -> Result<Signs<T>, ContactError<T>> {
+    const STEPS: usize = 32;
+    let step = (start.right - start.left) / T::count(STEPS);
+    let mut left = (start.left, sampler.slope(start.left)?);
+    for i in 1..=STEPS {
+        let x = start.left + step * T::count(i);
+        let right = (x.min(start.right), sampler.slope(x.min(start.right))?);
+        if left.1 <= T::zero() && right.1 >= T::zero() && left.1 < right.1 {
+            return Ok(Signs { x: [left.0, right.0], slope: [left.1, right.1] });
+        }
+        left = right;
+    }
+    Err(not_found)
 }
 
 /// A wedge touches at a joint, where the slope has no zero but jumps through it. Where no joint

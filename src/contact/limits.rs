@@ -50,6 +50,7 @@ pub(super) fn find<T: Real>(
         return Err(ContactError::Load { load });
     }
     let range = contact.gap.range();
+    edges.check(range)?;
     let mut sampler = contact.gap.sampler();
     let first = first_contact(&mut sampler, contact.gap.joints(), range, contact.start);
     *cost += sampler.cost;
@@ -83,7 +84,10 @@ pub(super) fn find<T: Real>(
             None
         }
     };
-    Ok(Found { interval: trial.on, strengths, error: trial.excess.error })
+    // What the quadrature leaves open, and what the search has left of the conditions.
+    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / load;
+    let error = trial.excess.error + missed;
+    Ok(Found { interval: trial.on, strengths, error: Some(error) })
 }
 
 /// A contact tried, and by how much it misses the conditions.
@@ -379,6 +383,10 @@ impl<T: Real> Search<'_, T> {
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
+        if let Edges::Pressure { wanted, .. } = self.edges {
+            let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
+            return met.err().unwrap_or(self.no_balance(on.half_width()));
+        }
         match self.engine.moments(on) {
             Ok(m) => {
                 let carried = self.edges.kappa() * on.half_width() * m.first;

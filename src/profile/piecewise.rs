@@ -55,6 +55,9 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_tolerance(parts: Vec<P>, tolerance: T) -> Result<Self, PiecewiseError<T>> {
+        if !(tolerance.is_finite() && tolerance >= T::zero()) {
+            return Err(PiecewiseError::Tolerance { tolerance });
+        }
         let mut ends = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
             let Piece { k, x, .. } =
@@ -145,6 +148,12 @@ pub enum PiecewiseError<T: Real> {
         piece: usize,
         /// What is wrong with it.
         source: ProfileError<T>,
+    },
+    /// The tolerance is negative, NaN or infinite.
+    #[error("{tolerance:?} is no tolerance: give a finite number that is not negative")]
+    Tolerance {
+        /// The tolerance as given.
+        tolerance: T,
     },
     /// There are no pieces.
     #[error("a piecewise profile needs at least one piece")]

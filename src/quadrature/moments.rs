@@ -58,6 +58,7 @@ pub(super) fn moments<T: Real>(
     angles.extend(inside.map(|&x| on.angle(x)));
     angles.push(T::pi());
 
+    sampler.missed = T::zero();
     let mut panels = Vec::with_capacity(angles.len() - 1);
     for ends in angles.windows(2).filter(|ends| ends[0] < ends[1]) {
         let mut panel = Panel::new(ends[0], ends[1]);
@@ -75,7 +76,7 @@ pub(super) fn moments<T: Real>(
     }
     let [mean, first, size] = [0, 1, 2].map(|i| total(&panels, |panel| panel.sums[i]));
     let error = total(&panels, Panel::plateau).max(T::of(4.0) * T::epsilon() * size);
-    Ok(Moments { mean, first, size, error })
+    Ok(Moments { mean, first, size, error, inversion: sampler.missed })
 }
 
 fn total<T: Real>(panels: &[Panel<T>], part: impl Fn(&Panel<T>) -> T) -> T {

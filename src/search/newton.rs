@@ -57,14 +57,28 @@ impl Newton {
         // The last two steps since the last halving, and whether they shrank as they should.
         let (mut last, mut before_last, mut converging) = (None, None, false);
         let mut at = tracker.last;
-        let mut chord = (tracker.hi.f - tracker.lo.f) / tracker.width();
+        let mut chord = (tracker.hi.f - tracker.lo.f) / (tracker.hi.x - tracker.lo.x);
         while !tracker.done() {
             let step = -at.f / at.slope.unwrap_or(chord);
             let next = at.x + step;
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
             if usable && tracker.negligible(step, at.x) {
-                break;
+                if at.slope.is_some() {
+                    break;
+                }
+                // A chord over a steep end makes any step small; only a closed bracket is proof.
+                let before = tracker.half_width();
+                tracker.close_in()?;
+                if tracker.done() {
+                    break;
+                }
+                if tracker.half_width() >= T::of(0.6) * before && !tracker.halve()? {
+                    break;
+                }
+                chord = (tracker.hi.f - tracker.lo.f) / (tracker.hi.x - tracker.lo.x);
+                (before_last, last, at) = (None, None, tracker.best());
+                continue;
             }
             let halves = |before: T| step.abs() <= T::of(0.5) * before.abs();
             // Each step is a multiple of the square of the one before; so will be the next.

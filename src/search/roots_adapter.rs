@@ -40,12 +40,12 @@ pub(super) fn run<T: Real>(
     let mut f = |x| (f(x), None);
     let mut tracker = Tracker::new(&mut f, bracket, tolerance)?;
     while !tracker.done() {
-        let width = tracker.width();
+        let width = tracker.half_width();
         if propose(method, &mut tracker)? == Ended::Close {
             tracker.close_in()?;
         }
-        // Whatever a run did, the bracket is at least halved before the next.
-        let halved = tracker.width() <= T::of(0.5) * width;
+        // Whatever a run did, the bracket is about halved before the next.
+        let halved = tracker.half_width() < T::of(0.6) * width;
         if !tracker.done() && !halved && !tracker.halve()? {
             break;
         }

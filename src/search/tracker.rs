@@ -110,9 +110,9 @@ impl<'f, T: Real> Tracker<'f, T> {
         self.close(self.lo.x, self.hi.x)
     }
 
-    /// The length of the bracket.
-    pub fn width(&self) -> T {
-        self.hi.x - self.lo.x
+    /// Half the length of the bracket, which is finite whatever its ends.
+    pub fn half_width(&self) -> T {
+        T::of(0.5) * self.hi.x - T::of(0.5) * self.lo.x
     }
 
     /// Whether two points are as close as was asked for.
@@ -132,7 +132,7 @@ impl<'f, T: Real> Tracker<'f, T> {
         let best = self.best().x;
         let rightward = best == self.lo.x;
         let mut step = T::of(0.75) * self.tolerance.width(best);
-        while !self.done() && step < T::of(0.25) * self.width() {
+        while !self.done() && step < T::of(0.5) * self.half_width() {
             let x = if rightward { best + step } else { best - step };
             let crossed = |it: &Self| if rightward { it.hi.x == x } else { it.lo.x == x };
             // From x = 0 there is no relative step.
