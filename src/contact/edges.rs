@@ -125,14 +125,16 @@ impl<T: Real> Excess<T> {
     /// The spread on a scale on which the width is found in fewer steps: the logarithm of the
     /// load over the load carried, which falls evenly whatever the shape of the bodies.
     pub fn deficit(&self) -> T {
-        let spread = self.spread();
-        let positive = self.carried.filter(|&carried| carried > T::zero());
-        let log = positive.map(|carried| (T::of(0.5) * spread / carried).ln_1p());
-        match (log, self.carried) {
-            (Some(log), _) if log.is_finite() => log,
+        let (half, spread) = (T::of(0.5), self.spread());
+        match self.carried {
+            Some(carried) if carried > T::zero() => {
+                let excess = half * spread / carried;
+                // Close to zero from the difference, elsewhere from the ratio, which may be huge.
+                if excess.abs() < half { excess.ln_1p() } else { self.growth.ln() / half }
+            }
             // Nothing is carried: larger than any logarithm.
-            (_, Some(_)) => T::epsilon().recip(),
-            (_, None) => spread,
+            Some(_) => T::epsilon().recip(),
+            None => spread,
         }
     }
 

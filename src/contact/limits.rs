@@ -168,9 +168,9 @@ impl<T: Real> Search<'_, T> {
         let mut tries = 0;
         loop {
             tries += 1;
-            let trial = match self.place(half_width)? {
-                Placed::At(trial) => trial,
-                Placed::Adrift => {
+            let trial = match (self.place(half_width)?, narrow) {
+                (Placed::At(trial), _) => trial,
+                (Placed::Adrift, _) => {
                     adrift = Some(half_width);
                     let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
                     half_width = half * from + half * half_width;
@@ -179,18 +179,18 @@ impl<T: Real> Search<'_, T> {
                     }
                     continue;
                 }
-                Placed::Beyond(end) if narrow.is_some() => {
-                    let trial = self.pin(end)?;
+                (Placed::Beyond(end), Some(narrow)) => {
+                    let trial = self.pin(end, narrow.on)?;
                     if trial.excess.spread() > zero {
                         return Err(self.too_short(end, trial.on));
                     }
                     trial
                 }
-                Placed::Beyond(_) if half_width * half > least && tries < MOST_WIDTHS => {
+                (Placed::Beyond(_), None) if half_width * half > least && tries < MOST_WIDTHS => {
                     half_width *= half;
                     continue;
                 }
-                Placed::Beyond(_) => return Err(self.no_balance(half_width)),
+                (Placed::Beyond(_), None) => return Err(self.no_balance(half_width)),
             };
             let (last, growth) = (trial.on.half_width(), trial.excess.growth);
             let spread = trial.excess.spread();
@@ -309,14 +309,14 @@ impl<T: Real> Search<'_, T> {
         Placed::At(trial)
     }
 
-    /// The balanced contact that reaches just to one end of the bodies.
-    fn pin(&mut self, end: usize) -> Result<Trial<T>, ContactError<T>> {
+    /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
+    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
         let (origin, range, room) = (self.origin, self.range, self.room());
         let on = |other: T| match end {
             0 => Interval { left: range[0], right: origin + other },
             _ => Interval { left: origin - other, right: range[1] },
         };
-        let least = T::of(1e-3) * room[1 - end];
+        let least = if end == 0 { narrow.right - origin } else { origin - narrow.left };
         let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
         let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
         if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {

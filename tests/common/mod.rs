@@ -85,7 +85,7 @@ pub fn join(pieces: Vec<Profile>) -> Profile {
 }
 
 /// |x|^n/n, in two pieces.
-fn power(n: f64) -> Profile {
+pub fn power(n: f64) -> Profile {
     join(vec![
         graph(-2.0, 0.0, move |x| [(-x).powf(n) / n, -(-x).powf(n - 1.0)]),
         graph(0.0, 2.0, move |x| [x.powf(n) / n, x.powf(n - 1.0)]),
