@@ -133,7 +133,8 @@ pub struct Tolerance {
     pub relative: f64,
     /// A point with `|f(x)|` up to this counts as the root. Default 0: no such test.
     pub residual: f64,
-    /// Evaluations of the function after which the search gives up. Default 2200, which
+    /// Evaluations of the function after which the search gives up (the ends of the bracket,
+    /// where their values are not known, are looked at in any case). Default 2200, which
     /// is what bisection needs at worst to reach any `f64` from any bracket.
     pub max_evaluations: usize,
 }

@@ -6,6 +6,10 @@ use crate::quadrature::{Engine, Estimate, Quadrature, Transform};
 use crate::{ContactError, Interval, Real};
 
 /// A solved contact: its limits, and on request its pressure.
+///
+/// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
+/// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
+/// overlap outside, and neither is looked for.
 pub struct Solution<'s, T: Real> {
     gap: &'s Gap<'s, T>,
     engine: Box<dyn Engine<T> + 's>,

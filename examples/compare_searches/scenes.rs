@@ -1,10 +1,8 @@
 //! Contacts whose limits are known.
 
-use crate::curves::{self, Example};
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
+use crate::curves::{self, Example, Profile};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Piecewise};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-type Profile = Box<dyn ParametricProfile<f64>>;
 
 /// Two bodies, their load, and the limits they should find.
 pub struct Scene {
