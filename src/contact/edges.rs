@@ -187,6 +187,9 @@ impl<T: Real> Edges<T> {
             Self::Strength { kappa, load } => {
                 let m = engine.moments(on)?;
                 let stiffness = kappa * on.half_width();
+                // Far from x = 0 the abscissae themselves are rounded.
+                let largest = on.left.abs().max(on.right.abs());
+                let rounding = T::epsilon() * largest / on.half_width();
                 let carried = stiffness * m.first;
                 let balance = stiffness * m.mean;
                 // By roots, so as not to underflow.
@@ -194,10 +197,10 @@ impl<T: Real> Edges<T> {
                 Ok(Excess {
                     at_a: load - carried - balance,
                     at_b: load - carried + balance,
-                    floor: stiffness * m.error,
+                    floor: stiffness * m.error.max(rounding * m.size),
                     carried: Some(carried),
                     growth,
-                    error: m.error / m.first.abs() + m.inversion / on.half_width(),
+                    error: m.error / m.first.abs() + m.inversion / on.half_width() + rounding,
                 })
             }
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is

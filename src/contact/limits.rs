@@ -20,6 +20,7 @@
 use super::Contact;
 use super::edges::{Edges, Excess};
 use super::first_contact::first_contact;
+use super::stride::{Stride, ulps};
 use crate::gap::Cost;
 use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch};
@@ -157,12 +158,7 @@ impl<T: Real> Search<'_, T> {
         let most = half * (self.range[1] - self.range[0]);
         let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
-        // The load goes with this power of the width, as far as the last two trials show.
-        let mut exponent = T::of(2.0);
-        let mut before: Option<Trial<T>> = None;
-        // By which power of the expected factor to change the width, so as to pass the root: at
-        // first a little more than one, and by no more than a tenth.
-        let (mut power, mut beyond) = (T::of(1.1), T::of(1.1));
+        let mut stride = Stride::new();
         // The least width known to have no balance.
         let mut adrift: Option<T> = None;
         let mut tries = 0;
@@ -192,34 +188,21 @@ impl<T: Real> Search<'_, T> {
                 }
                 (Placed::Beyond(_), None) => return Err(self.no_balance(half_width)),
             };
-            let (last, growth) = (trial.on.half_width(), trial.excess.growth);
-            let spread = trial.excess.spread();
+            let (last, spread) = (trial.on.half_width(), trial.excess.spread());
             if spread == zero {
                 return Ok([trial, trial]);
             }
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(last));
             }
-            if let Some(before) = before.replace(trial) {
-                let wider = last / before.on.half_width();
-                let seen = T::of(-2.0) * (growth / before.excess.growth).ln() / wider.ln();
-                exponent = if seen > T::of(0.5) { seen.min(T::of(40.0)) } else { exponent };
-            }
-            let pull = growth.powf(T::of(2.0) / exponent);
-            half_width = if spread > zero {
-                narrow = Some(trial);
-                last * pull.powf(power).min(pull * beyond).max(T::one() + ulps())
-            } else {
-                wide = Some(trial);
-                last * pull.powf(power).max(pull / beyond).min(T::one() - ulps())
-            };
-            (power, beyond) = (power + power, beyond.powi(4));
+            half_width = stride.next(last, trial.excess.growth, spread > zero);
+            *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
             match (narrow, wide) {
                 // A wide bracket is narrowed from the end last tried, as long as that helps.
                 (Some(narrow), Some(wide)) => {
                     let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                     let inside = half_width > from && half_width < to;
-                    if !inside || to <= T::of(1.5) * from || power > T::of(20.0) {
+                    if !inside || to <= T::of(1.5) * from || stride.is_long() {
                         return Ok([narrow, wide]);
                     }
                 }
@@ -399,9 +382,4 @@ impl<T: Real> Search<'_, T> {
 
 fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Excess<T>) -> T) -> Trial<T> {
     if condition(&other.excess).abs() < condition(&one.excess).abs() { other } else { one }
-}
-
-/// A relative step that is certain to change a number.
-fn ulps<T: Real>() -> T {
-    T::of(8.0) * T::epsilon()
 }

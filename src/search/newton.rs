@@ -64,10 +64,11 @@ impl Newton {
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
             if usable && tracker.negligible(step, at.x) {
-                if at.slope.is_some() {
+                if at.slope.is_some() && last.is_some() {
                     break;
                 }
-                // A chord over a steep end makes any step small; only a closed bracket is proof.
+                // A chord over a steep end makes any step small, and so does a slope that is
+                // steep only here, or wrong: then only a closed bracket is proof.
                 let before = tracker.half_width();
                 tracker.close_in()?;
                 if tracker.done() {

@@ -67,7 +67,8 @@ fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ende
     let (lo, hi) = (Number(tracker.lo.x), Number(tracker.hi.x));
     // Scaled to 1 and kept off 0, no product of two values can underflow and lose its sign.
     let unit = tracker.lo.f.abs().max(tracker.hi.f.abs());
-    let least = T::epsilon() * T::epsilon() * T::epsilon().sqrt();
+    let most = T::max_value().unwrap_or_else(|| T::epsilon().powi(-4));
+    let least = T::of(4.0) / most.sqrt();
     let scaled = |f: T| Number((f / unit).abs().max(least).copysign(f));
 
     let run = RefCell::new(Run { tracker, ended: None, fresh: false });
