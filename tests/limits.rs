@@ -287,8 +287,8 @@ fn a_flat_body_is_never_evaluated() {
     let solution = contact.solve(Load::PerLength(0.02)).unwrap();
     let cost = solution.cost();
     assert_eq!(calls.load(Ordering::Relaxed) - before, cost.evaluations, "the count is exact");
-    // x = k, so that one evaluation inverts it, or two; the flat would have doubled that.
-    assert!(cost.evaluations < cost.samples * 3 / 2, "{cost:?}");
+    // x = k, so that one evaluation inverts it; only the flat could have doubled that.
+    assert!(cost.evaluations <= cost.samples + 4, "{cost:?}");
 }
 
 #[test]

@@ -64,7 +64,8 @@ impl Newton {
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
             if usable && tracker.negligible(step, at.x) {
-                if at.slope.is_some() && last.is_some() {
+                let confirmed = last.is_some() || at.f.abs() <= tracker.rounding;
+                if at.slope.is_some() && confirmed {
                     break;
                 }
                 // A chord over a steep end makes any step small, and so does a slope that is
