@@ -87,7 +87,8 @@ pub struct Bracket<T> {
     pub lo: T,
     /// Upper end.
     pub hi: T,
-    /// The function at `lo` and `hi`, where they are known: two evaluations saved.
+    /// The function at `lo` and `hi`, where they are known: two evaluations saved. They are
+    /// believed.
     pub values: Option<[T; 2]>,
     /// Where to look first. Ignored unless it lies inside.
     pub guess: Option<T>,
