@@ -1,6 +1,7 @@
 //! The one scalar bound of the crate.
 
 use nalgebra::RealField;
+use num_traits::FromPrimitive;
 
 /// A real number the solver can work in: `f32`, `f64`, and any other `Copy` type that
 /// is a [`nalgebra::RealField`].
@@ -14,7 +15,7 @@ pub trait Real: RealField + Copy {
 
     /// A count as a number of this type.
     fn count(n: usize) -> Self {
-        Self::from_usize(n).unwrap_or_else(|| Self::of(n as f64))
+        FromPrimitive::from_usize(n).unwrap_or_else(|| Self::of(n as f64))
     }
 
     /// Distance from 1 to the next larger number of this type.

@@ -47,8 +47,9 @@ fn the_error_estimate_covers_the_error() {
         // Half an ulp of the printed limits themselves is not the solver's to answer for.
         let rounding = f64::EPSILON * want.a.abs().max(want.b.abs());
         assert!(error <= 4.0 * estimate + rounding, "{}: {error:e} > {estimate:e}", scene.name);
-        // The limits of hertz_offcentre are numbers 1.5e-8 apart.
-        assert!(estimate <= 1e-7 * want.half_width(), "{}: no confidence at all", scene.name);
+        // No idle doubt either, but for the rounding of x where the contact is far from 0.
+        let most = 1e-9 * want.half_width() + 4.0 * rounding;
+        assert!(estimate <= most, "{}: {estimate:e}", scene.name);
     }
 }
 

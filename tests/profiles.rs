@@ -276,3 +276,24 @@ fn the_papers_derivatives_are_right() {
         }
     }
 }
+
+#[test]
+fn fine_waves_and_kinks_are_no_wrong_derivatives() {
+    // In single precision the first difference of the check is longer than these waves.
+    let wavy = Curve::new([-3.0f32, 3.0], |k: f32| CurvePoint {
+        x: k,
+        y: k * k / 2.0 + (100.0 * k).cos() / 1e3,
+        dx: 1.0,
+        dy: k - (100.0 * k).sin() / 10.0,
+    });
+    assert!(Piece::new(&wavy).is_ok());
+    // A kink within the first difference, next to where the check looks.
+    let at = 0.2763 + 1e-6;
+    let kinked = Curve::new([0.0, 1.0], move |k: f64| CurvePoint {
+        x: k,
+        y: (k - at).abs(),
+        dx: 1.0,
+        dy: (k - at).signum(),
+    });
+    assert!(Piece::new(&kinked).is_ok());
+}

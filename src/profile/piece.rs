@@ -79,25 +79,33 @@ fn check_derivatives<T: Real>(
     k: T,
     length: T,
 ) -> Result<(), ProfileError<T>> {
-    // The cube root of the rounding unit balances truncation and rounding of the difference.
-    let h = T::epsilon().cbrt() * length;
-    let (before, at, after) = (curve.at(k - h), curve.at(k), curve.at(k + h));
-    let differences = [("X'", at.dx, after.x - before.x), ("Y'", at.dy, after.y - before.y)];
     let largest = |of: fn(&CurvePoint<T>) -> T| {
         points.iter().map(of).fold(T::zero(), |max, value| max.max(value.abs()))
     };
-    for ((quantity, given, change), scale) in
-        differences.into_iter().zip([largest(|point| point.x), largest(|point| point.y)])
-    {
-        let difference = change / (T::of(2.0) * h);
-        // A tenth: a wrong sign or factor, not a formula that is merely hard to evaluate.
-        let noise = T::of(1e3) * T::epsilon() * scale / h;
-        let allowed = T::of(0.1) * given.abs().max(difference.abs()) + noise;
-        if (given - difference).abs() > allowed {
-            return Err(ProfileError::Derivative { quantity, k, given, difference });
+    let scales = [largest(|point| point.x), largest(|point| point.y)];
+    let at = curve.at(k);
+    let mut wrong = Ok(());
+    // The cube root of the rounding unit balances truncation and rounding of the difference. Where
+    // a wave or a kink is finer than that, a shorter one settles it.
+    for share in [1.0, 1.0 / 32.0] {
+        let h = T::epsilon().cbrt() * length * T::of(share);
+        let (before, after) = (curve.at(k - h), curve.at(k + h));
+        let changes = [("X'", at.dx, after.x - before.x), ("Y'", at.dy, after.y - before.y)];
+        wrong = Ok(());
+        for ((quantity, given, change), scale) in changes.into_iter().zip(scales) {
+            let difference = change / (T::of(2.0) * h);
+            // A tenth: a wrong sign or factor, not a formula that is merely hard to evaluate.
+            let noise = T::of(1e3) * T::epsilon() * scale / h;
+            let allowed = T::of(0.1) * given.abs().max(difference.abs()) + noise;
+            if (given - difference).abs() > allowed {
+                wrong = Err(ProfileError::Derivative { quantity, k, given, difference });
+            }
+        }
+        if wrong.is_ok() {
+            break;
         }
     }
-    Ok(())
+    wrong
 }
 
 /// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.
