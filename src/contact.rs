@@ -1,25 +1,27 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
+mod approach;
 mod edges;
 mod first_contact;
 mod limits;
+mod newton;
+mod peak;
 mod stride;
 
-pub use edges::EdgePressure;
-pub(crate) use limits::Found;
+pub use edges::{Edge, EdgePressure};
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Midpoint, Quadrature};
+use crate::quadrature::{Engine, Moments, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::Solution;
-use crate::{ContactError, Interval, ParametricProfile, Real};
-use edges::Edges;
+use crate::solution::{Solution, Worker};
+use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
+use edges::{Conditions, Control, Goal};
 
 /// Two bodies to be pressed together, and the way to find their contact.
 ///
 /// What is not set has a default: κ = 1, limits sought so that the pressure ends at zero
-/// ([`Limits::Free`]), [`Newton`] to invert the curves, [`Brent`] to adjust the limits, and the
-/// default [`Midpoint`] rule for the pressure. One scene serves any number of loads.
+/// ([`Edge::Free`]), [`Newton`] to invert the curves, Newton's method on both limits at once, and
+/// [`Panels`] for the integrals. One scene serves any number of loads.
 ///
 /// ```
 /// use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
@@ -44,55 +46,71 @@ use edges::Edges;
 pub struct Contact<'a, T: Real> {
     gap: Gap<'a, T>,
     kappa: T,
-    limits: Limits<T>,
+    edges: [Edge<T>; 2],
+    edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
-    search: &'a dyn LimitSearch<T>,
+    search: Option<&'a dyn LimitSearch<T>>,
     quadrature: &'a dyn Quadrature<T>,
 }
 
-/// How the limits `-b` and `a` of the contact come about.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limits<T> {
-    /// They are sought so that the singular parts of the pressure vanish at both edges,
-    /// `K_a = K_b = 0`: smooth bodies, and the exact form of the next.
-    Free,
-    /// They are sought so that the pressure has given values near both edges (Eq. (6)).
-    EdgePressure(EdgePressure<T>),
-    /// They are known: `[-b, a]` is an interval with fixed edges, such as a punch with sharp
-    /// corners. The pressure may be infinite there, and the load any finite number.
-    Fixed(Interval<T>),
-}
-
-/// The load that presses the bodies together.
+/// What presses the bodies together: a load, or as much as it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load<T> {
     /// F = ∫ P dx, force per unit length.
     PerLength(T),
     /// The paper's constant C = π F.
     Constant(T),
+    /// As much as it takes to make the contact this wide: the half-width L = (a + b)/2.
+    ToHalfWidth(T),
+    /// As much as it takes for this largest pressure, between edges where the pressure is
+    /// bounded.
+    ToPeak(T),
 }
 
-impl<T: Real> Load<T> {
-    fn per_length(self) -> T {
-        match self {
-            Self::PerLength(force) => force,
-            Self::Constant(c) => c / T::pi(),
-        }
+/// A contact that was found.
+#[derive(Clone, Copy)]
+pub(crate) struct Found<T> {
+    pub interval: Interval<T>,
+    pub load: T,
+    /// K_a and K_b.
+    pub strengths: [T; 2],
+    /// Whether they vanish at a and at -b, being what the limits were sought by.
+    pub free: [bool; 2],
+    /// Estimated error of the limits relative to the half-width, where they were sought.
+    pub error: Option<T>,
+    /// The load that such an error stands for, where it is known.
+    pub force: Option<T>,
+}
+
+impl<T: Real> Found<T> {
+    fn new(
+        conditions: &Conditions<T>,
+        interval: Interval<T>,
+        load: T,
+        error: Option<T>,
+        m: &Moments<T>,
+    ) -> Self {
+        let kappa = conditions.kappa;
+        let [free_b, free_a] = conditions.edges.map(|edge| edge.is_free());
+        let mean_pressure = load / interval.half_width();
+        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
+        let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
+        Self { interval, load, strengths, free: [free_a, free_b], error, force: None }
     }
 }
 
 const NEWTON: Newton = Newton { tolerance: crate::search::Tolerance::FULL };
 const BRENT: Brent = Brent { tolerance: crate::search::Tolerance::FULL };
-const MIDPOINT: Midpoint = Midpoint::DEFAULT;
+const PANELS: Panels = Panels::FULL;
 
 impl<'a, T: Real> Contact<'a, T> {
     /// The scene of two bodies, `lower` (body 1) and `upper` (body 2).
     ///
-    /// Each smooth body is checked once, with the 39 evaluations of
-    /// [`Piece::new`](crate::profile::Piece::new).
+    /// Of each smooth body the two ends are looked at. [`Piece::checked`](crate::profile::Piece::checked)
+    /// looks at all of it, for a profile just written.
     ///
     /// # Errors
-    /// [`ContactError::Profile`] for a body that fails the check; [`ContactError::Apart`].
+    /// [`ContactError::Profile`], [`ContactError::Apart`].
     pub fn new(
         lower: &'a dyn ParametricProfile<T>,
         upper: &'a dyn ParametricProfile<T>,
@@ -100,10 +118,11 @@ impl<'a, T: Real> Contact<'a, T> {
         Ok(Self {
             gap: Gap::new(lower, upper, &NEWTON)?,
             kappa: T::one(),
-            limits: Limits::Free,
+            edges: [Edge::Free; 2],
+            edge_pressure: None,
             start: None,
-            search: &BRENT,
-            quadrature: &MIDPOINT,
+            search: None,
+            quadrature: &PANELS,
         })
     }
 
@@ -119,9 +138,15 @@ impl<'a, T: Real> Contact<'a, T> {
         self.kappa(T::frac_pi_2() * modulus)
     }
 
-    /// How the limits come about. Default [`Limits::Free`].
-    pub fn limits(self, limits: Limits<T>) -> Self {
-        Self { limits, ..self }
+    /// What becomes of the two edges, at `-b` and at `a`. Default: both are [`Edge::Free`].
+    pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
+        Self { edges: [left, right], edge_pressure: None, ..self }
+    }
+
+    /// Edges where the pressure has given values at given distances from the limits: the paper's
+    /// Eq. (6), in place of [`edges`](Self::edges).
+    pub fn edge_pressure(self, wanted: EdgePressure<T>) -> Self {
+        Self { edge_pressure: Some(wanted), ..self }
     }
 
     /// Where the search for the limits starts. Without it, or where it is not on the bodies, in
@@ -135,12 +160,12 @@ impl<'a, T: Real> Contact<'a, T> {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
-    /// The strategy that adjusts the limits. Default [`Brent`].
+    /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both.
     pub fn search(self, strategy: &'a dyn LimitSearch<T>) -> Self {
-        Self { search: strategy, ..self }
+        Self { search: Some(strategy), ..self }
     }
 
-    /// The quadrature. Default [`Midpoint::default`].
+    /// The quadrature. Default [`Panels`].
     pub fn quadrature(self, quadrature: &'a dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }
@@ -150,14 +175,44 @@ impl<'a, T: Real> Contact<'a, T> {
     ///
     /// # Errors
     /// [`ContactError::Load`], [`ContactError::Scale`], [`ContactError::Limits`],
-    /// [`ContactError::EdgePressure`], [`ContactError::Segments`] for what was set;
+    /// [`ContactError::Adhesion`], [`ContactError::EdgePressure`], [`ContactError::Control`],
+    /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
     /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
-    /// [`ContactError::NoBalance`], [`ContactError::OutsideBodies`] for bodies and loads that
-    /// do not go together; [`ContactError::Profile`], [`ContactError::Inversion`] from sampling
-    /// the bodies; [`ContactError::LimitSearch`], [`ContactError::EdgePressureNotMet`],
-    /// [`ContactError::Overflow`] from the search.
+    /// [`ContactError::NoBalance`], [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for
+    /// bodies and loads that do not go together; [`ContactError::Profile`],
+    /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
+    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
+    /// [`ContactError::NoPeak`] from the search.
     pub fn solve(&self, load: Load<T>) -> Result<Solution<'_, T>, ContactError<T>> {
-        let load = load.per_length();
+        let mut engine = self.quadrature.engine()?;
+        let (found, cost) = self.find(&mut *engine, None, load)?;
+        Ok(Solution::new(&self.gap, Worker::Own(engine), self.kappa, found, cost))
+    }
+
+    /// A solver that solves again and again without starting afresh, for this scene and for
+    /// others like it.
+    ///
+    /// # Errors
+    /// [`ContactError::Segments`], [`ContactError::Tolerance`].
+    pub fn solver(&self) -> Result<Solver<T>, ContactError<T>> {
+        Ok(Solver::new(self.quadrature.engine()?))
+    }
+
+    pub(crate) fn gap(&self) -> &Gap<'a, T> {
+        &self.gap
+    }
+
+    pub(crate) fn scale(&self) -> T {
+        self.kappa
+    }
+
+    /// Finds the limits with an engine that has been reset, from a contact like this one.
+    pub(crate) fn find(
+        &self,
+        engine: &mut dyn Engine<T>,
+        warm: Option<Interval<T>>,
+        load: Load<T>,
+    ) -> Result<(Found<T>, Cost), ContactError<T>> {
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
             return Err(ContactError::Scale { kappa });
@@ -165,29 +220,80 @@ impl<'a, T: Real> Contact<'a, T> {
         if let Some(start) = self.start {
             check(start)?;
         }
-        let mut engine = self.quadrature.prepare(&self.gap)?;
         let mut cost = Cost::default();
-        let limits = match self.limits {
-            Limits::Fixed(interval) => {
-                check(interval)?;
-                if !load.is_finite() {
-                    return Err(ContactError::Load { load });
+        let found = match load {
+            Load::PerLength(load) => self.under(engine, warm, load, &mut cost)?,
+            Load::Constant(c) => self.under(engine, warm, c / T::pi(), &mut cost)?,
+            Load::ToHalfWidth(half_width) => {
+                if !(half_width.is_finite() && half_width > T::zero()) {
+                    return Err(ContactError::Load { load: half_width });
                 }
-                self.check_on_bodies(interval)?;
-                limits::Found { interval, strengths: None, error: None }
+                let control = Control::HalfWidth(half_width);
+                let conditions = Conditions { kappa, edges: self.checked_edges()?, control };
+                approach::find(self, conditions, engine, warm, &mut cost)?
             }
-            Limits::Free => {
-                let edges = Edges::Strength { kappa, load };
-                limits::find(self, load, edges, &mut *engine, &mut cost)?
-            }
-            Limits::EdgePressure(wanted) => {
-                wanted.check()?;
-                let edges = Edges::Pressure { kappa, load, wanted };
-                limits::find(self, load, edges, &mut *engine, &mut cost)?
+            Load::ToPeak(pressure) => {
+                if !(pressure.is_finite() && pressure > T::zero()) {
+                    return Err(ContactError::Load { load: pressure });
+                }
+                peak::find(self, pressure, engine, warm, &mut cost)?
             }
         };
+        engine.prepare(&self.gap, found.interval)?;
         cost += engine.cost();
-        Ok(Solution::new(&self.gap, engine, self.quadrature, kappa, load, limits, cost))
+        Ok((found, cost))
+    }
+
+    /// The contact under a given load.
+    fn under(
+        &self,
+        engine: &mut dyn Engine<T>,
+        warm: Option<Interval<T>>,
+        load: T,
+        cost: &mut Cost,
+    ) -> Result<Found<T>, ContactError<T>> {
+        let kappa = self.kappa;
+        if let Some(wanted) = self.edge_pressure {
+            wanted.check()?;
+            if !(load.is_finite() && load > T::zero()) {
+                return Err(ContactError::Load { load });
+            }
+            let goal = Goal::Pressure { kappa, load, wanted };
+            let nested = limits::find(self, load, goal, engine, self.start, cost)?;
+            let m = engine.moments(&self.gap, nested.on)?;
+            let control = Control::Load(load);
+            let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], control };
+            return Ok(Found::new(&conditions, nested.on, load, Some(nested.error), &m));
+        }
+        let edges = self.checked_edges()?;
+        let conditions = Conditions { kappa, edges, control: Control::Load(load) };
+        let sought = edges.iter().any(|edge| edge.is_free());
+        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        if !load.is_finite() || (sought && !adhesive && load <= T::zero()) {
+            return Err(ContactError::Load { load });
+        }
+        approach::find(self, conditions, engine, warm, cost)
+    }
+
+    fn checked_edges(&self) -> Result<[Edge<T>; 2], ContactError<T>> {
+        for edge in self.edges {
+            match edge {
+                Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
+                    return Err(ContactError::Adhesion { work });
+                }
+                Edge::Fixed(x) | Edge::UpTo(x) if !x.is_finite() => {
+                    let [left, right] = [x, x];
+                    return Err(ContactError::Limits { interval: Interval { left, right } });
+                }
+                _ => {}
+            }
+        }
+        Ok(self.edges)
+    }
+
+    /// The strategy of the nested search.
+    fn strategy(&self) -> &dyn LimitSearch<T> {
+        self.search.unwrap_or(&BRENT)
     }
 
     fn check_on_bodies(&self, interval: Interval<T>) -> Result<(), ContactError<T>> {
@@ -212,9 +318,9 @@ fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {
 
 impl<T: Real> std::fmt::Debug for Contact<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { gap, kappa, limits, start, .. } = self;
+        let Self { gap, kappa, edges, start, .. } = self;
         let mut debug = f.debug_struct("Contact");
-        debug.field("gap", gap).field("kappa", kappa).field("limits", limits);
+        debug.field("gap", gap).field("kappa", kappa).field("edges", edges);
         debug.field("start", start).finish_non_exhaustive()
     }
 }

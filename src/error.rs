@@ -172,12 +172,79 @@ pub enum ContactError<T: Real> {
         /// ET.
         extrapolations: u32,
     },
-    /// The pressure at an edge where it is infinite, because the edge is fixed or because
-    /// Eq. (6) has put it where a singularity is left.
-    #[error("the pressure at the edge x = {x:?} is infinite; ask inside, or for edge_strengths()")]
-    SingularEdge {
-        /// The edge.
+    /// The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq. (6) has
+    /// left a singularity, or where the slope of a body jumps.
+    #[error("the pressure at x = {x:?} is infinite; ask beside it, or for edge_strengths()")]
+    Singular {
+        /// Where.
         x: T,
+    },
+    /// The bodies would have to pull at each other inside the contact: they part there.
+    #[error(
+        "the pressure at x = {x:?} would be {pressure:?}: the bodies part there, and touch in more \
+         than one place"
+    )]
+    Tension {
+        /// Where the pressure is negative.
+        x: T,
+        /// What it would be there; minus infinity where the slope of the gap jumps down.
+        pressure: T,
+    },
+    /// The bodies would overlap outside the contact: they touch there as well.
+    #[error(
+        "the bodies would overlap by {:?} at x = {x:?}, outside the contact: they touch there as \
+         well", -*gap
+    )]
+    Overlap {
+        /// Where.
+        x: T,
+        /// The gap there, negative.
+        gap: T,
+    },
+    /// The tolerance of the panels is negative, one or more, or NaN.
+    #[error("{tolerance:?} is no tolerance: give a number from 0 (the default) to below 1")]
+    Tolerance {
+        /// The tolerance as given.
+        tolerance: T,
+    },
+    /// A work of adhesion is negative or not finite.
+    #[error("the work of adhesion is {work:?}: it must be finite and not negative")]
+    Adhesion {
+        /// The work of adhesion as given.
+        work: T,
+    },
+    /// Limits that are both given leave nothing to be sought: only a load can be asked of them.
+    #[error(
+        "both limits are given, -b = {:?} and a = {:?}: then the load must be given too, not the \
+         half-width or the peak", interval.left, interval.right
+    )]
+    Control {
+        /// The limits.
+        interval: Interval<T>,
+    },
+    /// The bodies come apart: the pull is more than adhesion can bear.
+    #[error(
+        "no contact under the load {load:?}: the pull is more than the adhesion can bear; the \
+         contact was followed down to {least:?}"
+    )]
+    PullOff {
+        /// Load per unit length asked for.
+        load: T,
+        /// The least load under which a contact was found.
+        least: T,
+    },
+    /// The pressure has no largest value to be set.
+    #[error(
+        "no contact has the peak pressure {wanted:?}: the largest one found, with half-width \
+         {half_width:?}, is {found:?}"
+    )]
+    NoPeak {
+        /// The peak pressure asked for.
+        wanted: T,
+        /// The half-width tried last.
+        half_width: T,
+        /// The peak pressure there; infinite where an edge is sharp or a slope jumps.
+        found: T,
     },
     /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
     /// segments.

@@ -6,21 +6,98 @@
 //! g(x) = Y₂'(k₂)/X₂'(k₂) - Y₁'(k₁)/X₁'(k₁)   where X₁(k₁) = X₂(k₂) = x      (4, 5, 8)
 //! ```
 //!
-//! Each value costs one inversion for each body that needs one. The inversion starts from
-//! the curve's own last point, moved on by Newton's rule, so that neighbouring abscissae cost
-//! two or three evaluations each.
+//! There are two ways to a value. A [`Sampler`] inverts `X(k) = x` at any `x`, starting from its
+//! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
+//! abscissae, and aim instead: see `aim.rs`.
+
+mod aim;
+mod sampler;
+
+pub(crate) use aim::{Knot, Trace, aim};
+pub use sampler::Sampler;
 
 use crate::profile::Piece;
-use crate::search::{Bracket, LimitSearch, SearchError};
-use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
+use crate::search::LimitSearch;
+use crate::{Body, ContactError, ParametricProfile, Real};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The slope of the gap between two bodies, not yet sampled.
 #[derive(Clone)]
 pub struct Gap<'a, T: Real> {
-    bodies: [Vec<Piece<'a, T>>; 2],
+    bodies: [Surface<'a, T>; 2],
     inversion: &'a dyn LimitSearch<T>,
     range: [T; 2],
-    joints: Vec<T>,
+    /// Tells the gap from every other that was made, so that samples are not taken for those of
+    /// another.
+    number: u64,
+}
+
+/// A body as a row of smooth pieces.
+#[derive(Clone)]
+enum Surface<'a, T: Real> {
+    Smooth(Piece<'a, T>),
+    Joined(&'a dyn ParametricProfile<T>),
+}
+
+impl<'a, T: Real> Surface<'a, T> {
+    fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
+        if profile.piece(0).is_some() {
+            return Ok(Self::Joined(profile));
+        }
+        match Piece::new(profile) {
+            Ok(piece) => Ok(Self::Smooth(piece)),
+            Err(source) => Err(ContactError::Profile { body, source }),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Smooth(_) => 1,
+            Self::Joined(profile) => profile.pieces(),
+        }
+    }
+
+    fn piece(&self, index: usize) -> Piece<'_, T> {
+        match self {
+            Self::Smooth(piece) => *piece,
+            Self::Joined(profile) => {
+                profile.piece(index).expect("a profile has as many pieces as it says")
+            }
+        }
+    }
+
+    fn extent(&self) -> [T; 2] {
+        [self.piece(0).ends[0].x, self.piece(self.len() - 1).ends[1].x]
+    }
+
+    /// The first piece that does not end before `x` (from the left) or at it (from the right).
+    fn index_at(&self, x: T, side: Side) -> usize {
+        let (mut low, mut high) = (0, self.len() - 1);
+        while low < high {
+            let middle = (low + high) / 2;
+            let end = self.piece(middle).ends[1].x;
+            let before = match side {
+                Side::Left => end < x,
+                Side::Right => end <= x,
+            };
+            if before { low = middle + 1 } else { high = middle }
+        }
+        low
+    }
+
+    /// The first joint to the right of `x`.
+    fn joint_after(&self, x: T) -> Option<T> {
+        let index = self.index_at(x, Side::Right);
+        let end = self.piece(index).ends[1].x;
+        (index + 1 < self.len() && end > x).then_some(end)
+    }
+
+    /// The last joint to the left of `x`.
+    fn joint_before(&self, x: T) -> Option<T> {
+        let index = self.index_at(x, Side::Left);
+        let start = index.checked_sub(1).map(|before| self.piece(before).ends[1].x);
+        start.filter(|&start| start < x)
+    }
 }
 
 /// What sampling the gap has cost.
@@ -28,7 +105,8 @@ pub struct Gap<'a, T: Real> {
 pub struct Cost {
     /// Values of the gap slope `g(x)`.
     pub samples: usize,
-    /// Evaluations of the users' curves while solving: calls of [`ParametricProfile::at`].
+    /// Evaluations of the users' curves while solving: points asked for, one by one with
+    /// [`ParametricProfile::at`] or in a batch with [`ParametricProfile::at_many`].
     pub evaluations: usize,
 }
 
@@ -60,20 +138,14 @@ impl<'a, T: Real> Gap<'a, T> {
         upper: &'a dyn ParametricProfile<T>,
         inversion: &'a dyn LimitSearch<T>,
     ) -> Result<Self, ContactError<T>> {
-        let bodies = [pieces(Body::Lower, lower)?, pieces(Body::Upper, upper)?];
-        let [lower, upper] = [extent(&bodies[0]), extent(&bodies[1])];
+        static MADE: AtomicU64 = AtomicU64::new(1);
+        let bodies = [Surface::new(Body::Lower, lower)?, Surface::new(Body::Upper, upper)?];
+        let [lower, upper] = [bodies[0].extent(), bodies[1].extent()];
         let range = [lower[0].max(upper[0]), lower[1].min(upper[1])];
         if range[0] >= range[1] {
             return Err(ContactError::Apart { lower, upper });
         }
-        let mut joints: Vec<T> = Vec::new();
-        for body in &bodies {
-            joints.extend(body.iter().skip(1).map(|piece| piece.x[0]));
-        }
-        joints.retain(|&x| x > range[0] && x < range[1]);
-        joints.sort_by(|x, y| x.partial_cmp(y).expect("checked: the ends of pieces are finite"));
-        joints.dedup();
-        Ok(Self { bodies, inversion, range, joints })
+        Ok(Self { bodies, inversion, range, number: MADE.fetch_add(1, Ordering::Relaxed) })
     }
 
     pub(crate) fn with_inversion(self, inversion: &'a dyn LimitSearch<T>) -> Self {
@@ -85,159 +157,56 @@ impl<'a, T: Real> Gap<'a, T> {
         self.range
     }
 
-    /// Where either profile passes from one piece to the next, rising.
-    pub fn joints(&self) -> &[T] {
-        &self.joints
-    }
-
-    /// A sampler, which takes values of the slope one after the other.
-    pub fn sampler(&self) -> Sampler<'_, T> {
-        Sampler { gap: self, near: [None; 2], cost: Cost::default(), missed: T::zero() }
-    }
-}
-
-fn pieces<T: Real>(
-    body: Body,
-    profile: &dyn ParametricProfile<T>,
-) -> Result<Vec<Piece<'_, T>>, ContactError<T>> {
-    let pieces = profile.pieces();
-    if !pieces.is_empty() {
-        return Ok(pieces);
-    }
-    match Piece::new(profile) {
-        Ok(piece) => Ok(vec![piece]),
-        Err(source) => Err(ContactError::Profile { body, source }),
-    }
-}
-
-fn extent<T: Real>(pieces: &[Piece<'_, T>]) -> [T; 2] {
-    [pieces[0].x[0], pieces[pieces.len() - 1].x[1]]
-}
-
-/// Takes values of the gap's slope, and keeps count.
-pub struct Sampler<'g, T: Real> {
-    gap: &'g Gap<'g, T>,
-    near: [Option<Near<T>>; 2],
-    /// What it has cost so far.
-    pub cost: Cost,
-    /// The largest `|X(k) - x|` that the inversions have left.
-    pub(crate) missed: T,
-}
-
-/// The last point of a curve, from which the next inversion starts.
-#[derive(Clone, Copy)]
-struct Near<T> {
-    piece: usize,
-    k: T,
-    point: CurvePoint<T>,
-}
-
-impl<T: Real> Sampler<'_, T> {
-    /// The slope of the gap `f₂' - f₁'` at `x`. A joint belongs to the piece on its left.
-    ///
-    /// # Errors
-    /// [`ContactError::OutsideBodies`], [`ContactError::Inversion`],
-    /// [`ContactError::Profile`].
-    pub fn slope(&mut self, x: T) -> Result<T, ContactError<T>> {
-        self.slope_from(x, Side::Left)
-    }
-
-    pub(crate) fn slope_from(&mut self, x: T, side: Side) -> Result<T, ContactError<T>> {
-        let range = self.gap.range;
-        if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
-        }
-        self.cost.samples += 1;
-        let lower = self.body_slope(Body::Lower, x, side)?;
-        let upper = self.body_slope(Body::Upper, x, side)?;
-        Ok(upper - lower)
-    }
-
-    fn body_slope(&mut self, body: Body, x: T, side: Side) -> Result<T, ContactError<T>> {
-        let gap = self.gap;
-        let pieces = &gap.bodies[body as usize];
-        let ends_before = |piece: &Piece<'_, T>| match side {
-            Side::Left => piece.x[1] < x,
-            Side::Right => piece.x[1] <= x,
+    /// The first place to the right of `x`, and on both bodies, where either profile passes from
+    /// one piece to the next.
+    pub fn joint_after(&self, x: T) -> Option<T> {
+        let x = x.max(self.range[0]);
+        let [lower, upper] = [0, 1].map(|i| self.bodies[i].joint_after(x));
+        let joint = match (lower, upper) {
+            (Some(lower), Some(upper)) => Some(lower.min(upper)),
+            (lower, upper) => lower.or(upper),
         };
-        let index = pieces.partition_point(ends_before).min(pieces.len() - 1);
-        let piece = &pieces[index];
-        let fault = |quantity, k, value| {
-            let source = ProfileError::NotFinite { quantity, k, value };
-            Err(ContactError::Profile { body, source })
-        };
-        if let Some(slope) = piece.curve.slope_at(x) {
-            // Such a body is given by x itself.
-            return if slope.is_finite() { Ok(slope) } else { fault("slope_at(x)", x, slope) };
-        }
-        let Near { k, point, .. } = self.invert(body, index, x)?;
-        let slope = point.dy / point.dx;
-        if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", k, slope) }
+        joint.filter(|&joint| joint < self.range[1])
     }
 
-    /// Solves `X(k) = x` on a piece.
-    fn invert(&mut self, body: Body, index: usize, x: T) -> Result<Near<T>, ContactError<T>> {
-        let gap = self.gap;
-        let piece = &gap.bodies[body as usize][index];
-        let near = self.near[body as usize].filter(|near| near.piece == index);
-        let rises = piece.k[0] < piece.k[1];
-        let turns =
-            |near: &Near<T>| (near.point.dx < T::zero()) == rises && !near.point.dx.is_zero();
-        let mut at = |k: T| {
-            self.cost.evaluations += 1;
-            Near { piece: index, k, point: piece.curve.at(k) }
+    /// The last place to the left of `x`, and on both bodies, where either profile passes from one
+    /// piece to the next.
+    pub fn joint_before(&self, x: T) -> Option<T> {
+        let x = x.min(self.range[1]);
+        let [lower, upper] = [0, 1].map(|i| self.bodies[i].joint_before(x));
+        let joint = match (lower, upper) {
+            (Some(lower), Some(upper)) => Some(lower.max(upper)),
+            (lower, upper) => lower.or(upper),
         };
-        let (mut last, mut turned) = (None, None);
-        let k = if x <= piece.x[0] {
-            piece.k[0]
-        } else if x >= piece.x[1] {
-            piece.k[1]
-        } else {
-            let guess = match near {
-                Some(Near { k, point, .. }) => k + (x - point.x) / point.dx,
-                None => {
-                    let along = (x - piece.x[0]) / (piece.x[1] - piece.x[0]);
-                    piece.k[0] + along * (piece.k[1] - piece.k[0])
-                }
-            };
-            let mut f = |k: T| {
-                let here = at(k);
-                last = Some(here);
-                turned = turned.or(last.filter(turns));
-                (here.point.x - x, here.point.dx)
-            };
-            let ends = [(piece.k[0], piece.x[0] - x), (piece.k[1], piece.x[1] - x)];
-            let [(lo, f_lo), (hi, f_hi)] =
-                if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
-            let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
-            match gap.inversion.find_with_slope(&mut f, &bracket) {
-                Ok(root) if root.x >= lo && root.x <= hi => root.x,
-                Ok(root) => {
-                    let source = SearchError::Astray { x: root.x, lo, hi };
-                    return Err(ContactError::Inversion { body, x, source });
-                }
-                Err(SearchError::NotFinite { x: k, value }) => {
-                    let source = ProfileError::NotFinite { quantity: "X", k, value };
-                    return Err(ContactError::Profile { body, source });
-                }
-                Err(source) => return Err(ContactError::Inversion { body, x, source }),
-            }
-        };
-        let found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
-        if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
-            let source = ProfileError::TurnsBack { k, x: point.x };
-            return Err(ContactError::Profile { body, source });
-        }
-        self.missed = self.missed.max((found.point.x - x).abs());
-        self.near[body as usize] = Some(found);
-        Ok(found)
+        joint.filter(|&joint| joint > self.range[0])
+    }
+
+    /// The joints strictly inside an interval, rising.
+    pub fn joints(&self, on: crate::Interval<T>) -> impl Iterator<Item = T> {
+        let first = self.joint_after(on.left);
+        std::iter::successors(first, |&joint| self.joint_after(joint))
+            .take_while(move |&joint| joint < on.right)
+    }
+
+    /// The smooth piece of a body to the left or right of `x`, and its number.
+    pub(crate) fn piece_at(&self, body: Body, x: T, side: Side) -> (usize, Piece<'_, T>) {
+        let surface = &self.bodies[body as usize];
+        let index = surface.index_at(x, side);
+        (index, surface.piece(index))
+    }
+
+    pub(crate) fn inversion(&self) -> &dyn LimitSearch<T> {
+        self.inversion
+    }
+
+    /// A number that no other gap has, unless it is a clone.
+    pub(crate) fn number(&self) -> u64 {
+        self.number
     }
 }
 
 impl<T: Real> std::fmt::Debug for Gap<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { range, joints, .. } = self;
-        let mut debug = f.debug_struct("Gap");
-        debug.field("range", range).field("joints", joints).finish_non_exhaustive()
+        f.debug_struct("Gap").field("range", &self.range).finish_non_exhaustive()
     }
 }

@@ -50,6 +50,7 @@
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
 
+mod certificate;
 pub mod contact;
 mod error;
 pub mod gap;
@@ -59,16 +60,18 @@ pub mod quadrature;
 mod real;
 pub mod search;
 mod solution;
+mod solver;
 
-pub use contact::{Contact, EdgePressure, Limits, Load};
+pub use contact::{Contact, Edge, EdgePressure, Load};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use profile::{Piece, ProfileError};
-pub use quadrature::{Estimate, Exponents, Midpoint};
+pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::{Pressure, Solution};
+pub use solver::Solver;
 
 /// Compiles and runs the README's code.
 #[cfg(doctest)]

@@ -12,6 +12,7 @@ mod piecewise;
 pub use curve::Curve;
 pub use flat::Flat;
 pub use piece::Piece;
+pub(crate) use piece::turning_point;
 pub use piecewise::{Piecewise, PiecewiseError};
 
 use crate::Real;
@@ -71,10 +72,25 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
         None
     }
 
-    /// The smooth pieces of a compound profile, left to right; empty (the default) for a
-    /// profile that is smooth itself.
-    fn pieces(&self) -> Vec<Piece<'_, T>> {
-        Vec::new()
+    /// The points at many parameters, for a curve that can be evaluated in a batch. By default
+    /// one after the other.
+    ///
+    /// Both slices have the same length.
+    fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
+        for (point, &k) in points.iter_mut().zip(k) {
+            *point = self.at(k);
+        }
+    }
+
+    /// How many smooth pieces a compound profile has; 0 (the default) for a profile that is
+    /// smooth itself.
+    fn pieces(&self) -> usize {
+        0
+    }
+
+    /// A smooth piece of a compound profile, counted from the left; `None` beyond the last.
+    fn piece(&self, _index: usize) -> Option<Piece<'_, T>> {
+        None
     }
 
     /// `X(k)` alone.
@@ -111,8 +127,14 @@ macro_rules! forward {
             fn slope_at(&self, x: T) -> Option<T> {
                 (**self).slope_at(x)
             }
-            fn pieces(&self) -> Vec<Piece<'_, T>> {
+            fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
+                (**self).at_many(k, points)
+            }
+            fn pieces(&self) -> usize {
                 (**self).pieces()
+            }
+            fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
+                (**self).piece(index)
             }
             fn x(&self, k: T) -> T {
                 (**self).x(k)

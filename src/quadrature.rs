@@ -16,55 +16,131 @@
 //! m₀ = (1/π) ∫ g dθ              m₁ = (1/π) ∫ g cos θ dθ      θ from 0 to π
 //! ```
 //!
-//! A [`Quadrature`] provides `I(x)` and `m₀`, `m₁`. It knows a gap, but neither profiles nor
-//! loads nor how limits are found.
+//! A [`Quadrature`] provides `m₀`, `m₁` and the pressure. It knows a gap, but neither profiles nor
+//! how limits are found. There are two: [`Panels`], the default, and the paper's rule,
+//! [`Midpoint`]. They share no code, and either checks the other.
 
 mod midpoint;
 mod moments;
+mod panels;
 
 pub use midpoint::{Exponents, Midpoint};
+pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 
 /// A way to integrate the slope of a gap.
 pub trait Quadrature<T: Real>: Send + Sync {
-    /// Sets it to work on one gap.
+    /// Sets it up for work.
     ///
     /// # Errors
-    /// [`ContactError::Segments`] for settings that cannot be used.
-    fn prepare<'g>(&self, gap: &'g Gap<'g, T>) -> Result<Box<dyn Engine<T> + 'g>, ContactError<T>>;
+    /// [`ContactError::Segments`], [`ContactError::Tolerance`] for settings that cannot be used.
+    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>>;
 }
 
-/// A [`Quadrature`] at work on one gap. It may keep samples from one interval to the next.
+/// A [`Quadrature`] at work. It holds numbers only, is handed the gap with each request, and may
+/// keep samples from one to the next.
 pub trait Engine<T: Real>: Send + Sync {
+    /// What follows is a new problem: costs are counted from zero, and unless the bodies are the
+    /// same all samples are forgotten.
+    fn reset(&mut self, same_bodies: bool);
+
+    /// Takes samples over a stretch of x in which the contact is expected, in place of those that
+    /// it has: as many as it takes, or (`rough`) only a few, for a first estimate of the limits.
+    /// Returns about how large an error of the slope is left, as a fraction of it; `None` (the
+    /// default) says that this engine samples each interval as it comes.
+    ///
+    /// # Errors
+    /// Those of sampling the gap.
+    fn cover(
+        &mut self,
+        _gap: &Gap<'_, T>,
+        _on: Interval<T>,
+        _rough: bool,
+    ) -> Result<Option<T>, ContactError<T>> {
+        Ok(None)
+    }
+
+    /// The stretch over which samples are at hand. `None` (the default) if none are kept.
+    fn covered(&self) -> Option<Interval<T>> {
+        None
+    }
+
+    /// The slope of the gap at `x` by the samples at hand; `None` (the default) without any.
+    fn slope(&self, _x: T) -> Option<T> {
+        None
+    }
+
+    /// Forgets the samples, but not the cost.
+    fn forget(&mut self) {}
+
     /// The edge integrals over an interval.
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn moments(&mut self, on: Interval<T>) -> Result<Moments<T>, ContactError<T>>;
+    fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>)
+    -> Result<Moments<T>, ContactError<T>>;
 
-    /// The Cauchy integral over an interval, ready for any number of points.
+    /// Turns to the pressure over an interval, without sampling what the edge integrals have not.
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn transform<'e>(
-        &'e self,
-        on: Interval<T>,
-        cost: &mut Cost,
-    ) -> Result<Box<dyn Transform<T> + 'e>, ContactError<T>>;
+    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>>;
 
-    /// What the edge integrals have cost so far.
+    /// Samples what is still missing for the pressure, and returns what that has cost: by default
+    /// nothing is.
+    ///
+    /// # Errors
+    /// Those of sampling the gap.
+    fn complete(&self, _gap: &Gap<'_, T>) -> Result<Cost, ContactError<T>> {
+        Ok(Cost::default())
+    }
+
+    /// The pressure at a point strictly inside the interval last prepared and completed, with an estimate of what
+    /// the quadrature leaves open of it, adding to `cost` what it takes.
+    ///
+    /// # Errors
+    /// Those of sampling the gap.
+    fn estimate(
+        &self,
+        gap: &Gap<'_, T>,
+        pressing: &Pressing<T>,
+        x: T,
+        cost: &mut Cost,
+    ) -> Result<Estimate<T>, ContactError<T>>;
+
+    /// The pressure at any number of points. By default one by one.
+    ///
+    /// # Errors
+    /// As [`estimate`](Self::estimate).
+    fn pressures(
+        &self,
+        gap: &Gap<'_, T>,
+        pressing: &Pressing<T>,
+        x: &[T],
+        pressures: &mut [T],
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        for (pressure, &x) in pressures.iter_mut().zip(x) {
+            *pressure = self.estimate(gap, pressing, x, cost)?.value;
+        }
+        Ok(())
+    }
+
+    /// What the work has cost since the last [`reset`](Self::reset).
     fn cost(&self) -> Cost;
 }
 
-/// The Cauchy integral `I(x)` over one interval.
-pub trait Transform<T: Real>: Send + Sync {
-    /// `I(x)` for `x` inside the interval, adding to `cost` what it takes.
-    ///
-    /// # Errors
-    /// Those of sampling the gap.
-    fn at(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>>;
+/// What presses on a contact, and what is known of its edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pressing<T> {
+    /// The scale κ, a pressure.
+    pub kappa: T,
+    /// Load per unit length F.
+    pub load: T,
+    /// Whether the limits `a` and `b` are such that `K_a` and `K_b` vanish.
+    pub free: [bool; 2],
 }
 
 /// A value and how far it can be trusted.
@@ -89,4 +165,18 @@ pub struct Moments<T> {
     pub error: T,
     /// The largest `|X(k) - x|` that the inversions have left; a length.
     pub inversion: T,
+    /// How they change with the limits, where that is known.
+    pub trend: Option<Trend<T>>,
+}
+
+/// `(1/π) ∫ g'(x) cosⁱθ dθ`: with centre c and half-width L, `∂m₀/∂c` is the first, `∂m₀/∂L` and
+/// `∂m₁/∂c` are the second, and `∂m₁/∂L` is the third.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trend<T> {
+    /// i = 0.
+    pub by_0: T,
+    /// i = 1.
+    pub by_1: T,
+    /// i = 2.
+    pub by_2: T,
 }

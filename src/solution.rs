@@ -1,36 +1,48 @@
 //! What comes back.
 
+use crate::certificate::certify;
 use crate::contact::Found;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Estimate, Quadrature, Transform};
+use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
 
 /// A solved contact: its limits, and on request its pressure.
 ///
 /// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
 /// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
-/// overlap outside, and neither is looked for.
+/// overlap outside: [`certify`](Self::certify) looks for both.
 pub struct Solution<'s, T: Real> {
     gap: &'s Gap<'s, T>,
-    engine: Box<dyn Engine<T> + 's>,
-    quadrature: &'s dyn Quadrature<T>,
+    engine: Worker<'s, T>,
     kappa: T,
-    load: T,
     found: Found<T>,
     cost: Cost,
+}
+
+/// The engine that has solved the contact.
+pub(crate) enum Worker<'s, T> {
+    Own(Box<dyn Engine<T>>),
+    Lent(&'s dyn Engine<T>),
+}
+
+impl<T: Real> Worker<'_, T> {
+    fn engine(&self) -> &dyn Engine<T> {
+        match self {
+            Self::Own(engine) => &**engine,
+            Self::Lent(engine) => *engine,
+        }
+    }
 }
 
 impl<'s, T: Real> Solution<'s, T> {
     pub(crate) fn new(
         gap: &'s Gap<'s, T>,
-        engine: Box<dyn Engine<T> + 's>,
-        quadrature: &'s dyn Quadrature<T>,
+        engine: Worker<'s, T>,
         kappa: T,
-        load: T,
         found: Found<T>,
         cost: Cost,
     ) -> Self {
-        Self { gap, engine, quadrature, kappa, load, found, cost }
+        Self { gap, engine, kappa, found, cost }
     }
 
     /// The limit `a`.
@@ -51,13 +63,12 @@ impl<'s, T: Real> Solution<'s, T> {
 
     /// Load per unit length F.
     pub fn load(&self) -> T {
-        self.load
+        self.found.load
     }
 
-    /// Estimated error of the edges, relative to the half-width, where the limits are
-    /// [`Free`](crate::Limits::Free): what rounding, the noise of the profiles' formulas and
-    /// the quadrature leave open of the conditions at the edges. `None` for limits that were
-    /// given, and for those of Eq. (6), which are in error by the rule they were found with.
+    /// Estimated error of the limits, relative to the half-width, where they were sought: what
+    /// rounding, the noise of the profiles' formulas and the quadrature leave open of the
+    /// conditions at the edges. `None` where both limits were given.
     ///
     /// It is a few units in the last place where the slope of the gap is analytic between the
     /// joints. Much more says that a profile is noisy or has a kink not declared as a joint.
@@ -68,20 +79,21 @@ impl<'s, T: Real> Solution<'s, T> {
     /// `K_a` and `K_b`, the strengths of the singularities at the two edges: near `a`,
     /// `P ≈ K_a/sin θ` with `x = c + L cos θ`. Zero to rounding for free edges; at a fixed edge
     /// a negative strength means that the body lifts off there.
-    ///
-    /// Known already where the limits were found by them; sampled now otherwise.
+    pub fn edge_strengths(&self) -> [T; 2] {
+        self.found.strengths
+    }
+
+    /// Whether this is a contact, and not only a solution of the equations: no negative pressure
+    /// inside, no overlap of the bodies outside, as far as a grid of 512 points inside and as many
+    /// on either side shows. Certain beforehand where the slope of the gap rises throughout.
     ///
     /// # Errors
-    /// Those of sampling the gap.
-    pub fn edge_strengths(&self) -> Result<[T; 2], ContactError<T>> {
-        if let Some(strengths) = self.found.strengths {
-            return Ok(strengths);
-        }
-        let on = self.found.interval;
-        let m = self.quadrature.prepare(self.gap)?.moments(on)?;
-        let mean_pressure = self.load / on.half_width();
-        let strength = |sum: T| (mean_pressure - self.kappa * sum) / T::pi();
-        Ok([strength(m.first + m.mean), strength(m.first - m.mean)])
+    /// [`ContactError::Tension`], [`ContactError::Overlap`]; those of sampling the gap.
+    pub fn certify(&self) -> Result<(), ContactError<T>> {
+        let Found { interval: on, load, free, .. } = self.found;
+        let pressing = Pressing { kappa: self.kappa, load, free };
+        self.engine.engine().complete(self.gap)?;
+        certify(self.engine.engine(), self.gap, &pressing, on)
     }
 
     /// What finding the limits has cost.
@@ -89,28 +101,29 @@ impl<'s, T: Real> Solution<'s, T> {
         self.cost
     }
 
-    /// Samples the gap over the contact, so that the pressure can be asked for at any point.
+    /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for
+    /// them.
     ///
     /// # Errors
     /// Those of sampling the gap.
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
-        let mut cost = Cost::default();
-        let transform = self.engine.transform(self.found.interval, &mut cost)?;
-        let free = self.found.strengths.is_some();
-        let Self { kappa, load, .. } = *self;
-        let range = self.gap.range();
-        Ok(Pressure { transform, on: self.found.interval, kappa, load, free, range, cost })
+        let cost = self.engine.engine().complete(self.gap)?;
+        let (gap, Found { interval: on, load, free, error, force, .. }) = (self.gap, self.found);
+        let pressing = Pressing { kappa: self.kappa, load, free };
+        let of_limits = T::of(3.0) * load.abs() * error.unwrap_or(T::zero());
+        let force = force.unwrap_or(of_limits);
+        Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, cost })
     }
 }
 
 /// The pressure over a contact.
 pub struct Pressure<'p, T: Real> {
-    transform: Box<dyn Transform<T> + 'p>,
+    gap: &'p Gap<'p, T>,
+    engine: &'p dyn Engine<T>,
+    pressing: Pressing<T>,
     on: Interval<T>,
-    kappa: T,
-    load: T,
-    free: bool,
-    range: [T; 2],
+    /// The load that stands for the error of the limits.
+    force: T,
     cost: Cost,
 }
 
@@ -119,48 +132,80 @@ impl<T: Real> Pressure<'_, T> {
     ///
     /// # Errors
     /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than
-    /// a third of what the rule gives, as it becomes in the last segment before an edge;
-    /// [`ContactError::OutsideBodies`] beyond either body, and for NaN;
-    /// [`ContactError::SingularEdge`]; those of sampling the gap at `x`.
+    /// a third of what the quadrature gives, as it becomes very close to an edge;
+    /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
+    /// beyond either body, and for NaN; those of sampling the gap at `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
         let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
         // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
-        if self.free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
+        let free = self.pressing.free == [true; 2];
+        if free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
             Err(ContactError::Unresolved { x, pressure, error })
         } else {
             Ok(pressure)
         }
     }
 
-    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point
-    /// takes: nothing on the grid of the rule, one sample of the gap elsewhere, seven next to
-    /// one of its points.
+    /// `P(x)` at any number of points, in any order: cheaper than one by one. What
+    /// [`at`](Self::at) refuses as unresolved is returned as it is.
     ///
-    /// The error is that of the quadrature, on the limits as they are.
+    /// # Errors
+    /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
+    ///
+    /// # Panics
+    /// If the two slices are not of the same length.
+    pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        assert_eq!(x.len(), pressures.len(), "one pressure for each x");
+        let mut cost = Cost::default();
+        if x.iter().all(|&x| self.on.contains(x)) {
+            self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut cost)?;
+            let finite = pressures.iter().all(|pressure| pressure.is_finite());
+            if finite {
+                return Ok(());
+            }
+        }
+        for (&x, pressure) in x.iter().zip(pressures) {
+            *pressure = self.estimate(x, &mut cost)?.value;
+        }
+        Ok(())
+    }
+
+    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point takes:
+    /// nothing with [`Panels`](crate::Panels); with [`Midpoint`](crate::Midpoint) nothing on the
+    /// grid of the rule, one sample of the gap elsewhere, seven next to one of its points.
+    ///
+    /// The error is that of the quadrature, and what the error of the limits makes of it.
     ///
     /// # Errors
     /// As [`at`](Self::at), without [`ContactError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
-        if !(x >= self.range[0] && x <= self.range[1]) {
-            return Err(ContactError::OutsideBodies { x, range: self.range });
+        let range = self.gap.range();
+        if !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
         }
+        let [free_a, free_b] = self.pressing.free;
         if !self.on.contains(x) {
-            let at_edge = x == self.on.left || x == self.on.right;
-            return if at_edge && !self.free {
-                Err(ContactError::SingularEdge { x })
+            let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
+            return if singular {
+                Err(ContactError::Singular { x })
             } else {
                 Ok(Estimate { value: T::zero(), error: T::zero() })
             };
         }
-        let Estimate { value, error } = self.transform.at(x, cost)?;
-        let edge = T::pi() * T::pi() * self.on.edge_root(x);
-        Ok(Estimate {
-            value: (T::pi() * self.load - self.kappa * value) / edge,
-            error: self.kappa * error / edge,
-        })
+        let mut estimate = self.engine.estimate(self.gap, &self.pressing, x, cost)?;
+        if !estimate.value.is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
+        // of it. The load is what it is: so the change is of second order, but for points so close
+        // to an edge that they might lie on its other side.
+        let change = self.force / (T::pi() * self.on.edge_root(x));
+        let share = change / estimate.value.abs();
+        estimate.error += if share < T::of(0.1) { change * share } else { change };
+        Ok(estimate)
     }
 
-    /// What sampling the gap has cost.
+    /// What making ready has cost.
     pub fn cost(&self) -> Cost {
         self.cost
     }
@@ -168,7 +213,7 @@ impl<T: Real> Pressure<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Solution<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { found: Found { interval, .. }, load, kappa, cost, .. } = self;
+        let Self { found: Found { interval, load, .. }, kappa, cost, .. } = self;
         let mut debug = f.debug_struct("Solution");
         debug.field("interval", interval).field("load", load).field("kappa", kappa);
         debug.field("cost", cost).finish_non_exhaustive()
@@ -177,9 +222,9 @@ impl<T: Real> std::fmt::Debug for Solution<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { on, load, kappa, cost, .. } = self;
+        let Self { on, pressing, cost, .. } = self;
         let mut debug = f.debug_struct("Pressure");
-        debug.field("on", on).field("load", load).field("kappa", kappa);
+        debug.field("on", on).field("pressing", pressing);
         debug.field("cost", cost).finish_non_exhaustive()
     }
 }

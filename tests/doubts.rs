@@ -6,8 +6,8 @@ mod common;
 use common::{graph, join, parabola, power};
 use linecontact::search::{Bracket, Brent, LimitSearch, Newton, Root, SearchError, Tolerance};
 use linecontact::{
-    Contact, ContactError, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat, Interval,
-    Limits, Load, Midpoint, ParametricProfile, Piecewise, PiecewiseError, ProfileError,
+    Contact, ContactError, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat, Interval, Load,
+    Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
 };
 use std::f64::consts::PI;
 
@@ -45,7 +45,8 @@ fn a_sloppy_inversion_shows() {
         let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
         CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
     });
-    let contact = Contact::new(&Flat, &body).unwrap();
+    let rule = Midpoint::default();
+    let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule);
     let chord = Guess(|b| {
         let [f_lo, f_hi] = b.values.unwrap();
         b.lo - f_lo * (b.hi - b.lo) / (f_hi - f_lo)
@@ -132,7 +133,8 @@ fn pressure_next_to_a_jump_of_the_slope() {
     let m = 0.25;
     let wedge =
         join(vec![graph(-1.0, 0.0, move |x| [-m * x, -m]), graph(0.0, 1.0, move |x| [m * x, m])]);
-    let contact = Contact::new(&Flat, &*wedge).unwrap();
+    let rule = Midpoint::default();
+    let contact = Contact::new(&Flat, &*wedge).unwrap().quadrature(&rule);
     let solution = contact.solve(Load::PerLength(2.0 * m * 0.2 / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.05, 0.15] {
@@ -165,8 +167,8 @@ fn rules_too_coarse_to_know() {
     }
     // So are the limits that such a rule finds by Eq. (6).
     let rule = Midpoint::paper(1, 0);
-    let edges = Limits::EdgePressure(EdgePressure::zero(0.01, 1e-6));
-    let contact = Contact::new(&Flat, &*body).unwrap().limits(edges).quadrature(&rule);
+    let edges = EdgePressure::zero(0.01, 1e-6);
+    let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges).quadrature(&rule);
     if let Ok(solution) = contact.solve(Load::PerLength(0.02)) {
         assert!(solution.limits_error().unwrap() > 0.1, "{solution:?}");
     }
@@ -180,16 +182,25 @@ fn derivatives_that_are_wrong() {
             CurvePoint { x, y: x * x / 2.0, dx: fx * dx, dy: fy * x * dx }
         })
     };
-    assert!(Contact::new(&Flat, &with(1.0, 1.0)).is_ok());
+    let solve = |body: &dyn ParametricProfile<f64>| {
+        Contact::new(&Flat, body)
+            .and_then(|contact| contact.solve(Load::PerLength(0.02)).map(|_| ()))
+    };
+    assert!(Piece::checked(&with(1.0, 1.0)).is_ok());
+    assert_eq!(solve(&with(1.0, 1.0)), Ok(()));
     for (fx, fy, name) in [(2.0, 1.0, "X'"), (0.5, 1.0, "X'"), (10.0, 1.0, "X'"), (1.0, -1.0, "Y'")]
     {
         let body = with(fx, fy);
-        let error = Contact::new(&Flat, &body).map(|_| ()).unwrap_err();
+        let error = Piece::checked(&body).map(|_| ()).unwrap_err();
+        let ProfileError::Derivative { quantity, .. } = error else { panic!("{error}") };
+        assert_eq!(quantity, name);
+        // Without that check the solver finds that slopes and heights do not go together.
+        let error = solve(&body).unwrap_err();
         let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
         else {
             panic!("{error}")
         };
-        assert_eq!(quantity, name);
+        assert_eq!(quantity, "the slope Y'/X'");
     }
 }
 

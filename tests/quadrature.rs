@@ -6,7 +6,7 @@ mod common;
 use approx::assert_relative_eq;
 use common::{example_1_exact, example_2_exact, graph, order, paper, reference, scenes};
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Exponents, Flat, Interval, Limits, Load, Midpoint,
+    Contact, ContactError, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load, Midpoint,
     Solution,
 };
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn pressure(example: usize, rule: Midpoint, xs: &[f64]) -> Vec<f64> {
         _ => (paper::two(), PI / 2.0, Interval { left: -0.6, right: 1.0 }),
     };
     let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap().kappa(kappa);
-    let contact = contact.limits(Limits::Fixed(on)).quadrature(&rule);
+    let contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right)).quadrature(&rule);
     let solution = contact.solve(Load::Constant(scene.c)).unwrap();
     let pressure = solution.pressure().unwrap();
     xs.iter().map(|&x| pressure.at(x).unwrap()).collect()
@@ -282,14 +282,14 @@ fn a_sharp_flat_punch() {
     let tilted =
         Curve::new([-0.5, 0.5], move |k: f64| CurvePoint { x: k, y: m * k, dx: 1.0, dy: m });
     let contact = Contact::new(&Flat, &tilted).unwrap();
-    let contact = contact.limits(Limits::Fixed(Interval { left: -0.5, right: 0.5 }));
+    let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
     let solution = contact.solve(Load::PerLength(load)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [-0.4, -0.1, 0.0, 0.27, 0.45] {
         let exact = (load - m * x) / (PI * (0.25f64 - x * x).sqrt());
         assert_relative_eq!(pressure.at(x).unwrap(), exact, epsilon = 0.0, max_relative = 1e-9);
     }
-    assert_eq!(pressure.at(0.5), Err(ContactError::SingularEdge { x: 0.5 }));
+    assert_eq!(pressure.at(0.5), Err(ContactError::Singular { x: 0.5 }));
 }
 
 #[test]

@@ -34,7 +34,7 @@ impl Case {
     }
 
     fn curve(&self) -> &dyn ParametricProfile<f64> {
-        self.profile.pieces().get(self.piece).map_or(&*self.profile, |piece| piece.curve)
+        self.profile.piece(self.piece).map_or(&*self.profile, |piece| piece.curve)
     }
 
     /// The roots sought, in geometric progression.

@@ -1,7 +1,7 @@
 //! Examples 3 to 5: curves without an inverse in closed form, limits sought.
 
 use crate::curves::{self, Example};
-use linecontact::{Contact, ContactError, Cost, EdgePressure, Interval, Limits, Load, Midpoint};
+use linecontact::{Contact, ContactError, Cost, EdgePressure, Interval, Load, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
@@ -103,21 +103,20 @@ impl fmt::Display for Solved {
 pub fn solve(case: &Case, reading: Reading, zero: Zero) -> Result<Solved, ContactError<f64>> {
     let Reading { kappa, a, b } = reading;
     let Example { lower, upper, c } = (case.example)();
-    let limits = match zero {
-        Zero::AtLimits => Limits::Free,
+    let rule = Midpoint::paper(case.segments, 2);
+    let contact = Contact::new(&lower, &upper)?.kappa(kappa).quadrature(&rule);
+    let contact = match zero {
+        Zero::AtLimits => contact,
         Zero::OneSegmentInside => {
             let segment = (a + b) / case.segments as f64;
             let mean_pressure = c / PI / (a + b);
-            Limits::EdgePressure(EdgePressure::zero(segment, 1e-6 * mean_pressure))
+            contact.edge_pressure(EdgePressure::zero(segment, 1e-6 * mean_pressure))
         }
     };
-    let rule = Midpoint::paper(case.segments, 2);
-    let contact = Contact::new(&lower, &upper)?.kappa(kappa).limits(limits).quadrature(&rule);
     let solution = contact.solve(Load::Constant(c))?;
+    let (contact, cost) = (solution.interval(), solution.cost());
     let pressure = solution.pressure()?;
-
-    let cost = solution.cost() + pressure.cost();
-    let contact = solution.interval();
+    let cost = cost + pressure.cost();
     let segment = (contact.right - contact.left) / case.segments as f64;
     let mut points = Vec::new();
     for i in 1..case.segments {

@@ -1,7 +1,7 @@
 //! Tables 1 and 2: the absolute errors of the paper's quadrature, known limits.
 
 use crate::curves::{self, Example};
-use linecontact::{Contact, ContactError, Interval, Limits, Load, Midpoint};
+use linecontact::{Contact, ContactError, Edge, Interval, Load, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
@@ -78,7 +78,7 @@ pub fn table1() -> Result<Vec<Entry>, ContactError<f64>> {
     };
     let Example { lower, upper, c } = curves::one();
     let on = Interval { left: -1.0, right: 1.0 };
-    let contact = Contact::new(&lower, &upper)?.limits(Limits::Fixed(on));
+    let contact = Contact::new(&lower, &upper)?.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
     table(1, &contact, Load::Constant(c), SEGMENTS_1, &TABLE_1, exact)
 }
 
@@ -88,7 +88,9 @@ pub fn table2() -> Result<Vec<Entry>, ContactError<f64>> {
     let (a, b) = (1.0, 0.6);
     let exact = |x: f64| 16.0 * ((a - x) * (b + x)).sqrt();
     let on = Interval { left: -b, right: a };
-    let contact = Contact::new(&lower, &upper)?.kappa(FRAC_PI_2).limits(Limits::Fixed(on));
+    let contact = Contact::new(&lower, &upper)?
+        .kappa(FRAC_PI_2)
+        .edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
     table(2, &contact, Load::Constant(c), SEGMENTS_2, &TABLE_2, exact)
 }
 

@@ -1,7 +1,7 @@
 //! Where the bodies touch first: the point at which the slope of the gap passes from negative to
 //! positive. Every single contact of a gap whose slope rises contains it.
 
-use crate::gap::{Sampler, Side};
+use crate::gap::{Gap, Sampler, Side};
 use crate::search::{Bracket, Brent, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 
@@ -13,22 +13,23 @@ struct Signs<T> {
 
 /// Finds it, looking first at the start, or else in the middle of the bodies.
 pub(super) fn first_contact<T: Real>(
-    sampler: &mut Sampler<'_, T>,
-    joints: &[T],
-    range: [T; 2],
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     start: Option<Interval<T>>,
 ) -> Result<T, ContactError<T>> {
-    let mut signs = widen(sampler, Interval { left: range[0], right: range[1] }, start)?;
-    match jump(sampler, joints, &mut signs)? {
+    let range = gap.range();
+    let mut signs = widen(sampler, gap, Interval { left: range[0], right: range[1] }, start)?;
+    match jump(sampler, gap, &mut signs)? {
         Some(joint) => Ok(joint),
-        None => zero(sampler, signs),
+        None => zero(sampler, gap, signs),
     }
 }
 
 /// Widens until the slope is negative on the left and positive on the right. The ends of the
 /// bodies are approached but not reached: the slope of a round body may be infinite there.
 fn widen<T: Real>(
-    sampler: &mut Sampler<'_, T>,
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     whole: Interval<T>,
     start: Option<Interval<T>>,
 ) -> Result<Signs<T>, ContactError<T>> {
@@ -39,7 +40,7 @@ fn widen<T: Real>(
     let start = start.filter(inside).unwrap_or(middle);
 
     let (mut x, mut step) = ([start.left, start.right], start.half_width());
-    let mut slope = [sampler.slope(x[0])?, sampler.slope(x[1])?];
+    let mut slope = [sampler.slope(gap, x[0])?, sampler.slope(gap, x[1])?];
     while !(slope[0] <= zero && slope[1] >= zero && slope[0] < slope[1]) {
         let before = x;
         step *= T::of(2.0);
@@ -51,11 +52,11 @@ fn widen<T: Real>(
             x[1] = (x[1] + step).min(half * x[1] + half * whole.right);
         }
         if x == before || !(whole.contains(x[0]) && whole.contains(x[1])) {
-            return scan(sampler, start, ContactError::NoFirstContact { x: before, slope });
+            return scan(sampler, gap, start, ContactError::NoFirstContact { x: before, slope });
         }
         for i in 0..2 {
             if x[i] != before[i] {
-                slope[i] = sampler.slope(x[i])?;
+                slope[i] = sampler.slope(gap, x[i])?;
             }
         }
     }
@@ -64,16 +65,17 @@ fn widen<T: Real>(
 
 /// Looks between the ends of the start for what was not found outside it.
 fn scan<T: Real>(
-    sampler: &mut Sampler<'_, T>,
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     start: Interval<T>,
     not_found: ContactError<T>,
 ) -> Result<Signs<T>, ContactError<T>> {
     const STEPS: usize = 32;
     let step = (start.right - start.left) / T::count(STEPS);
-    let mut left = (start.left, sampler.slope(start.left)?);
+    let mut left = (start.left, sampler.slope(gap, start.left)?);
     for i in 1..=STEPS {
         let x = start.left + step * T::count(i);
-        let right = (x.min(start.right), sampler.slope(x.min(start.right))?);
+        let right = (x.min(start.right), sampler.slope(gap, x.min(start.right))?);
         if left.1 <= T::zero() && right.1 >= T::zero() && left.1 < right.1 {
             return Ok(Signs { x: [left.0, right.0], slope: [left.1, right.1] });
         }
@@ -85,16 +87,15 @@ fn scan<T: Real>(
 /// A wedge touches at a joint, where the slope has no zero but jumps through it. Where no joint
 /// is the place, they narrow the bracket.
 fn jump<T: Real>(
-    sampler: &mut Sampler<'_, T>,
-    joints: &[T],
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     Signs { x, slope }: &mut Signs<T>,
 ) -> Result<Option<T>, ContactError<T>> {
-    for &joint in joints {
-        if joint <= x[0] || joint >= x[1] {
-            continue;
-        }
-        let left = sampler.slope_from(joint, Side::Left)?;
-        let right = sampler.slope_from(joint, Side::Right)?;
+    let mut after = x[0];
+    while let Some(joint) = gap.joint_after(after).filter(|&joint| joint < x[1]) {
+        after = joint;
+        let left = sampler.slope_from(gap, joint, Side::Left)?;
+        let right = sampler.slope_from(gap, joint, Side::Right)?;
         if left > T::zero() {
             (x[1], slope[1]) = (joint, left);
         } else if right < T::zero() {
@@ -108,12 +109,13 @@ fn jump<T: Real>(
 
 /// The zero of the slope in the bracket.
 fn zero<T: Real>(
-    sampler: &mut Sampler<'_, T>,
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     Signs { x, slope }: Signs<T>,
 ) -> Result<T, ContactError<T>> {
     let mut failed = None;
     let mut f = |x| {
-        sampler.slope(x).unwrap_or_else(|error| {
+        sampler.slope(gap, x).unwrap_or_else(|error| {
             failed = Some(error);
             T::of(f64::NAN)
         })

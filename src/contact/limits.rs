@@ -18,10 +18,10 @@
 //! last width had, the outer one from the start, by factors that a round body would need.
 
 use super::Contact;
-use super::edges::{Edges, Excess};
+use super::edges::{Excess, Goal};
 use super::first_contact::first_contact;
 use super::stride::{Stride, ulps};
-use crate::gap::Cost;
+use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch};
 use crate::{ContactError, Interval, Real};
@@ -31,40 +31,45 @@ use crate::{ContactError, Interval, Real};
 const MOST_WIDTHS: usize = 2200;
 
 /// Limits that meet the conditions at the edges.
-pub(crate) struct Found<T> {
-    pub interval: Interval<T>,
-    /// K_a and K_b, where they are what was made to vanish.
-    pub strengths: Option<[T; 2]>,
+pub(super) struct Nested<T> {
+    pub on: Interval<T>,
     /// Estimated error of the limits relative to the half-width.
-    pub error: Option<T>,
+    pub error: T,
 }
 
-/// Finds the limits that meet the conditions.
+/// Finds the limits that meet the conditions, from a start or without one.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     load: T,
-    edges: Edges<T>,
+    goal: Goal<T>,
     engine: &mut dyn Engine<T>,
+    start: Option<Interval<T>>,
     cost: &mut Cost,
-) -> Result<Found<T>, ContactError<T>> {
-    if !(load.is_finite() && load > T::zero()) {
-        return Err(ContactError::Load { load });
-    }
-    let range = contact.gap.range();
-    edges.check(range)?;
-    let mut sampler = contact.gap.sampler();
-    let first = first_contact(&mut sampler, contact.gap.joints(), range, contact.start);
-    *cost += sampler.cost;
-    let origin = first?;
-    let half_width = match contact.start {
-        Some(start) => start.half_width(),
-        None => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
+) -> Result<Nested<T>, ContactError<T>> {
+    let gap = &contact.gap;
+    let range = gap.range();
+    goal.check(range)?;
+    let origin = match goal.limits() {
+        [Some(given), _] | [_, Some(given)] => given,
+        [None, None] => {
+            let mut sampler = Sampler::default();
+            let first = first_contact(&mut sampler, gap, start);
+            *cost += sampler.cost;
+            first?
+        }
+    };
+    let half_width = match (start, goal.limits()) {
+        (Some(start), _) => start.half_width(),
+        (None, [Some(_), _]) => T::of(0.125) * (range[1] - origin),
+        (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
+        (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
     let mut search = Search {
-        edges,
+        goal,
+        gap,
         engine,
         cost,
-        strategy: contact.search,
+        strategy: contact.strategy(),
         origin,
         range,
         load,
@@ -75,20 +80,36 @@ pub(super) fn find<T: Real>(
     if trial.cornered {
         return Err(search.no_balance(trial.on.half_width()));
     }
-    let Excess { at_a, at_b, .. } = trial.excess;
-    let strengths = match edges {
-        Edges::Strength { .. } => {
-            Some([at_a, at_b].map(|force| force / (T::pi() * trial.on.half_width())))
-        }
-        Edges::Pressure { wanted, .. } => {
-            wanted.met(trial.on, &trial.excess)?;
-            None
-        }
-    };
+    if let Goal::Pressure { wanted, .. } = goal {
+        wanted.met(trial.on, &trial.excess)?;
+    }
     // What the quadrature leaves open, and what the search has left of the conditions.
-    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / load;
-    let error = trial.excess.error + missed;
-    Ok(Found { interval: trial.on, strengths, error: Some(error) })
+    let Excess { at_a, at_b, .. } = trial.excess;
+    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / load.abs();
+    Ok(Nested { on: trial.on, error: trial.excess.error + missed })
+}
+
+/// The balanced contact of a given half-width.
+pub(super) fn place<T: Real>(
+    contact: &Contact<'_, T>,
+    goal: Goal<T>,
+    engine: &mut dyn Engine<T>,
+    half_width: T,
+    cost: &mut Cost,
+) -> Result<Nested<T>, ContactError<T>> {
+    let gap = &contact.gap;
+    let mut sampler = Sampler::default();
+    let first = first_contact(&mut sampler, gap, contact.start);
+    *cost += sampler.cost;
+    let (origin, range) = (first?, gap.range());
+    let load = T::one();
+    let (strategy, share, stiffness) = (contact.strategy(), T::of(0.5), None);
+    let mut search =
+        Search { goal, gap, engine, cost, strategy, origin, range, load, share, stiffness };
+    match search.place(half_width)? {
+        Placed::At(trial) => Ok(Nested { on: trial.on, error: trial.excess.error }),
+        Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
+    }
 }
 
 /// A contact tried, and by how much it misses the conditions.
@@ -111,7 +132,8 @@ enum Placed<T> {
 }
 
 struct Search<'s, T: Real> {
-    edges: Edges<T>,
+    goal: Goal<T>,
+    gap: &'s Gap<'s, T>,
     engine: &'s mut dyn Engine<T>,
     cost: &'s mut Cost,
     strategy: &'s dyn LimitSearch<T>,
@@ -127,7 +149,7 @@ struct Search<'s, T: Real> {
 
 impl<T: Real> Search<'_, T> {
     fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
-        let excess = self.edges.excess(on, self.engine, self.cost)?;
+        let excess = self.goal.excess(self.gap, on, self.engine, self.cost)?;
         if !excess.is_finite() {
             return Err(ContactError::Overflow { interval: on });
         }
@@ -154,7 +176,7 @@ impl<T: Real> Search<'_, T> {
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
     fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        let least = half * self.edges.least_width();
+        let least = half * self.goal.least_width();
         let most = half * (self.range[1] - self.range[0]);
         let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
@@ -195,6 +217,14 @@ impl<T: Real> Search<'_, T> {
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(last));
             }
+            let given = self.goal.limits().iter().any(Option::is_some);
+            if given && spread > zero {
+                for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
+                    if self.goal.limits()[end].is_none() && x == self.range[end] {
+                        return Err(self.too_short(end, trial.on));
+                    }
+                }
+            }
             half_width = stride.next(last, trial.excess.growth, spread > zero);
             *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
             match (narrow, wide) {
@@ -230,6 +260,21 @@ impl<T: Real> Search<'_, T> {
         let zero = T::zero();
         let width = T::of(2.0) * half_width;
         let [room_left, room_right] = self.room();
+        match self.goal.limits() {
+            [Some(left), _] if width >= room_right => {
+                return self.attempt(Interval { left, right: self.range[1] }).map(Placed::At);
+            }
+            [Some(left), _] => {
+                return self.attempt(Interval { left, right: left + width }).map(Placed::At);
+            }
+            [_, Some(right)] if width >= room_left => {
+                return self.attempt(Interval { left: self.range[0], right }).map(Placed::At);
+            }
+            [_, Some(right)] => {
+                return self.attempt(Interval { left: right - width, right }).map(Placed::At);
+            }
+            [None, None] => {}
+        }
         let (lo, hi) = ((width - room_left).max(zero), width.min(room_right));
         if lo >= hi {
             return Ok(Placed::Beyond(usize::from(room_right < room_left)));
@@ -257,10 +302,10 @@ impl<T: Real> Search<'_, T> {
                 } else if right == width - room_left {
                     Ok(Placed::Beyond(0))
                 } else {
-                    Ok(match self.edges {
-                        Edges::Strength { .. } => Placed::Adrift,
+                    Ok(match self.goal {
+                        Goal::Strength { .. } => Placed::Adrift,
                         // It still tells whether to widen; then it may find its balance.
-                        Edges::Pressure { .. } => Placed::At(Trial { cornered: true, ..trial }),
+                        Goal::Pressure { .. } => Placed::At(Trial { cornered: true, ..trial }),
                     })
                 };
             }
@@ -366,13 +411,13 @@ impl<T: Real> Search<'_, T> {
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
-        if let Edges::Pressure { wanted, .. } = self.edges {
+        if let Goal::Pressure { wanted, .. } = self.goal {
             let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
             return met.err().unwrap_or(self.no_balance(on.half_width()));
         }
-        match self.engine.moments(on) {
+        match self.engine.moments(self.gap, on) {
             Ok(m) => {
-                let carried = self.edges.kappa() * on.half_width() * m.first;
+                let carried = self.goal.kappa() * on.half_width() * m.first;
                 ContactError::TooShort { end: self.range[end], carried, load: self.load }
             }
             Err(error) => error,

@@ -6,20 +6,56 @@ use crate::Real;
 /// Steps in `k` at which the check looks at `X` and `X'`.
 const STEPS: usize = 32;
 
-/// A smooth curve with the range of `k` and of `x` it covers, known to be strictly monotone
-/// in `X` as far as [`Piece::new`] could see.
+/// A smooth curve and its two ends, from left to right.
 #[derive(Clone, Copy)]
 pub struct Piece<'a, T> {
     /// The curve.
     pub curve: &'a dyn ParametricProfile<T>,
     /// `k` at the left and at the right end; falling where `X` falls with `k`.
     pub k: [T; 2],
-    /// `x` at the left and at the right end, rising.
-    pub x: [T; 2],
+    /// The curve there; `X` is finite and rises from one to the other.
+    pub ends: [CurvePoint<T>; 2],
 }
 
 impl<'a, T: Real> Piece<'a, T> {
-    /// Checks a smooth curve over its domain: 39 evaluations.
+    /// `x` at the left and at the right end, rising.
+    pub fn x(&self) -> [T; 2] {
+        [self.ends[0].x, self.ends[1].x]
+    }
+
+    /// A smooth curve, looked at only at the two ends of its domain.
+    ///
+    /// # Errors
+    /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` is not finite,
+    /// [`ProfileError::TurnsBack`] where it is the same at both ends.
+    pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        let k = domain(curve)?;
+        let ends = k.map(|k| curve.at(k));
+        for (k, end) in k.into_iter().zip(ends) {
+            if !end.x.is_finite() {
+                return Err(ProfileError::NotFinite { quantity: "X", k, value: end.x });
+            }
+        }
+        Self::between(curve, k, ends)
+    }
+
+    fn between(
+        curve: &'a dyn ParametricProfile<T>,
+        k: [T; 2],
+        ends: [CurvePoint<T>; 2],
+    ) -> Result<Self, ProfileError<T>> {
+        if ends[0].x < ends[1].x {
+            Ok(Self { curve, k, ends })
+        } else if ends[0].x > ends[1].x {
+            Ok(Self { curve, k: [k[1], k[0]], ends: [ends[1], ends[0]] })
+        } else {
+            let k = T::of(0.5) * k[0] + T::of(0.5) * k[1];
+            Err(ProfileError::TurnsBack { k, x: curve.x(k) })
+        }
+    }
+
+    /// The same, after a look at the whole of the domain: 39 evaluations. For profiles just
+    /// written, and for the pieces that [`Piecewise`](super::Piecewise) joins.
     ///
     /// A fold narrower than a thirty-second of the domain can pass; it is reported when the
     /// solver comes upon it.
@@ -28,11 +64,8 @@ impl<'a, T: Real> Piece<'a, T> {
     /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` or `X'` is not
     /// finite (`X'` may be at the very ends), [`ProfileError::TurnsBack`],
     /// [`ProfileError::Derivative`].
-    pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        let [from, to] = curve.domain();
-        if !(from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to) {
-            return Err(ProfileError::Domain { from, to });
-        }
+    pub fn checked(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        let [from, to] = domain(curve)?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
         let mut points = [curve.at(from); STEPS + 1];
@@ -63,12 +96,17 @@ impl<'a, T: Real> Piece<'a, T> {
         for place in [0.2763, 0.7236] {
             check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
         }
-        let (k, x) = ([from, to], [points[0].x, points[STEPS].x]);
-        Ok(if rising {
-            Self { curve, k, x }
-        } else {
-            Self { curve, k: [k[1], k[0]], x: [x[1], x[0]] }
-        })
+        Self::between(curve, [from, to], [points[0], points[STEPS]])
+    }
+}
+
+/// The range of `k`, checked.
+fn domain<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<[T; 2], ProfileError<T>> {
+    let [from, to] = curve.domain();
+    if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
+        Ok([from, to])
+    } else {
+        Err(ProfileError::Domain { from, to })
     }
 }
 
@@ -109,7 +147,11 @@ fn check_derivatives<T: Real>(
 }
 
 /// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.
-fn turning_point<T: Real>(curve: &dyn ParametricProfile<T>, mut lo: T, mut hi: T) -> (T, T) {
+pub(crate) fn turning_point<T: Real>(
+    curve: &dyn ParametricProfile<T>,
+    mut lo: T,
+    mut hi: T,
+) -> (T, T) {
     let half = T::of(0.5);
     let side = curve.dx(lo) < T::zero();
     if (curve.dx(hi) < T::zero()) == side {

@@ -2,7 +2,6 @@
 
 use super::{CurvePoint, ParametricProfile, Piece, ProfileError};
 use crate::Real;
-use std::marker::PhantomData;
 use thiserror::Error;
 
 /// Smooth profiles joined end to end, from left to right.
@@ -32,9 +31,10 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
-    /// `k` and `x` at the left and right end of each part.
-    ends: Vec<([T; 2], [T; 2])>,
-    scalar: PhantomData<T>,
+    /// `k` and the curve at the left and right end of each part.
+    ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
+    /// The smooth pieces: part, and piece of that part where it has several.
+    smooth: Vec<(usize, usize)>,
 }
 
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
@@ -58,17 +58,19 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if !(tolerance.is_finite() && tolerance >= T::zero()) {
             return Err(PiecewiseError::Tolerance { tolerance });
         }
-        let mut ends = Vec::with_capacity(parts.len());
+        let mut ends: Vec<([T; 2], [CurvePoint<T>; 2])> = Vec::with_capacity(parts.len());
+        let mut smooth = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
-            let Piece { k, x, .. } =
-                Piece::new(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
-            ends.push((k, x));
+            let Piece { k, ends: points, .. } =
+                Piece::checked(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
+            ends.push((k, points));
+            smooth.extend((0..part.pieces().max(1)).map(|inner| (piece, inner)));
         }
         if parts.is_empty() {
             return Err(PiecewiseError::NoPieces);
         }
         for joint in 0..parts.len() - 1 {
-            let [(k, x), (k_next, x_next)] = [ends[joint], ends[joint + 1]];
+            let [x, x_next] = [0, 1].map(|i| ends[joint + i].1.map(|point| point.x));
             let (left, right) = (x[1], x_next[0]);
             let mismatch = right - left;
             if mismatch.abs() > tolerance * extent(x).max(extent(x_next)) {
@@ -78,31 +80,29 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
                     PiecewiseError::Overlap { joint, left, right }
                 });
             }
-            let y = heights(&parts, joint, k)?;
-            let y_next = heights(&parts, joint + 1, k_next)?;
+            let y = heights(joint, &ends[joint])?;
+            let y_next = heights(joint + 1, &ends[joint + 1])?;
             let jump = y_next[0] - y[1];
             if jump.abs() > tolerance * extent(y).max(extent(y_next)) {
                 return Err(PiecewiseError::Jump { joint, x: left, left: y[1], right: y_next[0] });
             }
         }
-        Ok(Self { parts, ends, scalar: PhantomData })
+        Ok(Self { parts, ends, smooth })
     }
 }
 
 /// `Y` at the two ends of a piece.
-fn heights<T: Real, P: ParametricProfile<T>>(
-    parts: &[P],
+fn heights<T: Real>(
     piece: usize,
-    k: [T; 2],
+    (k, ends): &([T; 2], [CurvePoint<T>; 2]),
 ) -> Result<[T; 2], PiecewiseError<T>> {
-    let y = k.map(|k| parts[piece].y(k));
-    for (k, value) in k.into_iter().zip(y) {
+    for (&k, &CurvePoint { y: value, .. }) in k.iter().zip(ends) {
         if !value.is_finite() {
             let source = ProfileError::NotFinite { quantity: "Y", k, value };
             return Err(PiecewiseError::InPiece { piece, source });
         }
     }
-    Ok(y)
+    Ok(ends.map(|point| point.y))
 }
 
 /// The larger of the length of an interval and its distance from 0.
@@ -124,17 +124,15 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
         CurvePoint { dx: point.dx * scale, dy: point.dy * scale, ..point }
     }
 
-    fn pieces(&self) -> Vec<Piece<'_, T>> {
-        let mut pieces = Vec::with_capacity(self.parts.len());
-        for (part, &(k, x)) in self.parts.iter().zip(&self.ends) {
-            let inner = part.pieces();
-            if inner.is_empty() {
-                pieces.push(Piece { curve: part, k, x });
-            } else {
-                pieces.extend(inner);
-            }
-        }
-        pieces
+    fn pieces(&self) -> usize {
+        self.smooth.len()
+    }
+
+    fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
+        let &(part, inner) = self.smooth.get(index)?;
+        let (k, ends) = self.ends[part];
+        let curve = &self.parts[part];
+        curve.piece(inner).or(Some(Piece { curve, k, ends }))
     }
 }
 

@@ -38,10 +38,11 @@
 //! jump of the slope at a joint is added by its size and distance.
 
 use super::moments::moments;
-use super::{Engine, Estimate, Moments, Quadrature, Transform};
+use super::{Engine, Estimate, Moments, Pressing, Quadrature};
 use crate::gap::{Cost, Gap, Sampler, Side};
 use crate::real::Sum;
 use crate::{ContactError, Interval, Real};
+use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,47 +104,84 @@ impl Default for Midpoint {
 }
 
 impl<T: Real> Quadrature<T> for Midpoint {
-    fn prepare<'g>(&self, gap: &'g Gap<'g, T>) -> Result<Box<dyn Engine<T> + 'g>, ContactError<T>> {
+    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>> {
         let Self { segments, extrapolations, .. } = *self;
         let Some(levels) = self.levels() else {
             return Err(ContactError::Segments { segments, extrapolations });
         };
-        Ok(Box::new(AtWork { rule: *self, levels, gap, sampler: gap.sampler() }))
+        let sampler = Sampler::default();
+        let sums = OnceLock::new();
+        Ok(Box::new(AtWork { rule: *self, levels, sampler, on: None, sums }))
     }
 }
 
-struct AtWork<'g, T: Real> {
+struct AtWork<T: Real> {
     rule: Midpoint,
     levels: Vec<usize>,
-    gap: &'g Gap<'g, T>,
     /// Kept from one trial to the next: it knows where on the curves it is.
-    sampler: Sampler<'g, T>,
+    sampler: Sampler<T>,
+    /// The interval prepared, and the levels sampled on it when they are first needed.
+    on: Option<Interval<T>>,
+    sums: OnceLock<Sums<T>>,
 }
 
-impl<T: Real> Engine<T> for AtWork<'_, T> {
-    fn moments(&mut self, on: Interval<T>) -> Result<Moments<T>, ContactError<T>> {
-        moments(&mut self.sampler, self.gap.joints(), on)
+impl<T: Real> Engine<T> for AtWork<T> {
+    fn reset(&mut self, same_bodies: bool) {
+        self.sampler.cost = Cost::default();
+        if !same_bodies {
+            (self.sampler, self.on) = (Sampler::default(), None);
+        }
     }
 
-    fn transform<'e>(
-        &'e self,
+    fn moments(
+        &mut self,
+        gap: &Gap<'_, T>,
         on: Interval<T>,
-        cost: &mut Cost,
-    ) -> Result<Box<dyn Transform<T> + 'e>, ContactError<T>> {
-        let mut sampler = self.gap.sampler();
+    ) -> Result<Moments<T>, ContactError<T>> {
+        moments(&mut self.sampler, gap, on)
+    }
+
+    fn prepare(&mut self, _gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        (self.on, self.sums) = (Some(on), OnceLock::new());
+        Ok(())
+    }
+
+    fn complete(&self, gap: &Gap<'_, T>) -> Result<Cost, ContactError<T>> {
+        let Some(on) = self.on.filter(|_| self.sums.get().is_none()) else {
+            return Ok(Cost::default());
+        };
+        let mut sampler = Sampler::default();
         let trapezoidal = self.rule.extrapolations == 0;
         let mut levels = Vec::with_capacity(self.levels.len());
         for &n in &self.levels {
-            levels.push(Level::sample(&mut sampler, on, n, trapezoidal)?);
+            levels.push(Level::sample(&mut sampler, gap, on, n, trapezoidal)?);
         }
         let mut jumps = Vec::new();
-        for &x in self.gap.joints().iter().filter(|&&x| on.contains(x)) {
-            let left = sampler.slope_from(x, Side::Left)?;
-            jumps.push((x, (sampler.slope_from(x, Side::Right)? - left).abs()));
+        for x in gap.joints(on) {
+            let left = sampler.slope_from(gap, x, Side::Left)?;
+            jumps.push((x, (sampler.slope_from(gap, x, Side::Right)? - left).abs()));
         }
-        *cost += sampler.cost;
         let exponents = self.rule.exponents;
-        Ok(Box::new(Sums { gap: self.gap, on, levels, jumps, exponents }))
+        self.sums.get_or_init(|| Sums { on, levels, jumps, exponents });
+        Ok(sampler.cost)
+    }
+
+    fn estimate(
+        &self,
+        gap: &Gap<'_, T>,
+        pressing: &Pressing<T>,
+        x: T,
+        cost: &mut Cost,
+    ) -> Result<Estimate<T>, ContactError<T>> {
+        let Some(sums) = self.sums.get() else {
+            let zero = T::zero();
+            return Ok(Estimate { value: zero, error: zero });
+        };
+        let Estimate { value, error } = sums.at(gap, x, cost)?;
+        let edge = T::pi() * T::pi() * sums.on.edge_root(x);
+        let Pressing { kappa, load, .. } = *pressing;
+        let value = (T::pi() * load - kappa * value) / edge;
+        Ok(Estimate { value, error: kappa * error / edge })
     }
 
     fn cost(&self) -> Cost {
@@ -152,8 +190,7 @@ impl<T: Real> Engine<T> for AtWork<'_, T> {
 }
 
 /// All levels, sampled on one interval.
-struct Sums<'g, T: Real> {
-    gap: &'g Gap<'g, T>,
+struct Sums<T: Real> {
     on: Interval<T>,
     levels: Vec<Level<T>>,
     /// The joints in the interval, and by how much the slope jumps there.
@@ -161,9 +198,10 @@ struct Sums<'g, T: Real> {
     exponents: Exponents,
 }
 
-impl<T: Real> Transform<T> for Sums<'_, T> {
-    fn at(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
-        let mut pole = Pole { on: self.on, x, slope: None, sampler: self.gap.sampler() };
+impl<T: Real> Sums<T> {
+    /// The Cauchy integral `I(x)`.
+    fn at(&self, gap: &Gap<'_, T>, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+        let mut pole = Pole { gap, on: self.on, x, slope: None, sampler: Sampler::default() };
         let mut rows = Vec::with_capacity(self.levels.len());
         for level in &self.levels {
             rows.push(level.at(&mut pole)?);
@@ -183,9 +221,7 @@ impl<T: Real> Transform<T> for Sums<'_, T> {
         let half_width = self.on.half_width();
         Ok(Estimate { value: half_width * value.0, error: half_width * error })
     }
-}
 
-impl<T: Real> Sums<'_, T> {
     /// What the rule can miss of `PV∫ h/(z - t) dt` where h jumps at a joint: the joint may lie
     /// anywhere in its segment, and next to it the integral has a logarithm.
     fn jump_error(&self, x: T) -> T {
@@ -231,17 +267,18 @@ impl<T: Real> Sums<'_, T> {
 
 /// The point x at which the integral is wanted; the slope there is sampled when first needed.
 struct Pole<'g, T: Real> {
+    gap: &'g Gap<'g, T>,
     on: Interval<T>,
     x: T,
     slope: Option<T>,
-    sampler: Sampler<'g, T>,
+    sampler: Sampler<T>,
 }
 
 impl<T: Real> Pole<'_, T> {
     fn slope(&mut self) -> Result<T, ContactError<T>> {
         match self.slope {
             Some(slope) => Ok(slope),
-            None => Ok(*self.slope.insert(self.sampler.slope(self.x)?)),
+            None => Ok(*self.slope.insert(self.sampler.slope(self.gap, self.x)?)),
         }
     }
 
@@ -265,7 +302,8 @@ struct Level<T> {
 
 impl<T: Real> Level<T> {
     fn sample(
-        sampler: &mut Sampler<'_, T>,
+        sampler: &mut Sampler<T>,
+        gap: &Gap<'_, T>,
         on: Interval<T>,
         n: usize,
         trapezoidal: bool,
@@ -278,7 +316,7 @@ impl<T: Real> Level<T> {
             let from_left = level.place(i);
             let root = T::of(2.0) * (from_left * (count - from_left)).sqrt() / count;
             level.root.push(root);
-            level.h.push(root * sampler.slope(level.x(on, i))?);
+            level.h.push(root * sampler.slope(gap, level.x(on, i))?);
         }
         Ok(level)
     }
@@ -378,8 +416,8 @@ impl<T: Real> Level<T> {
         let mut of_slope = T::zero();
         for (j, eighths) in [1.0, 2.0, 3.0].into_iter().enumerate() {
             let half_spread = T::of(eighths / 8.0);
-            let right = pole.sampler.slope(middle + half_spread * segment)?;
-            let left = pole.sampler.slope(middle - half_spread * segment)?;
+            let right = pole.sampler.slope(pole.gap, middle + half_spread * segment)?;
+            let left = pole.sampler.slope(pole.gap, middle - half_spread * segment)?;
             let mut weight = T::one();
             for (_, other) in [1.0, 2.0, 3.0].into_iter().enumerate().filter(|&(m, _)| m != j) {
                 weight *= (wanted - square(other)) / (square(eighths) - square(other));

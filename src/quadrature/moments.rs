@@ -17,7 +17,7 @@
 //! Where the interpolant has not converged, the same coefficients measure what is missing.
 
 use super::Moments;
-use crate::gap::Sampler;
+use crate::gap::{Gap, Sampler};
 use crate::{ContactError, Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -49,34 +49,34 @@ static SINES: LazyLock<Vec<f64>> =
 
 /// Integrates the slope over `on`, a panel at a time.
 pub(super) fn moments<T: Real>(
-    sampler: &mut Sampler<'_, T>,
-    joints: &[T],
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
     on: Interval<T>,
 ) -> Result<Moments<T>, ContactError<T>> {
-    let mut angles: Vec<T> = vec![T::zero()];
-    let inside = joints.iter().rev().filter(|&&x| on.contains(x));
-    angles.extend(inside.map(|&x| on.angle(x)));
-    angles.push(T::pi());
+    let mut angles: Vec<T> = vec![T::pi()];
+    angles.extend(gap.joints(on).map(|x| on.angle(x)));
+    angles.push(T::zero());
+    angles.reverse();
 
     sampler.missed = T::zero();
     let mut panels = Vec::with_capacity(angles.len() - 1);
     for ends in angles.windows(2).filter(|ends| ends[0] < ends[1]) {
         let mut panel = Panel::new(ends[0], ends[1]);
-        panel.refine(sampler, on)?;
+        panel.refine(sampler, gap, on)?;
         panels.push(panel);
     }
     let small = T::epsilon().powf(T::of(0.625));
     for i in 0..panels.len() {
         loop {
             let size = total(&panels, |panel| panel.sums[2]);
-            if panels[i].change <= small * size || !panels[i].refine(sampler, on)? {
+            if panels[i].change <= small * size || !panels[i].refine(sampler, gap, on)? {
                 break;
             }
         }
     }
     let [mean, first, size] = [0, 1, 2].map(|i| total(&panels, |panel| panel.sums[i]));
     let error = total(&panels, Panel::plateau).max(T::of(4.0) * T::epsilon() * size);
-    Ok(Moments { mean, first, size, error, inversion: sampler.missed })
+    Ok(Moments { mean, first, size, error, inversion: sampler.missed, trend: None })
 }
 
 fn total<T: Real>(panels: &[Panel<T>], part: impl Fn(&Panel<T>) -> T) -> T {
@@ -122,7 +122,8 @@ impl<T: Real> Panel<T> {
     /// Applies the next rule; `false` when there is none.
     fn refine(
         &mut self,
-        sampler: &mut Sampler<'_, T>,
+        sampler: &mut Sampler<T>,
+        gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<bool, ContactError<T>> {
         let Some(weights) = WEIGHTS.get(self.rule) else { return Ok(false) };
@@ -140,7 +141,7 @@ impl<T: Real> Panel<T> {
             };
             let slope = match self.slope[index] {
                 Some(slope) => slope,
-                None => *self.slope[index].insert(sampler.slope(on.at_angle(theta))?),
+                None => *self.slope[index].insert(sampler.slope(gap, on.at_angle(theta))?),
             };
             let term = T::of(weight) * slope;
             sums[0] += term;

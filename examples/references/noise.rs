@@ -1,0 +1,143 @@
+//! How noisy the bodies' formulas are as they stand, in `f64`.
+//!
+//! Formulas that cancel large terms, such as `12 cos k - 12` at a small `k`, return `X` with an
+//! error far beyond the rounding of `X` itself, and where a body is steep its slope magnifies
+//! that. What it is shows in neighbouring values: over a millionth of the contact a formula is
+//! a straight line but for rounding, so that its sixth differences are all noise (Moré and Wild,
+//! *Estimating computational noise*, SIAM J. Sci. Comput. 33, 2011).
+
+use linecontact::profile::Piece;
+use linecontact::{Interval, ParametricProfile, ProfileError};
+
+/// Neighbours looked at in each place.
+const NEIGHBOURS: usize = 64;
+/// Their distance, as a share of the contact, and at most of the distance to the end of the piece,
+/// where it may have a singularity.
+const STEP: [f64; 2] = [1.0 / (1u64 << 24) as f64, 1.0 / 1024.0];
+
+/// Root of the number of samples, whose errors are independent, that a solver takes at the least.
+const ROOT_OF_SAMPLES: f64 = 10.0;
+
+/// What the formulas leave uncertain: the largest error of roundings with the deviation seen.
+#[derive(Clone, Debug)]
+pub struct Noise {
+    /// The edges of the contact, relative to its half-width.
+    pub edges: f64,
+    /// The slope of the gap in each place.
+    pub slope: Vec<f64>,
+    /// Its mean over the contact, weighted.
+    pub mean_slope: f64,
+    /// The largest `|f₂' - f₁'|` in all places.
+    pub steepest: f64,
+}
+
+/// Measures the noise at places within a contact, given from left to right. `weight` is that of the
+/// slope in its mean, by the angle θ of `x = c + L cos θ`.
+///
+/// # Errors
+/// Those of [`Piece::new`].
+pub fn measure(
+    bodies: [&dyn ParametricProfile<f64>; 2],
+    on: Interval<f64>,
+    places: &[f64],
+    weight: fn(f64) -> f64,
+) -> Result<Noise, ProfileError<f64>> {
+    let bodies = [pieces(bodies[0])?, pieces(bodies[1])?];
+    let at = |x: f64| {
+        let [lower, upper] = bodies.each_ref().map(|body| Local::at(body, x, on));
+        (on.angle(x), lower, upper)
+    };
+    let total = |(_, lower, upper): &(f64, Local, Local)| lower.total() + upper.total();
+    let inside: Vec<_> = places.iter().map(|&x| at(x)).collect();
+    let largest = |of: fn(&Local, &Local) -> f64| {
+        inside.iter().fold(0.0f64, |most, (_, lower, upper)| most.max(of(lower, upper)))
+    };
+    let steepest = largest(|lower, upper| (upper.slope - lower.slope).abs());
+    let of_x = largest(|lower, upper| lower.of_x + upper.of_x);
+    let of_slope = largest(|lower, upper| lower.of_slope + upper.of_slope);
+
+    // The edges follow from averages over the contact, and so does what the pressure takes from
+    // elsewhere.
+    let edges = (of_x / on.half_width() + of_slope / steepest) / ROOT_OF_SAMPLES;
+    let slope = inside.iter().map(total).collect();
+    let all = [at(on.left)].into_iter().chain(inside).chain([at(on.right)]);
+    let weighted: Vec<_> = all.map(|place| (place.0, weight(place.0) * total(&place))).collect();
+    let strips = weighted.windows(2).map(|two| (two[0].0 - two[1].0) * (two[0].1 + two[1].1));
+    let mean_slope = strips.sum::<f64>() / (2.0 * std::f64::consts::PI * ROOT_OF_SAMPLES);
+    Ok(Noise { edges, slope, mean_slope, steepest })
+}
+
+fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, ProfileError<f64>> {
+    match body.pieces() {
+        0 => Ok(vec![Piece::new(body)?]),
+        count => Ok((0..count).filter_map(|i| body.piece(i)).collect()),
+    }
+}
+
+/// A body next to a place.
+struct Local {
+    slope: f64,
+    /// `d²Y/dX²`.
+    bend: f64,
+    /// Noise of `X` and of the slope at a given `k`.
+    of_x: f64,
+    of_slope: f64,
+}
+
+impl Local {
+    fn at(body: &[Piece<'_, f64>], x: f64, on: Interval<f64>) -> Self {
+        let piece = body.iter().find(|piece| x <= piece.x()[1]).unwrap_or(&body[body.len() - 1]);
+        let slope = |k| piece.curve.dy(k) / piece.curve.dx(k);
+        let k = parameter(piece, x);
+        let mut local = Self { slope: slope(k), bend: 0.0, of_x: 0.0, of_slope: 0.0 };
+        let [from, to] = [on.left.max(piece.x()[0]), on.right.min(piece.x()[1])];
+        let width = (parameter(piece, to) - parameter(piece, from)).abs();
+        let room = (k - piece.k[0]).abs().min((k - piece.k[1]).abs()) * STEP[1];
+        // A power of two, so that the neighbours are equidistant.
+        let step = (STEP[0] * width).min(room).log2().floor().exp2();
+        let neighbour = |i: usize| k + step * (i as f64 - 0.5 * NEIGHBOURS as f64);
+        if neighbour(1) != neighbour(0) {
+            let xs: [f64; NEIGHBOURS] = std::array::from_fn(|i| piece.curve.x(neighbour(i)));
+            let slopes: [f64; NEIGHBOURS] = std::array::from_fn(|i| slope(neighbour(i)));
+            local.bend = (slopes[NEIGHBOURS - 1] - slopes[0]) / (xs[NEIGHBOURS - 1] - xs[0]);
+            (local.of_x, local.of_slope) = (noise(xs), noise(slopes));
+        }
+        local
+    }
+
+    /// Noise of the slope at a given `x`, left out where the slope is infinite: at an end.
+    fn total(&self) -> f64 {
+        let noise = self.of_slope + self.bend.abs() * self.of_x;
+        if noise.is_finite() { noise } else { 0.0 }
+    }
+}
+
+/// The `k` of `x`, by bisection.
+fn parameter(piece: &Piece<'_, f64>, x: f64) -> f64 {
+    let [mut left, mut right] = piece.k;
+    loop {
+        let k = 0.5 * left + 0.5 * right;
+        if k == left || k == right {
+            return k;
+        }
+        if piece.curve.x(k) < x { left = k } else { right = k }
+    }
+}
+
+/// The noise in equidistant values of a smooth function: the largest error, if all errors up to it
+/// are equally likely.
+fn noise(mut values: [f64; NEIGHBOURS]) -> f64 {
+    const ORDER: usize = 6;
+    /// The variance of that difference, for noise of variance 1: 12!/(6!)².
+    const VARIANCE: f64 = 924.0;
+    let largest = values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    for count in (NEIGHBOURS - ORDER..NEIGHBOURS).rev() {
+        for i in 0..count {
+            values[i] = values[i + 1] - values[i];
+        }
+    }
+    // Squared as shares of the largest, which may itself be 1e150.
+    let differences = &values[..NEIGHBOURS - ORDER];
+    let sum: f64 = differences.iter().map(|value| (value / largest).powi(2)).sum();
+    largest * (3.0 * sum / differences.len() as f64 / VARIANCE).sqrt()
+}

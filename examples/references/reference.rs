@@ -1,0 +1,76 @@
+//! What a reference file says of its solution.
+
+use linecontact::Interval;
+use serde_json::Value;
+
+/// What a solver should make of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The limits and the pressure.
+    Contact,
+    /// The pressure between limits that are given.
+    Fixed,
+    /// An error: there is no solution, or none that is physical.
+    Error,
+}
+
+/// A solution of some 30 digits.
+pub struct Reference {
+    /// The kind by the file's own name for it.
+    pub kind_name: String,
+    /// What to expect.
+    pub kind: Kind,
+    /// The scale κ.
+    pub kappa: f64,
+    /// π times the load.
+    pub c: f64,
+    /// `[-b, a]`, where there is a solution.
+    pub limits: Option<Interval<f64>>,
+    /// Points with a finite pressure that is not zero.
+    pub points: Vec<Point>,
+}
+
+/// A pressure.
+pub struct Point {
+    /// Where, exactly.
+    pub x: f64,
+    /// What it is.
+    pub pressure: f64,
+    /// By how much a relative change of `C`, `x`, `a` and `b` is magnified in it, if said.
+    pub amplification: Option<f64>,
+}
+
+impl Reference {
+    /// Reads what the solution is; `None` where something is missing.
+    pub fn read(file: &Value) -> Option<Self> {
+        let kind_name = file["kind"].as_str()?.to_owned();
+        let kind = match &*kind_name {
+            "contact" => Kind::Contact,
+            "fixed_interval_unbounded_ends" => Kind::Fixed,
+            "single_interval_solution_is_unphysical" | "must_report_error" => Kind::Error,
+            _ => return None,
+        };
+        let limits = match (number(&file["a"]), number(&file["b"])) {
+            (Some(a), Some(b)) => Some(Interval { left: -b, right: a }),
+            _ if kind == Kind::Error => None,
+            _ => return None,
+        };
+        let list = |key: &str| file[key].as_array().map_or(&[][..], Vec::as_slice);
+        let mut points = Vec::new();
+        for (i, point) in list("points").iter().enumerate() {
+            let amplification = list("points_amplification").get(i).and_then(number);
+            let (x, pressure) = (number(&point[0])?, number(&point[1])?);
+            if pressure.is_finite() && pressure != 0.0 {
+                points.push(Point { x, pressure, amplification });
+            }
+        }
+        // Without a scale in figures it is 1, which is what `scale` says there.
+        let kappa = number(&file["scale_value"]).or_else(|| number(&file["scale"]))?;
+        Some(Self { kind_name, kind, kappa, c: number(&file["C"])?, limits, points })
+    }
+}
+
+/// A decimal in a string, correctly rounded.
+fn number(value: &Value) -> Option<f64> {
+    value.as_str()?.parse().ok()
+}

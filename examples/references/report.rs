@@ -1,0 +1,167 @@
+//! Compares what the solver returns with the reference, and says it in a line.
+
+use crate::noise::Noise;
+use crate::reference::{Kind, Point, Reference};
+use linecontact::{Cost, Interval};
+use std::f64::consts::PI;
+
+/// What is expected of a result where nothing forbids it.
+const WANTED: f64 = 1e-12;
+/// By how much it may exceed the floor where that is higher.
+const MARGIN: f64 = 20.0;
+/// The unit of rounding.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// What the solver returns for a file.
+pub struct Answer {
+    /// `[-b, a]`.
+    pub limits: Interval<f64>,
+    /// The pressures at the points of the file, or why there is none.
+    pub pressures: Vec<Result<f64, String>>,
+    /// What it took.
+    pub cost: Cost,
+}
+
+/// What has come of a file.
+pub struct Report {
+    /// Name of the file.
+    pub name: String,
+    /// Its kind.
+    pub kind: String,
+    /// Whether it is as it must be.
+    pub ok: bool,
+    /// Errors of `a` and `b`, each as a share of the half-width.
+    limits: Option<[f64; 2]>,
+    /// The largest relative error of a pressure, and the highest floor.
+    pressure: Option<[f64; 2]>,
+    cost: Option<Cost>,
+    /// What else there is to say.
+    remarks: Vec<String>,
+}
+
+impl Report {
+    /// A file that has ended in an error.
+    pub fn of_error(name: &str, kind: String, ok: bool, error: String) -> Self {
+        let (name, remarks) = (name.to_owned(), vec![error]);
+        Self { name, kind, ok, limits: None, pressure: None, cost: None, remarks }
+    }
+
+    /// A file that has been solved.
+    pub fn of_answer(name: &str, reference: &Reference, answer: &Answer, noise: &Noise) -> Self {
+        let mut report = Self {
+            name: name.to_owned(),
+            kind: reference.kind_name.clone(),
+            ok: reference.kind != Kind::Error,
+            limits: None,
+            pressure: None,
+            cost: Some(answer.cost),
+            remarks: Vec::new(),
+        };
+        if reference.kind == Kind::Error {
+            report.remarks.push("solved, but an error is expected".to_owned());
+        }
+        let Some(on) = reference.limits else { return report };
+        if reference.kind != Kind::Fixed {
+            report.compare_limits(on, answer.limits, noise);
+        }
+        report.compare_pressures(reference, on, &answer.pressures, noise);
+        report
+    }
+
+    fn compare_limits(&mut self, want: Interval<f64>, got: Interval<f64>, noise: &Noise) {
+        let half_width = want.half_width();
+        let errors = [got.right - want.right, got.left - want.left].map(|e| e.abs() / half_width);
+        self.limits = Some(errors);
+        let farthest = want.left.abs().max(want.right.abs());
+        let floor = (1.0 + farthest / half_width) * ROUNDING + noise.edges;
+        let allowed = allowed(floor);
+        if !errors.iter().all(|&error| error <= allowed) {
+            self.ok = false;
+            self.remarks.push(format!("limits: allowed {allowed:.1e}"));
+        }
+    }
+
+    fn compare_pressures(
+        &mut self,
+        reference: &Reference,
+        on: Interval<f64>,
+        got: &[Result<f64, String>],
+        noise: &Noise,
+    ) {
+        let (mut largest, mut highest, mut worst, mut remark) = (0.0f64, 0.0f64, 1.0, None);
+        for (i, (point, got)) in reference.points.iter().zip(got).enumerate() {
+            let error = got.as_ref().map_or(f64::INFINITY, |p| (p / point.pressure - 1.0).abs());
+            let error = if error.is_nan() { f64::INFINITY } else { error };
+            let floor = floor(reference, i, on, noise);
+            (largest, highest) = (largest.max(error), highest.max(floor));
+            let (allowed, x) = (allowed(floor), point.x);
+            if error / allowed > worst && reference.kind != Kind::Error {
+                worst = error / allowed;
+                self.ok = false;
+                let why = got.as_ref().err().map_or(String::new(), |why| format!("; {why}"));
+                remark = Some(format!("P({x:?}): off {error:.1e}, allowed {allowed:.1e}{why}"));
+            }
+        }
+        self.remarks.extend(remark);
+        self.pressure = Some([largest, highest]);
+    }
+
+    /// The heading of the table.
+    pub fn heading() -> String {
+        line(
+            ["NAME", "KIND", "", "ERR_A", "ERR_B", "ERR_P", "FLOOR_P", "SAMPLES", "EVALUATIONS"]
+                .map(str::to_owned),
+        )
+    }
+}
+
+/// How far off the pressure at a point may be, relatively, through no fault of the solver's:
+/// rounding, and the uncertainty of the edges, both times what this point makes of them; and
+/// the uncertain slope of the gap, of which `P/κ` is a conjugate function divided by π.
+fn floor(reference: &Reference, i: usize, on: Interval<f64>, noise: &Noise) -> f64 {
+    let Point { x, pressure, amplification } = reference.points[i];
+    let unit = reference.kappa / (PI * pressure.abs());
+    let rounded = amplification.unwrap_or(1.0) * ROUNDING;
+    if reference.kind != Kind::Fixed {
+        let edges = amplification.unwrap_or(1.0) * noise.edges;
+        return rounded + edges + unit * (noise.slope[i] + noise.mean_slope);
+    }
+    // Fixed edges: P = (C - κ PV∫ ...)/(π² root), whose terms are of the order of κ |G| L; and
+    // the distances from the edges, which are in the root.
+    let share = |edge: f64| (x.abs() + edge.abs()) / (2.0 * (x - edge).abs());
+    let edges = (share(on.left) + share(on.right)) * ROUNDING;
+    let rise = on.half_width() / on.edge_root(x);
+    let terms = noise.steepest * ROUNDING + noise.mean_slope;
+    rounded + edges + unit * (noise.slope[i] + rise * terms)
+}
+
+/// The error that passes.
+fn allowed(floor: f64) -> f64 {
+    WANTED.max(MARGIN * floor)
+}
+
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let error = |e: Option<f64>| e.map_or("-".to_owned(), |e| format!("{e:.1e}"));
+        let count = |n: Option<usize>| n.map_or("-".to_owned(), |n| n.to_string());
+        let verdict = if self.ok { "ok" } else { "FAIL" };
+        f.write_str(&line([
+            self.name.clone(),
+            self.kind.clone(),
+            verdict.to_owned(),
+            error(self.limits.map(|errors| errors[0])),
+            error(self.limits.map(|errors| errors[1])),
+            error(self.pressure.map(|pressure| pressure[0])),
+            error(self.pressure.map(|pressure| pressure[1])),
+            count(self.cost.map(|cost| cost.samples)),
+            count(self.cost.map(|cost| cost.evaluations)),
+        ]))?;
+        self.remarks.iter().try_for_each(|remark| write!(f, "\n    {remark}"))
+    }
+}
+
+fn line([name, kind, verdict, a, b, p, floor, samples, evaluations]: [String; 9]) -> String {
+    format!(
+        "{name:30} {kind:38} {verdict:4} {a:>7} {b:>7} {p:>7} {floor:>7} {samples:>8} {evaluations:>11}"
+    )
+}

@@ -1,0 +1,251 @@
+//! From a start, or from nothing, to the limits with as few samples as possible.
+//!
+//! First the stretch in which the contact is expected is sketched with four nodes a panel, and
+//! Newton's method finds the contact of the sketch; if that is much narrower than the stretch, or
+//! beside it, a stretch around it is sketched anew. Then a stretch a little wider than the
+//! contact is sampled in full, and Newton's method finds the limits on that. The nested search
+//! ([`limits`](super::limits)) takes over where this goes astray, and is used throughout where
+//! the user has chosen a strategy or the quadrature knows no derivatives; what it has found is
+//! then sampled and settled as before.
+
+use super::edges::{Conditions, Control, Edge, Goal};
+use super::limits::{self, Nested};
+use super::newton::{Effort, Settled, settle};
+use super::{Contact, Found};
+use crate::gap::Cost;
+use crate::quadrature::Engine;
+use crate::{ContactError, Interval, Real};
+
+/// Sketches before the approach is given up.
+const MOST_SKETCHES: usize = 120;
+
+/// Finds the contact that meets the conditions.
+pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    warm: Option<Interval<T>>,
+    cost: &mut Cost,
+) -> Result<Found<T>, ContactError<T>> {
+    let mut conditions = conditions;
+    let corners = conditions.edges;
+    // A corner holds the contact as long as it presses there.
+    for edge in &mut conditions.edges {
+        if let Edge::UpTo(x) = *edge {
+            *edge = Edge::Fixed(x);
+        }
+    }
+    let mut found = with_edges(contact, &conditions, engine, warm, cost)?;
+    for _ in 0..4 {
+        let on = found.interval;
+        let mut changed = false;
+        for (i, corner) in corners.iter().enumerate() {
+            let Edge::UpTo(x) = *corner else { continue };
+            let beyond = if i == 0 { on.left < x } else { on.right > x };
+            if conditions.edges[i].is_free() && beyond {
+                conditions.edges[i] = Edge::Fixed(x);
+                changed = true;
+            } else if !conditions.edges[i].is_free() && found.strengths[1 - i] < T::zero() {
+                conditions.edges[i] = Edge::Free;
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+        found = with_edges(contact, &conditions, engine, Some(on), cost)?;
+    }
+    Ok(found)
+}
+
+/// The same for edges of which each is either fixed or not.
+fn with_edges<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    warm: Option<Interval<T>>,
+    cost: &mut Cost,
+) -> Result<Found<T>, ContactError<T>> {
+    let gap = &contact.gap;
+    if let [Edge::Fixed(left), Edge::Fixed(right)] = conditions.edges {
+        let on = Interval { left, right };
+        super::check(on)?;
+        contact.check_on_bodies(on)?;
+        let Control::Load(load) = conditions.control else {
+            return Err(ContactError::Control { interval: on });
+        };
+        engine.cover(gap, on, false)?;
+        let m = engine.moments(gap, on)?;
+        return Ok(Found::new(conditions, on, load, None, &m));
+    }
+    for limit in conditions.edges.iter().filter_map(|edge| edge.limit()) {
+        let range = gap.range();
+        if !(limit >= range[0] && limit <= range[1]) {
+            return Err(ContactError::OutsideBodies { x: limit, range });
+        }
+    }
+    let mut settled = None;
+    if contact.search.is_none() {
+        let guess = match warm {
+            Some(warm) => Some(warm),
+            None => sketch(contact, conditions, engine)?,
+        };
+
+        // What was sampled for the last load serves for the next.
+        if let (Some(guess), Some(covered)) = (guess, engine.covered()) {
+            settled = settle(engine, gap, conditions, guess, Effort::Full)?
+                .filter(|settled| settled.on.half_width() >= T::of(0.3) * covered.half_width());
+        }
+        if settled.is_none() {
+            let guess = guess.unwrap_or_else(|| start(contact, conditions));
+            settled = in_full(contact, conditions, engine, guess)?;
+        }
+    }
+    if settled.is_none() {
+        engine.forget();
+        let (nested, load) = nested(contact, conditions, engine, cost)?;
+        let error = Some(nested.error);
+        if contact.search.is_none() {
+            settled = in_full(contact, conditions, engine, nested.on)?;
+        }
+        if settled.is_none() {
+            let m = engine.moments(gap, nested.on)?;
+            let load = load.unwrap_or(conditions.kappa * nested.on.half_width() * m.first);
+            return Ok(Found::new(conditions, nested.on, load, error, &m));
+        }
+    }
+    match settled {
+        Some(Settled { on, load, error, force }) => {
+            let m = engine.moments(gap, on)?;
+            let found = Found::new(conditions, on, load, Some(error), &m);
+            Ok(Found { force: Some(force), ..found })
+        }
+        None => unreachable!("one of the two ways has been taken"),
+    }
+}
+
+/// The start, or the middle half of the bodies.
+fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Interval<T> {
+    let [left, right] = contact.gap.range();
+    let whole = Interval { left, right };
+    let quarter = T::of(0.5) * whole.half_width();
+    let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
+    let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
+    conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle))
+}
+
+/// A first estimate of the contact, from sketches; `None` where they lead nowhere.
+fn sketch<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+) -> Result<Option<Interval<T>>, ContactError<T>> {
+    let gap = &contact.gap;
+    let range = gap.range();
+    let inside =
+        |on: &Interval<T>| on.left >= range[0] && on.right <= range[1] && on.left < on.right;
+    let mut stretch = start(contact, conditions);
+    for _ in 0..MOST_SKETCHES {
+        if !inside(&stretch) {
+            return Ok(None);
+        }
+        let Some(doubt) = engine.cover(gap, stretch, true)? else { return Ok(None) };
+        let Some(guess) = settle(engine, gap, conditions, stretch, Effort::Sketch)? else {
+            return Ok(None);
+        };
+        let on = guess.on;
+        let within = on.left >= stretch.left && on.right <= stretch.right;
+        if within && on.half_width() >= T::of(0.4) * stretch.half_width() {
+            return Ok(Some(on));
+        }
+        // Around it, as closely as its place is known.
+        let rounding = T::of(64.0) * T::epsilon();
+        let largest = stretch.left.abs().max(stretch.right.abs());
+        let doubt = (doubt + doubt).min(T::of(0.3)) * stretch.half_width();
+        let reach = doubt.max(rounding * largest);
+        let [left, right] = beyond(contact, on, T::of(0.125));
+        let next = Interval { left: left.min(on.left - reach), right: right.max(on.right + reach) };
+        // Half the way to an end, where the slope may be infinite.
+        stretch = Interval {
+            left: inward(next.left, on.left, range[0]),
+            right: -inward(-next.right, -on.right, -range[1]),
+        };
+        stretch = with_corners(conditions, stretch);
+    }
+    Ok(None)
+}
+
+/// A left end of a stretch, or half the way to the end of the bodies.
+fn inward<T: Real>(x: T, contact: T, end: T) -> T {
+    if x <= end { T::of(0.5) * contact + T::of(0.5) * end } else { x }
+}
+
+/// Both limits moved outward by a share of what lies between them and the next joint inside. (A
+/// body may be a thousand times as steep on the other side of a joint.)
+fn beyond<T: Real>(contact: &Contact<'_, T>, on: Interval<T>, share: T) -> [T; 2] {
+    let gap = &contact.gap;
+    let first = gap.joint_after(on.left).filter(|&joint| joint < on.right);
+    let last = gap.joint_before(on.right).filter(|&joint| joint > on.left);
+    let [right_end, left_end] = [first.unwrap_or(on.right), last.unwrap_or(on.left)];
+    [on.left - share * (right_end - on.left), on.right + share * (on.right - left_end)]
+}
+
+/// A stretch need not go beyond a fixed edge.
+fn with_corners<T: Real>(conditions: &Conditions<T>, on: Interval<T>) -> Interval<T> {
+    let [left, right] = conditions.edges.map(|edge| edge.limit());
+    Interval { left: left.unwrap_or(on.left), right: right.unwrap_or(on.right) }
+}
+
+/// Samples a stretch around a contact that is nearly right, and finds the limits on that.
+fn in_full<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    guess: Interval<T>,
+) -> Result<Option<Settled<T>>, ContactError<T>> {
+    let gap = &contact.gap;
+    let range = gap.range();
+    let half = T::of(0.5);
+    let (mut guess, mut best) = (guess, None);
+    for _ in 0..3 {
+        let [left, right] = beyond(contact, guess, T::of(0.02));
+        let stretch = Interval {
+            left: left.max(half * guess.left + half * range[0]),
+            right: right.min(half * guess.right + half * range[1]),
+        };
+        let stretch = with_corners(conditions, stretch);
+        if engine.cover(gap, stretch, false)?.is_none() {
+            return Ok(None);
+        }
+        let Some(settled) = settle(engine, gap, conditions, guess, Effort::Full)? else {
+            return Ok(None);
+        };
+        // Panels much wider than the contact are not as good as they look.
+        let covered = engine.covered().unwrap_or(stretch);
+        if settled.on.half_width() >= T::of(0.8) * covered.half_width() {
+            return Ok(Some(settled));
+        }
+        (guess, best) = (settled.on, Some(settled));
+    }
+    Ok(best)
+}
+
+/// The nested search.
+fn nested<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    cost: &mut Cost,
+) -> Result<(Nested<T>, Option<T>), ContactError<T>> {
+    let load = conditions.load();
+    let goal = Goal::Strength { conditions: *conditions, load };
+    match conditions.control {
+        Control::Load(load) => {
+            let nested = limits::find(contact, load, goal, engine, contact.start, cost)?;
+            Ok((nested, Some(load)))
+        }
+        Control::HalfWidth(half_width) => {
+            Ok((limits::place(contact, goal, engine, half_width, cost)?, None))
+        }
+    }
+}

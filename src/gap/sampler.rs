@@ -1,0 +1,148 @@
+//! The slope of the gap at any x, by inverting `X(k) = x`.
+//!
+//! Each value costs one inversion for each body that needs one. The inversion starts from
+//! the curve's own last point, moved on by Newton's rule, so that neighbouring abscissae cost
+//! two or three evaluations each.
+
+use super::{Cost, Gap, Side};
+use crate::profile::Piece;
+use crate::search::{Bracket, SearchError};
+use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+
+/// Takes values of the gap's slope, and keeps count.
+///
+/// It holds numbers only; the gap is handed to it with each abscissa, and must be the same.
+#[derive(Clone, Debug)]
+pub struct Sampler<T: Real> {
+    near: [Option<Near<T>>; 2],
+    /// What it has cost so far.
+    pub cost: Cost,
+    /// The largest `|X(k) - x|` that the inversions have left.
+    pub(crate) missed: T,
+}
+
+/// The last point of a curve, from which the next inversion starts.
+#[derive(Clone, Copy, Debug)]
+struct Near<T> {
+    piece: usize,
+    k: T,
+    point: CurvePoint<T>,
+}
+
+impl<T: Real> Default for Sampler<T> {
+    fn default() -> Self {
+        Self { near: [None; 2], cost: Cost::default(), missed: T::zero() }
+    }
+}
+
+impl<T: Real> Sampler<T> {
+    /// The slope of the gap `f₂' - f₁'` at `x`. A joint belongs to the piece on its left.
+    ///
+    /// # Errors
+    /// [`ContactError::OutsideBodies`], [`ContactError::Inversion`],
+    /// [`ContactError::Profile`].
+    pub fn slope(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+        self.slope_from(gap, x, Side::Left)
+    }
+
+    pub(crate) fn slope_from(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: T,
+        side: Side,
+    ) -> Result<T, ContactError<T>> {
+        let range = gap.range();
+        if !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
+        }
+        self.cost.samples += 1;
+        let lower = self.body_slope(gap, Body::Lower, x, side)?;
+        let upper = self.body_slope(gap, Body::Upper, x, side)?;
+        Ok(upper - lower)
+    }
+
+    fn body_slope(
+        &mut self,
+        gap: &Gap<'_, T>,
+        body: Body,
+        x: T,
+        side: Side,
+    ) -> Result<T, ContactError<T>> {
+        let (index, piece) = gap.piece_at(body, x, side);
+        let fault = |quantity, k, value| {
+            let source = ProfileError::NotFinite { quantity, k, value };
+            Err(ContactError::Profile { body, source })
+        };
+        if let Some(slope) = piece.curve.slope_at(x) {
+            // Such a body is given by x itself.
+            return if slope.is_finite() { Ok(slope) } else { fault("slope_at(x)", x, slope) };
+        }
+        let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+        let slope = point.dy / point.dx;
+        if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", k, slope) }
+    }
+
+    /// Solves `X(k) = x` on a piece.
+    fn invert(
+        &mut self,
+        gap: &Gap<'_, T>,
+        body: Body,
+        index: usize,
+        piece: Piece<'_, T>,
+        x: T,
+    ) -> Result<Near<T>, ContactError<T>> {
+        let ends = piece.x();
+        let near = self.near[body as usize].filter(|near| near.piece == index);
+        let rises = piece.k[0] < piece.k[1];
+        let turns =
+            |near: &Near<T>| (near.point.dx < T::zero()) == rises && !near.point.dx.is_zero();
+        let mut at = |k: T| {
+            self.cost.evaluations += 1;
+            Near { piece: index, k, point: piece.curve.at(k) }
+        };
+        let (mut last, mut turned) = (None, None);
+        let k = if x <= ends[0] {
+            piece.k[0]
+        } else if x >= ends[1] {
+            piece.k[1]
+        } else {
+            let guess = match near {
+                Some(Near { k, point, .. }) => k + (x - point.x) / point.dx,
+                None => {
+                    let along = (x - ends[0]) / (ends[1] - ends[0]);
+                    piece.k[0] + along * (piece.k[1] - piece.k[0])
+                }
+            };
+            let mut f = |k: T| {
+                let here = at(k);
+                last = Some(here);
+                turned = turned.or(last.filter(turns));
+                (here.point.x - x, here.point.dx)
+            };
+            let ends = [(piece.k[0], ends[0] - x), (piece.k[1], ends[1] - x)];
+            let [(lo, f_lo), (hi, f_hi)] =
+                if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
+            let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
+            match gap.inversion().find_with_slope(&mut f, &bracket) {
+                Ok(root) if root.x >= lo && root.x <= hi => root.x,
+                Ok(root) => {
+                    let source = SearchError::Astray { x: root.x, lo, hi };
+                    return Err(ContactError::Inversion { body, x, source });
+                }
+                Err(SearchError::NotFinite { x: k, value }) => {
+                    let source = ProfileError::NotFinite { quantity: "X", k, value };
+                    return Err(ContactError::Profile { body, source });
+                }
+                Err(source) => return Err(ContactError::Inversion { body, x, source }),
+            }
+        };
+        let found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
+        if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
+            let source = ProfileError::TurnsBack { k, x: point.x };
+            return Err(ContactError::Profile { body, source });
+        }
+        self.missed = self.missed.max((found.point.x - x).abs());
+        self.near[body as usize] = Some(found);
+        Ok(found)
+    }
+}

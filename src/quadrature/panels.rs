@@ -1,0 +1,241 @@
+//! The slope of the gap as polynomial panels, and everything from them.
+//!
+//! The user's curves are the cost, so they are sampled once: on panels, each with a Chebyshev
+//! series, over a stretch a little wider than the contact. Edge integrals, their derivatives by
+//! the limits, and the pressure then come from the series alone.
+//!
+//! The panels end at the joints of the bodies. Each starts with a few nodes and takes more while
+//! the coefficients say that this will do; where they do not fall (a kink that nobody declared,
+//! an end like a square root) the panel is halved. Where they have sunk into the noise of the
+//! user's formulas more samples would not help: the panel is left as it is, and the level of the
+//! noise goes into the error estimates.
+
+// Loops over lanes index several arrays at once, which is what the compiler vectorises.
+#![allow(clippy::needless_range_loop)]
+
+mod angles;
+mod chebyshev;
+mod conjugate;
+mod cover;
+mod integrals;
+mod panel;
+
+use super::{Engine, Estimate, Moments, Pressing, Quadrature};
+use crate::gap::{Cost, Gap};
+use crate::{ContactError, Interval, Real};
+use chebyshev::SIZES;
+use conjugate::{Conjugate, LANES};
+use cover::Cover;
+
+/// The default quadrature: panels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Panels {
+    /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in
+    /// the contact. Never taken below sixteen units in the last place, which is what the
+    /// default 0 stands for.
+    pub tolerance: f64,
+}
+
+impl Panels {
+    /// All that the number type and the profiles' formulas can give.
+    pub const FULL: Self = Self { tolerance: 0.0 };
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self::FULL
+    }
+}
+
+impl<T: Real> Quadrature<T> for Panels {
+    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>> {
+        if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
+            return Err(ContactError::Tolerance { tolerance: T::of(self.tolerance) });
+        }
+        let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
+        let cover = Cover::new(tolerance);
+        Ok(Box::new(AtWork { cover, conjugate: Conjugate::new(), moments: None, fall: None }))
+    }
+}
+
+struct AtWork<T> {
+    cover: Cover<T>,
+    conjugate: Conjugate<T>,
+    /// On the interval that the conjugate is set to.
+    moments: Option<Moments<T>>,
+    /// Of a sketch: by how much two more coefficients are smaller, and the half-width covered.
+    fall: Option<[T; 2]>,
+}
+
+impl<T: Real> AtWork<T> {
+    /// The number of nodes that should do, by how the coefficients of the sketch fall.
+    fn expected_size(&self, on: Interval<T>) -> usize {
+        let Some([fall, half_width]) = self.fall else { return 8 };
+        let shrunk = on.half_width() / half_width;
+        let fall = fall * shrunk * shrunk;
+        let mut expected = T::one();
+        for n in (2..=16).step_by(2) {
+            expected *= fall;
+            let enough = n >= 8 || self.cover.tolerance >= T::of(400.0) * T::epsilon();
+            if enough && SIZES.contains(&n) && expected * fall <= self.cover.tolerance {
+                return n;
+            }
+        }
+        8
+    }
+}
+
+impl<T: Real> Engine<T> for AtWork<T> {
+    fn cover(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        rough: bool,
+    ) -> Result<Option<T>, ContactError<T>> {
+        if !rough {
+            self.cover.first = self.expected_size(on);
+        }
+        self.cover.rough = rough;
+        self.cover.clear(true);
+        self.cover.extend(gap, on)?;
+        self.fall = rough.then(|| {
+            let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
+            let largest = |max: T, panel: &panel::Panel<T>| max.max(ratio(panel.coefficients()));
+            let fall = self.cover.panels.iter().fold(T::epsilon(), largest);
+            [fall.min(T::one()), on.half_width()]
+        });
+        self.cover.rough = false;
+        Ok(Some(self.fall.map_or(self.cover.tolerance, |[fall, _]| fall * fall)))
+    }
+
+    fn moments(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<Moments<T>, ContactError<T>> {
+        let range = gap.range();
+        let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
+        let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());
+        for x in [on.left, on.right] {
+            if !(x >= range[0] - rounding && x <= range[1] + rounding) {
+                return Err(ContactError::OutsideBodies { x, range });
+            }
+        }
+        if self.fall.is_some() {
+            return Ok(integrals::moments(&self.cover.panels, on));
+        }
+        let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+        self.cover.extend(gap, sampled)?;
+        let m = integrals::moments(&self.cover.panels, on);
+        // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
+        let poor = m.error > T::of(64.0) * self.cover.tolerance * m.size;
+        let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
+        if poor && reach > T::of(1.25) * on.half_width() {
+            self.forget();
+            self.cover.extend(gap, sampled)?;
+            return Ok(integrals::moments(&self.cover.panels, on));
+        }
+        Ok(m)
+    }
+
+    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        let moments = self.moments(gap, on)?;
+        self.conjugate.set(&self.cover.panels, on, self.cover.size);
+        self.moments = Some(moments);
+        Ok(())
+    }
+
+    fn pressures(
+        &self,
+        _gap: &Gap<'_, T>,
+        pressing: &Pressing<T>,
+        x: &[T],
+        out: &mut [T],
+        _cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        let on = self.conjugate.on;
+        let scale = pressing.kappa / (T::pi() * T::pi());
+        let (half, least) = (T::of(0.5), T::of(0.1));
+        let [free, bound] = self.strengths(pressing);
+        for (x, out) in x.chunks(LANES).zip(out.chunks_mut(LANES)) {
+            let mut lanes = [x[0]; LANES];
+            lanes[..x.len()].copy_from_slice(x);
+            let regular = self.conjugate.at(&lanes);
+            let singular = |[at_a, at_b]: [T; 2], x: T| {
+                let (left, right) = (x - on.left, on.right - x);
+                half * (at_a * left + at_b * right) / on.edge_root(x)
+            };
+            for i in 0..out.len() {
+                let mut pressure = scale * regular[i] + singular(bound, x[i]);
+                // What rounding has left of a strength that should be zero stands for the load
+                // that the rounded limits have too much or too little. Close to the edge it is the
+                // limit that counts.
+                let left_over = singular(free, x[i]);
+                if left_over.abs() < least * pressure.abs() {
+                    pressure += left_over;
+                }
+                out[i] = pressure;
+            }
+        }
+        Ok(())
+    }
+
+    fn estimate(
+        &self,
+        gap: &Gap<'_, T>,
+        pressing: &Pressing<T>,
+        x: T,
+        cost: &mut Cost,
+    ) -> Result<Estimate<T>, ContactError<T>> {
+        let mut value = [T::zero()];
+        self.pressures(gap, pressing, &[x], &mut value, cost)?;
+        let Pressing { kappa, .. } = *pressing;
+        let on = self.conjugate.on;
+        let of_series = kappa * self.conjugate.error(x) / (T::pi() * T::pi());
+        // An error of the edge integrals is one of the strengths.
+        let strength = self.moments.map_or(T::zero(), |m| kappa * on.half_width() * m.error);
+        let of_edges = T::of(4.0) * strength / (T::pi() * on.edge_root(x));
+        let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
+        Ok(Estimate { value: value[0], error })
+    }
+
+    fn cost(&self) -> Cost {
+        self.cover.cost
+    }
+
+    fn covered(&self) -> Option<Interval<T>> {
+        self.cover.interval().filter(|_| self.fall.is_none())
+    }
+
+    fn slope(&self, x: T) -> Option<T> {
+        self.cover.slope(x)
+    }
+
+    fn forget(&mut self) {
+        self.cover.clear(true);
+        self.fall = None;
+        self.cover.first = 8;
+    }
+
+    fn reset(&mut self, same_bodies: bool) {
+        self.cover.cost = Cost::default();
+        if !same_bodies {
+            self.cover.clear(false);
+            self.fall = None;
+        }
+    }
+}
+
+impl<T: Real> AtWork<T> {
+    /// K_a and K_b: what is left of them at free edges, and what they are at the others.
+    fn strengths(&self, pressing: &Pressing<T>) -> [[T; 2]; 2] {
+        let zero = T::zero();
+        let Some(m) = self.moments else { return [[zero; 2]; 2] };
+        let mean_pressure = pressing.load / self.conjugate.on.half_width();
+        let strength = |sum: T| (mean_pressure - pressing.kappa * sum) / T::pi();
+        let both = [strength(m.first + m.mean), strength(m.first - m.mean)];
+        let pick =
+            |free: bool| [0, 1].map(|i| if pressing.free[i] == free { both[i] } else { zero });
+        [pick(true), pick(false)]
+    }
+}

@@ -1,0 +1,127 @@
+//! The angle θ of `x = c + L cos θ` without a trigonometric function.
+//!
+//! The half-angle of a point is known from its distances to the two edges: `cos θ/2 = sqrt((x +
+//! b)/2L)`, `sin θ/2 = sqrt((a - x)/2L)`. On a stretch with the middle θ_m let `σ = tan((θ -
+//! θ_m)/2)`. Then
+//!
+//! ```text
+//! x - x_m = -2 L σ (σ cos θ_m + sin θ_m)/(1 + σ²)          dθ = 2 dσ/(1 + σ²)
+//! ```
+//!
+//! which keeps all digits of a distance within the stretch however short it is, and the integrand
+//! is smooth: its only poles are at σ = ±i, and |σ| < 1.
+
+use crate::{Interval, Real};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// A point of the contact by the cosine and sine of half its angle.
+#[derive(Clone, Copy)]
+pub(super) struct HalfAngle<T> {
+    cos: T,
+    sin: T,
+}
+
+impl<T: Real> HalfAngle<T> {
+    pub fn of(on: Interval<T>, x: T) -> Self {
+        let width = on.right - on.left;
+        let share = |distance: T| (distance.max(T::zero()) / width).sqrt();
+        Self { cos: share(x - on.left), sin: share(on.right - x) }
+    }
+
+    /// cos θ
+    pub fn cosine(&self) -> T {
+        (self.cos - self.sin) * (self.cos + self.sin)
+    }
+
+    /// sin θ
+    pub fn sine(&self) -> T {
+        (self.cos + self.cos) * self.sin
+    }
+}
+
+/// A stretch of a contact, by the angles of its ends.
+pub(super) struct Arc<T> {
+    /// cos θ_m and sin θ_m.
+    pub cos: T,
+    sin: T,
+    /// σ at the left end; at the right end it is the negative of this.
+    pub tangent: T,
+    width: T,
+    /// `x_left - x_m`.
+    pub to_left: T,
+}
+
+impl<T: Real> Arc<T> {
+    /// From `left` to `right`, whose half-angles are given, of a contact of some width.
+    pub fn new(length: T, left: HalfAngle<T>, right: HalfAngle<T>, width: T) -> Self {
+        let cos = left.cos * right.cos - left.sin * right.sin;
+        let sin = left.sin * right.cos + left.cos * right.sin;
+        let half_sine = length / (width * sin);
+        let half_cosine = left.cos * right.cos + left.sin * right.sin;
+        let tangent = half_sine / (T::one() + half_cosine);
+        let mut arc = Self { cos, sin, tangent, width, to_left: T::zero() };
+        arc.to_left = arc.beside_middle(tangent).0;
+        arc
+    }
+
+    /// `x - x_m` and dθ/dσ at σ.
+    #[inline(always)]
+    pub fn beside_middle(&self, sigma: T) -> (T, T) {
+        let turn = T::one() / (T::one() + sigma * sigma);
+        (-self.width * sigma * (sigma * self.cos + self.sin) * turn, turn + turn)
+    }
+
+    /// The width of the contact.
+    pub fn width(&self) -> T {
+        self.width
+    }
+}
+
+/// The most nodes of a Gauss rule.
+pub(super) const MOST_NODES: usize = 40;
+
+/// A Gauss-Legendre rule on [-1, 1].
+pub(super) struct Gauss {
+    pub n: usize,
+    pub nodes: [f64; MOST_NODES],
+    pub weights: [f64; MOST_NODES],
+}
+
+static RULES: LazyLock<[Gauss; 4]> = LazyLock::new(|| [12, 20, 28, MOST_NODES].map(Gauss::new));
+
+impl Gauss {
+    /// The rule for a polynomial of n coefficients on a stretch with this tangent.
+    pub fn suited<T: Real>(n: usize, tangent: T) -> &'static Self {
+        // The poles are at ±1/tangent of the stretch.
+        let wide = [0.2, 0.7].into_iter().filter(|&limit| tangent > T::of(limit)).count();
+        let many = usize::from(n > 8) + usize::from(n > 16);
+        &RULES[(wide + many).min(RULES.len() - 1)]
+    }
+
+    /// The rule for whatever is close.
+    pub fn finest() -> &'static Self {
+        &RULES[RULES.len() - 1]
+    }
+
+    /// The zeros of the Legendre polynomial by Newton's method.
+    fn new(n: usize) -> Self {
+        let mut rule = Self { n, nodes: [0.0; MOST_NODES], weights: [0.0; MOST_NODES] };
+        for i in 0..n {
+            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+            let mut derivative = 1.0;
+            for _ in 0..8 {
+                let (mut p0, mut p1) = (1.0, x);
+                for k in 2..=n {
+                    let k = k as f64;
+                    (p0, p1) = (p1, ((2.0 * k - 1.0) * x * p1 - (k - 1.0) * p0) / k);
+                }
+                derivative = n as f64 * (x * p1 - p0) / (x * x - 1.0);
+                x -= p1 / derivative;
+            }
+            rule.nodes[i] = x;
+            rule.weights[i] = 2.0 / ((1.0 - x * x) * derivative * derivative);
+        }
+        rule
+    }
+}

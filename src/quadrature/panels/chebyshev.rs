@@ -1,0 +1,105 @@
+//! Chebyshev series: the tables for a few fixed sizes, and evaluation.
+//!
+//! The sizes are multiples of four, and all loops over nodes run over arrays of a length known to
+//! the compiler, which turns them into vector instructions.
+
+use crate::Real;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// The numbers of nodes in use.
+pub(super) const SIZES: [usize; 5] = [4, 8, 12, 16, 24];
+/// The largest of them.
+pub(super) const MOST: usize = 24;
+
+/// Coefficients or values, as many as the panel has nodes.
+pub(super) type Row<T> = [T; MOST];
+
+/// The zeros of `T_n`, and the transform from values there to coefficients.
+pub(super) struct Table {
+    /// The nodes, rising.
+    pub z: [f64; MOST],
+    /// `transform[j][k]`: the share of the value at node j in coefficient k.
+    transform: [[f64; MOST]; MOST],
+}
+
+static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
+
+impl Table {
+    fn new(n: usize) -> Self {
+        let mut table = Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST] };
+        let angle = |eighths: usize| PI * eighths as f64 / (2 * n) as f64;
+        for j in 0..n {
+            // sin of a small angle of either sign, so that the nodes are symmetric.
+            table.z[j] = ((2.0 * j as f64 + 1.0 - n as f64) * PI / (2 * n) as f64).sin();
+            for k in 0..n {
+                let cosine = angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
+                table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
+            }
+        }
+        table
+    }
+
+    /// The table for one of the [`SIZES`].
+    pub fn of(n: usize) -> &'static Self {
+        &TABLES[match n {
+            4 => 0,
+            8 => 1,
+            12 => 2,
+            16 => 3,
+            _ => 4,
+        }]
+    }
+
+    /// The coefficients of the polynomial with given values at the nodes.
+    pub fn coefficients<T: Real>(&self, n: usize, values: &Row<T>) -> Row<T> {
+        match n {
+            4 => self.transform::<4, T>(values),
+            8 => self.transform::<8, T>(values),
+            12 => self.transform::<12, T>(values),
+            16 => self.transform::<16, T>(values),
+            _ => self.transform::<24, T>(values),
+        }
+    }
+
+    fn transform<const N: usize, T: Real>(&self, values: &Row<T>) -> Row<T> {
+        let mut row = [T::zero(); MOST];
+        for j in 0..N {
+            for k in 0..N {
+                row[k] += values[j] * T::of(self.transform[j][k]);
+            }
+        }
+        row
+    }
+}
+
+/// The polynomial and its derivative at W points (Clenshaw).
+#[inline(always)]
+pub(super) fn evaluate<const W: usize, T: Real>(
+    coefficients: &[T],
+    s: &[T; W],
+) -> ([T; W], [T; W]) {
+    let zero = [T::zero(); W];
+    let (mut b1, mut b2, mut d1, mut d2) = (zero, zero, zero, zero);
+    let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
+    for &a in coefficients[1..].iter().rev() {
+        for i in 0..W {
+            let b = twice[i] * b1[i] + (a - b2[i]);
+            let d = twice[i] * d1[i] + (b1[i] + b1[i] - d2[i]);
+            (b2[i], b1[i]) = (b1[i], b);
+            (d2[i], d1[i]) = (d1[i], d);
+        }
+    }
+    let value = std::array::from_fn(|i| s[i] * b1[i] + (coefficients[0] - b2[i]));
+    let slope = std::array::from_fn(|i| s[i] * d1[i] + (b1[i] - d2[i]));
+    (value, slope)
+}
+
+/// The polynomial at one point.
+pub(super) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
+    let (mut b1, mut b2) = (T::zero(), T::zero());
+    for &a in coefficients[1..].iter().rev() {
+        (b1, b2) = ((s + s) * b1 + (a - b2), b1);
+    }
+    s * b1 + (coefficients[0] - b2)
+}

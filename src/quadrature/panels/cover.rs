@@ -1,0 +1,291 @@
+//! The panels that cover a stretch of x: sampled once, extended when more is asked for.
+
+use super::chebyshev::{MOST, Row, Table, value_at};
+use super::panel::{Panel, Verdict, judge};
+use crate::gap::{Cost, Gap, Knot, Trace, aim};
+use crate::{Body, ContactError, Interval, ProfileError, Real};
+
+/// How often a stretch between two joints may be split.
+const MOST_SPLITS: usize = 4096;
+
+/// What a panel has met.
+struct Seen<T> {
+    /// The largest slope of the gap.
+    slope: T,
+    /// The largest sum of the slopes of the two bodies.
+    bodies: T,
+    /// What the rounding of x makes of the slope where the bodies bend sharply.
+    noise: T,
+}
+
+/// A row of panels, from left to right without gaps.
+pub(super) struct Cover<T> {
+    pub panels: Vec<Panel<T>>,
+    /// Sampled, but not yet in their place.
+    fresh: Vec<Panel<T>>,
+    /// Stretches still to be sampled, with what was left open when they were one with their
+    /// neighbour.
+    waiting: Vec<(T, T, Option<T>)>,
+    traces: [Trace<T>; 2],
+    /// The largest slope of the gap, as far as a first look has shown.
+    pub size: T,
+    /// Nodes to start a panel with.
+    pub first: usize,
+    /// No more than a sketch is wanted: four nodes, whatever they say.
+    pub rough: bool,
+    pub tolerance: T,
+    pub cost: Cost,
+}
+
+impl<T: Real> Cover<T> {
+    pub fn new(tolerance: T) -> Self {
+        Self {
+            panels: Vec::new(),
+            fresh: Vec::new(),
+            waiting: Vec::new(),
+            traces: [Trace::new(), Trace::new()],
+            size: T::zero(),
+            first: 8,
+            rough: false,
+            tolerance,
+            cost: Cost::default(),
+        }
+    }
+
+    /// Forgets the panels; the curves' last points are kept if the bodies are the same.
+    pub fn clear(&mut self, same_bodies: bool) {
+        self.panels.clear();
+        self.size = T::zero();
+        if !same_bodies {
+            self.traces.iter_mut().for_each(Trace::clear);
+        }
+    }
+
+    /// What is covered.
+    pub fn interval(&self) -> Option<Interval<T>> {
+        let (first, last) = (self.panels.first()?, self.panels.last()?);
+        Some(Interval { left: first.x[0], right: last.x[1] })
+    }
+
+    /// The slope at `x`, from the nearest panel.
+    pub fn slope(&self, x: T) -> Option<T> {
+        let last = self.panels.len().checked_sub(1)?;
+        let panel = &self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)];
+        Some(value_at(panel.coefficients(), panel.local(x)))
+    }
+
+    /// Covers an interval, sampling only what is missing.
+    pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        let Some(have) = self.interval() else {
+            self.sample(gap, on)?;
+            self.panels.append(&mut self.fresh);
+            return Ok(());
+        };
+        // More than a sliver at a time, but beside a joint perhaps not much.
+        let (range, half) = (gap.range(), T::of(0.5));
+        let (first, last) = (self.panels[0].x, self.panels[self.panels.len() - 1].x);
+        let [before, more] = [first, last].map(|x| half * (x[1] - x[0]));
+        if on.right > have.right {
+            let far = (have.right + more).min(half * on.right + half * range[1]);
+            self.sample(gap, Interval { left: have.right, right: on.right.max(far) })?;
+            self.panels.append(&mut self.fresh);
+        }
+        if on.left < have.left {
+            let far = (have.left - before).max(half * on.left + half * range[0]);
+            self.sample(gap, Interval { left: on.left.min(far), right: have.left })?;
+            let count = self.fresh.len();
+            self.panels.append(&mut self.fresh);
+            self.panels.rotate_right(count);
+        }
+        Ok(())
+    }
+
+    /// Samples an interval into `fresh`.
+    fn sample(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        self.fresh.clear();
+        let mut left = on.left;
+        loop {
+            let joint = gap.joint_after(left).filter(|&joint| joint < on.right);
+            let right = joint.unwrap_or(on.right);
+            self.resolve(gap, left, right)?;
+            if joint.is_none() {
+                return Ok(());
+            }
+            left = right;
+        }
+    }
+
+    /// Samples a stretch without joints.
+    fn resolve(&mut self, gap: &Gap<'_, T>, left: T, right: T) -> Result<(), ContactError<T>> {
+        self.waiting.clear();
+        self.waiting.push((left, right, None));
+        let mut splits = 0;
+        while let Some((left, right, parent)) = self.waiting.pop() {
+            let mut n = if self.rough { 4 } else { self.first };
+            let (panel, split) = loop {
+                let (mut panel, Seen { slope, bodies, noise }) =
+                    self.panel(gap, [left, right], n)?;
+                if parent.is_none() {
+                    self.size = self.size.max(slope);
+                }
+                // Next to a singularity the slope may be large, or noisy, beyond all that counts
+                // elsewhere.
+                let allowed = (self.tolerance * self.size.max(slope)).max(noise);
+                let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
+                let (tail, next, split) = match verdict {
+                    Verdict::Good(tail) | Verdict::Noise(tail) => (tail, None, false),
+                    Verdict::Take(next, tail) => (tail, Some(next), true),
+                    Verdict::Split(tail) => (tail, None, true),
+                };
+                panel.tail = tail;
+                match next {
+                    Some(next) if !self.rough => n = next,
+                    _ => break (panel, split && !self.rough),
+                }
+            };
+            let middle = T::of(0.5) * left + T::of(0.5) * right;
+            // Noise is what a shorter panel has as much of.
+            let noise =
+                |parent| panel.tail >= T::of(0.8) * parent && panel.tail <= T::of(1e-6) * self.size;
+            let fine = T::of(8.0) * T::epsilon() * left.abs().max(right.abs());
+            let long = right - left > fine && middle > left && middle < right;
+            if split && long && splits < MOST_SPLITS && !parent.is_some_and(noise) {
+                splits += 1;
+                self.waiting.push((middle, right, Some(panel.tail)));
+                self.waiting.push((left, middle, Some(panel.tail)));
+            } else {
+                if !self.rough {
+                    self.check_slopes()?;
+                }
+                self.fresh.push(panel);
+            }
+        }
+        Ok(())
+    }
+
+    /// Samples one panel with n nodes.
+    fn panel(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+        n: usize,
+    ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
+        let table = Table::of(n);
+        let (half, zero) = (T::of(0.5), T::zero());
+        let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
+        let mut nodes = [zero; MOST];
+        // Never at the very end of a body, where the slope may be infinite.
+        let [first, last] = [x[0] + T::epsilon() * x[0].abs(), x[1] - T::epsilon() * x[1].abs()];
+        for i in 0..n {
+            nodes[i] = (centre + reach * T::of(table.z[i])).max(first).min(last);
+        }
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
+            aim(gap, body, &nodes[..n], trace, &mut self.cost)?;
+        }
+        self.cost.samples += n;
+        let mut wanted = [zero; MOST];
+        for i in 0..n {
+            wanted[i] = reach + reach * T::of(table.z[i]);
+        }
+        let [lower, upper] =
+            [0, 1].map(|body| at_nodes(&wanted[..n], &self.traces[body], x[0], reach));
+        let mut slopes = [zero; MOST];
+        let mut seen = Seen { slope: zero, bodies: zero, noise: zero };
+        for i in 0..n {
+            slopes[i] = upper[i] - lower[i];
+            seen.slope = seen.slope.max(slopes[i].abs());
+            seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
+        }
+        let bend = |slopes: &Row<T>| (slopes[n - 1] - slopes[0]).abs() / (nodes[n - 1] - nodes[0]);
+        let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
+        seen.noise = rounded * (bend(&lower) + bend(&upper));
+        Ok((Panel { x, n, series: table.coefficients(n, &slopes), tail: zero }, seen))
+    }
+
+    /// Whether the heights of the last points agree with the slopes there, to a tenth: a wrong
+    /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
+    fn check_slopes(&self) -> Result<(), ContactError<T>> {
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
+            let knots = trace.knots();
+            if trace.direct || knots.len() < 8 {
+                continue;
+            }
+            let (mut off, mut sum) = (T::zero(), T::zero());
+            let mut rounded = T::zero();
+            let mut worst = (T::zero(), knots[0], T::zero());
+            for pair in knots.windows(2) {
+                let [one, other] = [pair[0], pair[1]];
+                let run = other.x - one.x;
+                let (rise, due) = (other.y - one.y, T::of(0.5) * run * (one.slope + other.slope));
+                let miss = (rise - due).abs();
+                off += miss;
+                sum += rise.abs() + due.abs();
+                rounded = rounded.max(one.y.abs() + one.x.abs() * one.slope.abs());
+                if miss > worst.0 {
+                    worst = (miss, one, rise / run);
+                }
+            }
+            let noise = T::of(1e4) * T::epsilon() * rounded;
+            let reach = knots[knots.len() - 1].x - knots[0].x;
+            let noise = noise + T::of(1e-6) * self.size * reach;
+            if off > T::of(0.1) * sum + noise {
+                let (_, Knot { k, slope: given, .. }, difference) = worst;
+                let quantity = "the slope Y'/X'";
+                let source = ProfileError::Derivative { quantity, k, given, difference };
+                return Err(ContactError::Profile { body, source });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
+/// from the left end of the panel, where the rounding of x matters less.
+fn at_nodes<T: Real>(nodes: &[T], trace: &Trace<T>, left: T, reach: T) -> Row<T> {
+    let knots = trace.knots();
+    let n = nodes.len();
+    let (mut x, mut values) = ([T::zero(); MOST], [T::zero(); MOST]);
+    let mut miss = T::zero();
+    for i in 0..n {
+        (x[i], values[i]) = (knots[i].x - left, knots[i].slope);
+        miss = miss.max((x[i] - nodes[i]).abs());
+    }
+    if miss <= T::of(2.0) * T::epsilon() * reach {
+        return values;
+    }
+    // Barycentric interpolation (Berrut and Trefethen, SIAM Review 46 (2004) 501, Eq. (4.2)), with
+    // distances in units that keep the products near 1.
+    let unit = T::of(2.0) / reach;
+    for x in &mut x {
+        *x *= unit;
+    }
+    let mut weight = [T::one(); MOST];
+    for i in 0..n {
+        for j in 0..n {
+            if j != i {
+                weight[i] *= x[i] - x[j];
+            }
+        }
+        if weight[i].is_zero() {
+            // Too close to be told apart: a panel of a few units in the last place.
+            return values;
+        }
+        weight[i] = weight[i].recip();
+    }
+    let known = values;
+    for i in 0..n {
+        let at = nodes[i] * unit;
+        let (mut above, mut below, mut hit) = (T::zero(), T::zero(), None);
+        for j in 0..n {
+            let distance = at - x[j];
+            if distance.is_zero() {
+                hit = Some(known[j]);
+            }
+            let share = weight[j] / distance;
+            above += share * known[j];
+            below += share;
+        }
+        values[i] = hit.unwrap_or(above / below);
+    }
+    values
+}

@@ -1,0 +1,104 @@
+//! One polynomial piece of the slope, and whether it is good enough.
+
+use super::chebyshev::{MOST, Row, SIZES};
+use crate::Real;
+
+/// The slope of the gap over an interval without joints, as a Chebyshev series.
+#[derive(Clone, Copy)]
+pub(super) struct Panel<T> {
+    /// Its two ends.
+    pub x: [T; 2],
+    /// How many coefficients there are.
+    pub n: usize,
+    pub series: Row<T>,
+    /// Estimated largest error of the series.
+    pub tail: T,
+}
+
+impl<T: Real> Panel<T> {
+    /// The place of `x` in the panel, from -1 to 1; exact at both ends.
+    pub fn local(&self, x: T) -> T {
+        ((x - self.x[0]) - (self.x[1] - x)) / (self.x[1] - self.x[0])
+    }
+
+    pub fn half(&self) -> T {
+        T::of(0.5) * (self.x[1] - self.x[0])
+    }
+
+    pub fn coefficients(&self) -> &[T] {
+        &self.series[..self.n]
+    }
+}
+
+/// What the coefficients say of a series.
+pub(super) enum Verdict<T> {
+    /// Good enough, with an estimate of its largest error.
+    Good(T),
+    /// The coefficients have sunk into the noise of the samples, of this size.
+    Noise(T),
+    /// This number of nodes should be enough.
+    Take(usize, T),
+    /// They do not fall, or not fast enough: the panel is too long for one polynomial.
+    Split(T),
+}
+
+/// Looks at the larger one of each two coefficients, since a series may be odd or even.
+///
+/// Errors up to `allowed` are good enough. `rounded` is what a unit of rounding makes of the bodies'
+/// slopes on this panel.
+pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Verdict<T> {
+    let pairs = n / 2;
+    let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
+    let (last, before) = (pair(pairs - 1), pair(pairs - 2));
+    let ratio = |a: T, b: T| if a.is_zero() { a } else { a / b };
+    let mut fall = ratio(last, before);
+    // Coefficients that fall less than they did have met the noise.
+    let mut levels = false;
+    if pairs >= 4 {
+        let fell = ratio(before, pair(pairs - 3));
+        levels = fall > T::of(10.0) * fell;
+        fall = fall.max(fell);
+    }
+    if last <= T::of(8.0) * rounded && pairs >= 4 {
+        return Verdict::Good(last.max(rounded));
+    }
+    let error = if levels {
+        last + last
+    } else if fall < T::of(0.3) {
+        (last + last) * fall
+    } else {
+        // They may fall like a power only: the rest adds up.
+        last * T::count(n)
+    };
+    // Four coefficients are little to go by, and do not show the noise.
+    let doubt = T::of(if pairs < 4 { 10.0 } else { 1.0 });
+    let enough = pairs >= 4 || allowed >= T::of(400.0) * rounded;
+    if error * doubt <= allowed && enough {
+        return Verdict::Good(error.max(rounded));
+    }
+    // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
+    // one third of them to the next.
+    let third = |i: usize| {
+        let terms = &series[i * n / 3..(i + 1) * n / 3];
+        terms.iter().fold(T::zero(), |sum, a| sum + a.abs()) / T::count(terms.len())
+    };
+    let plateau = third(2);
+    let faint = plateau <= rounded / T::epsilon().cbrt();
+    if n >= 12 && faint && plateau >= T::of(0.42) * third(1) {
+        return Verdict::Noise(T::of(4.0) * plateau);
+    }
+    if faint && n < MOST {
+        return Verdict::Take(if n < 8 { 8 } else { MOST }, last);
+    }
+    let mut expected = error * doubt;
+    let mut have = n;
+    for more in SIZES.into_iter().filter(|&more| more > n) {
+        while have < more {
+            (expected, have) = (expected * fall, have + 2);
+        }
+        if expected <= allowed {
+            return Verdict::Take(more, last);
+        }
+    }
+    Verdict::Split(last)
+}
