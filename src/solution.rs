@@ -157,10 +157,11 @@ impl<T: Real> Pressure<'_, T> {
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         assert_eq!(x.len(), pressures.len(), "one pressure for each x");
         let mut cost = Cost::default();
-        if x.iter().all(|&x| self.on.contains(x)) {
+        // Without a way out of the loops, for speed.
+        if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
             self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut cost)?;
-            let finite = pressures.iter().all(|pressure| pressure.is_finite());
-            if finite {
+            let finite = |pressure: &T| pressure.is_finite();
+            if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
                 return Ok(());
             }
         }

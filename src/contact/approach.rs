@@ -87,17 +87,17 @@ fn with_edges<T: Real>(
     let mut settled = None;
     if contact.search.is_none() {
         let guess = match warm {
-            Some(warm) => Some(warm),
+            Some(warm) => Some((warm, T::of(0.02))),
             None => sketch(contact, conditions, engine)?,
         };
 
         // What was sampled for the last load serves for the next.
-        if let (Some(guess), Some(covered)) = (guess, engine.covered()) {
+        if let (Some((guess, _)), Some(covered)) = (guess, engine.covered()) {
             settled = settle(engine, gap, conditions, guess, Effort::Full)?
                 .filter(|settled| settled.on.half_width() >= T::of(0.3) * covered.half_width());
         }
         if settled.is_none() {
-            let guess = guess.unwrap_or_else(|| start(contact, conditions));
+            let guess = guess.unwrap_or_else(|| (start(contact, conditions), T::of(0.02)));
             settled = in_full(contact, conditions, engine, guess)?;
         }
     }
@@ -106,7 +106,7 @@ fn with_edges<T: Real>(
         let (nested, load) = nested(contact, conditions, engine, cost)?;
         let error = Some(nested.error);
         if contact.search.is_none() {
-            settled = in_full(contact, conditions, engine, nested.on)?;
+            settled = in_full(contact, conditions, engine, (nested.on, T::zero()))?;
         }
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
@@ -134,35 +134,52 @@ fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Inter
     conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle))
 }
 
-/// A first estimate of the contact, from sketches; `None` where they lead nowhere.
+/// A first estimate of the contact, from sketches, and how far it is in doubt as a share of its
+/// half-width; `None` where they lead nowhere.
 fn sketch<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,
-) -> Result<Option<Interval<T>>, ContactError<T>> {
+) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
     let gap = &contact.gap;
     let range = gap.range();
     let inside =
         |on: &Interval<T>| on.left >= range[0] && on.right <= range[1] && on.left < on.right;
     let mut stretch = start(contact, conditions);
+    let mut on: Option<Interval<T>> = None;
     for _ in 0..MOST_SKETCHES {
         if !inside(&stretch) {
             return Ok(None);
         }
         let Some(doubt) = engine.cover(gap, stretch, true)? else { return Ok(None) };
-        let Some(guess) = settle(engine, gap, conditions, stretch, Effort::Sketch)? else {
+        let begin = on.unwrap_or(stretch);
+        let Some(guess) = settle(engine, gap, conditions, begin, Effort::Sketch)? else {
             return Ok(None);
         };
+        on = Some(guess.on);
         let on = guess.on;
         let within = on.left >= stretch.left && on.right <= stretch.right;
-        if within && on.half_width() >= T::of(0.4) * stretch.half_width() {
-            return Ok(Some(on));
+        let share = on.half_width() / stretch.half_width();
+        // A joint inside is where it is, and only the width is in doubt.
+        let jointed = gap.joint_after(on.left).is_some_and(|joint| joint < on.right);
+        let comparable = share >= T::of(0.4);
+        let doubt = if jointed && !comparable { doubt.sqrt() } else { doubt };
+        let relative = if jointed { doubt } else { doubt / share };
+        let sure = T::of(if jointed { 0.1 } else { 0.02 });
+        // Outside, the doubt grows with the powers that the sketch has left out.
+        let reached = share.max((on.centre() - stretch.centre()).abs() / stretch.half_width());
+        if !within && relative * reached.max(T::one()).powi(5) <= T::of(1e-3) && guess.error <= sure
+        {
+            return Ok(Some((on, sure * T::of(0.5))));
+        }
+        if within && guess.error <= T::of(0.1) && (comparable || relative <= sure) {
+            return Ok(Some((on, relative.min(T::of(0.1)))));
         }
         // Around it, as closely as its place is known.
         let rounding = T::of(64.0) * T::epsilon();
         let largest = stretch.left.abs().max(stretch.right.abs());
-        let doubt = (doubt + doubt).min(T::of(0.3)) * stretch.half_width();
-        let reach = doubt.max(rounding * largest);
+        let doubt = if jointed { T::zero() } else { (doubt + doubt).min(T::of(0.3)) };
+        let reach = (doubt * stretch.half_width()).max(rounding * largest);
         let [left, right] = beyond(contact, on, T::of(0.125));
         let next = Interval { left: left.min(on.left - reach), right: right.max(on.right + reach) };
         // Half the way to an end, where the slope may be infinite.
@@ -201,14 +218,14 @@ fn in_full<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,
-    guess: Interval<T>,
+    (guess, doubt): (Interval<T>, T),
 ) -> Result<Option<Settled<T>>, ContactError<T>> {
     let gap = &contact.gap;
     let range = gap.range();
     let half = T::of(0.5);
     let (mut guess, mut best) = (guess, None);
     for _ in 0..3 {
-        let [left, right] = beyond(contact, guess, T::of(0.02));
+        let [left, right] = beyond(contact, guess, T::of(0.01) + doubt);
         let stretch = Interval {
             left: left.max(half * guess.left + half * range[0]),
             right: right.min(half * guess.right + half * range[1]),

@@ -79,12 +79,13 @@ impl<T: Real> Conditions<T> {
         let half_width = on.half_width();
         let wider = half * (right - left);
         let square = one + wider + wider;
-        let wider = if square < T::of(0.05) {
+        let wider = if square < T::zero() {
             // No round body asks for so much less, but a wedge does, whose load goes with the
             // half-width itself.
             wider.max(T::of(-0.97))
         } else {
-            ((wider + wider) / (one + square.sqrt())).min(T::of(3.0))
+            let square = square.max(T::of(1e-3));
+            ((square - one) / (one + square.sqrt())).min(T::of(3.0))
         };
         let along = (half * (right + left)).max(-one).min(one);
         match self.edges.map(|edge| edge.limit()) {

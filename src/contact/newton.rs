@@ -78,7 +78,8 @@ pub(super) fn settle<T: Real>(
             // Half the way, since the slope may be infinite at the very end of a body.
             if beyond { half * from + half * end } else { to }
         };
-        let allowed = opening(engine, conditions, before_move, on);
+        let far = size > T::of(0.05);
+        let allowed = if far { opening(engine, conditions, before_move, on) } else { on };
         let allowed = Interval {
             left: back(before_move.left, allowed.left, range[0], allowed.left < range[0]),
             right: back(before_move.right, allowed.right, range[1], allowed.right > range[1]),
@@ -87,29 +88,35 @@ pub(super) fn settle<T: Real>(
             (on, before) = (allowed, None);
             continue;
         }
-        let rounding = [on.right, on.left].map(|x| T::epsilon() * x.abs() / on.half_width());
         let share = before.map_or(one, |before| size / before);
         let next = share * share * size;
-        let done = match effort {
-            Effort::Sketch => {
-                size <= T::of(0.03) || on.half_width() < T::of(0.01) * start.half_width()
+        if effort == Effort::Sketch {
+            if size <= T::of(0.03) || on.half_width() < T::of(1e-6) * start.half_width() {
+                let sound = opens(engine, conditions, on) && system.is_stable(conditions);
+                return Ok(sound.then_some(Settled { on, load, error: size, force: size }));
             }
-            Effort::Full => next <= half * T::epsilon() && size <= half * half,
-        };
-        let noise = system.error(&inverse, &m);
-        let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
-        let stalled = share >= T::of(0.25) && before.is_some() && size <= T::of(1e3) * least;
-        if done || stalled {
-            if !(opens(engine, conditions, on) && system.is_stable(conditions)) {
-                return Ok(None);
+            before = Some(size);
+            continue;
+        }
+        let done = next <= half * T::epsilon() && size <= half * half;
+        let slow = before.is_some() && share >= T::of(0.25);
+        if done || slow {
+            let noise = system.error(&inverse, &m);
+            let rounding = [on.right, on.left].map(|x| T::epsilon() * x.abs() / on.half_width());
+            let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
+            let stalled = slow && size <= T::of(1e3) * least;
+            if done || stalled {
+                if !(opens(engine, conditions, on) && system.is_stable(conditions)) {
+                    return Ok(None);
+                }
+                let left_over = (if stalled { one } else { share * share }) * half;
+                // The noise is known from a few coefficients only.
+                let error =
+                    |i: usize| T::of(4.0) * (noise[i] + rounding[i]) + left_over * step[i].abs();
+                let errors = [error(0), error(1)];
+                let force = system.force(errors);
+                return Ok(Some(Settled { on, load, error: errors[0].max(errors[1]), force }));
             }
-            let left_over = (if stalled { one } else { share * share }) * half;
-            // The noise is known from a few coefficients only.
-            let error =
-                |i: usize| T::of(4.0) * (noise[i] + rounding[i]) + left_over * step[i].abs();
-            let errors = [error(0), error(1)];
-            let force = system.force(errors);
-            return Ok(Some(Settled { on, load, error: errors[0].max(errors[1]), force }));
         }
         before = Some(size);
     }
@@ -168,6 +175,7 @@ impl<T: Real> System<T> {
         let trend = m.trend?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
+        let share = |scale: T| one / scale;
         let pull = |edge: &Edge<T>| match *edge {
             Edge::Adhesive(work) => (conditions.kappa * work * half_width).sqrt(),
             _ => zero,
@@ -180,7 +188,8 @@ impl<T: Real> System<T> {
         let mut jacobian = Matrix3::zeros();
         let mut residual = Vector3::zeros();
         // Derivatives by centre and half-width, each times the half-width.
-        let weight = stiffness / scale;
+        let (scale_share, width_share) = (share(scale), share(half_width));
+        let weight = stiffness * scale_share;
         let by_half_width = weight * half_width;
         for (row, sign, edge, pull) in
             [(0, one, &conditions.edges[1], pull_a), (1, -one, &conditions.edges[0], pull_b)]
@@ -189,13 +198,13 @@ impl<T: Real> System<T> {
                 Some(limit) => {
                     let x = if row == 0 { on.right } else { on.left };
                     jacobian[(row, row)] = one;
-                    residual[row] = (x - limit) / half_width;
+                    residual[row] = (x - limit) * width_share;
                 }
                 None => {
                     let carried = m.first + sign * m.mean;
-                    residual[row] = (load + pull + pull) / scale - weight * carried;
+                    residual[row] = (load + pull + pull) * scale_share - weight * carried;
                     let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
-                    let width = -weight * carried + pull / scale
+                    let width = -weight * carried + pull * scale_share
                         - by_half_width * (trend.by_2 + sign * trend.by_1);
                     jacobian[(row, 0)] = half * (centre + width);
                     jacobian[(row, 1)] = half * (centre - width);
@@ -206,12 +215,12 @@ impl<T: Real> System<T> {
         match conditions.control {
             Control::Load(wanted) => {
                 jacobian[(2, 2)] = one;
-                residual[2] = (load - wanted) / scale;
+                residual[2] = (load - wanted) * scale_share;
             }
             Control::HalfWidth(wanted) => {
                 jacobian[(2, 0)] = half;
                 jacobian[(2, 1)] = -half;
-                residual[2] = (half_width - wanted) / half_width;
+                residual[2] = (half_width - wanted) * width_share;
             }
         }
         Some(Self { jacobian, residual, scale, stiffness })

@@ -16,8 +16,8 @@ use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 /// The most targets at a time.
 const MOST: usize = 24;
 
-/// By how much of the distance to the next target a node may miss its own.
-const NEAR: f64 = 0.1;
+/// By how much of the distance to the next target a node may miss its own, and for a sketch.
+const NEAR: [f64; 2] = [0.1, 0.45];
 
 /// A known point of a curve.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,9 @@ pub(crate) struct Trace<T> {
     /// The piece they lie on.
     piece: Option<usize>,
     len: usize,
-    knots: [Knot<T>; MOST],
+    /// The knots, and room for the next; which of them changes.
+    rows: [[Knot<T>; MOST]; 2],
+    current: usize,
     /// Where `X(k) = x` needs no solving there is no `Y`, and the knots are at their targets.
     pub direct: bool,
 }
@@ -51,7 +53,7 @@ impl<T: Real> Trace<T> {
     pub fn new() -> Self {
         let nil = T::zero();
         let knot = Knot { k: nil, x: nil, y: nil, dx: nil, slope: nil };
-        Self { piece: None, len: 0, knots: [knot; MOST], direct: false }
+        Self { piece: None, len: 0, rows: [[knot; MOST]; 2], current: 0, direct: false }
     }
 
     /// Forgets what was sampled: the body is another.
@@ -60,7 +62,7 @@ impl<T: Real> Trace<T> {
     }
 
     pub fn knots(&self) -> &[Knot<T>] {
-        &self.knots[..self.len]
+        &self.rows[self.current][..self.len]
     }
 }
 
@@ -70,6 +72,7 @@ pub(crate) fn aim<T: Real>(
     gap: &Gap<'_, T>,
     body: Body,
     targets: &[T],
+    rough: bool,
     trace: &mut Trace<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
@@ -81,7 +84,7 @@ pub(crate) fn aim<T: Real>(
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
         trace.direct = true;
         trace.len = n;
-        for (i, (knot, &x)) in trace.knots.iter_mut().zip(targets).enumerate() {
+        for (i, (knot, &x)) in trace.rows[trace.current].iter_mut().zip(targets).enumerate() {
             let slope = if i == 0 { slope } else { piece.curve.slope_at(x).unwrap_or(slope) };
             if !slope.is_finite() {
                 return Err(not_finite(body, "slope_at(x)", x, slope));
@@ -91,47 +94,60 @@ pub(crate) fn aim<T: Real>(
         return Ok(());
     }
     trace.direct = false;
+    let Trace { len, rows: [one, other], current, .. } = trace;
+    let (knots, spare) = if *current == 0 { (one, other) } else { (other, one) };
     let mut shot = Shot {
         body,
         rises: piece.k[0] < piece.k[1],
         ends: [0, 1].map(|i| Knot::new(piece.k[i], piece.ends[i])),
-        knots: trace.knots,
+        near: T::of(NEAR[usize::from(rough)]),
+        knots: spare,
         found: 0,
     };
-    let shots = shot.batch(piece, targets, trace.knots(), cost);
-    shots.map_err(|error| shot.turning_point(piece, error))?;
+    // A range much longer than that of the targets says little of where they are: with one found,
+    // the others are aimed at from there.
+    let [first, last] = [targets[0], targets[n - 1]];
+    let far = last - first < T::of(0.25) * (shot.ends[1].x - shot.ends[0].x);
+    let beside = first <= shot.ends[0].x || last >= shot.ends[1].x;
+    if *len == 0 && far && !beside {
+        let found = shot.search(gap, piece, targets, n / 2, &[], cost);
+        (knots[0], *len) = (found.map_err(|error| turns(piece, error))?, 1);
+    }
+    let known = &knots[..*len];
+    shot.batch(piece, targets, known, cost).map_err(|error| turns(piece, error))?;
     for i in 0..n {
-        let x = shot.knots[i].x;
-        if (x - targets[i]).abs() > tolerance(targets, i) {
-            let found = shot.search(gap, piece, targets, i, trace.knots(), cost);
-            shot.knots[i] = found.map_err(|error| shot.turning_point(piece, error))?;
+        if (shot.knots[i].x - targets[i]).abs() > shot.tolerance(targets, i) {
+            let found = shot.search(gap, piece, targets, i, known, cost);
+            shot.knots[i] = found.map_err(|error| turns(piece, error))?;
         }
     }
-    trace.knots = shot.knots;
-    trace.len = n;
+    (*current, *len) = (1 - *current, n);
     Ok(())
 }
 
-fn tolerance<T: Real>(targets: &[T], i: usize) -> T {
-    let before = i.checked_sub(1).map(|j| targets[i] - targets[j]);
-    let after = targets.get(i + 1).map(|&next| next - targets[i]);
-    let distance = match (before, after) {
-        (Some(before), Some(after)) => before.min(after),
-        (before, after) => before.or(after).unwrap_or_else(T::zero),
-    };
-    T::of(NEAR) * distance
-}
-
-struct Shot<T> {
+struct Shot<'s, T> {
     body: Body,
     rises: bool,
     ends: [Knot<T>; 2],
-    knots: [Knot<T>; MOST],
+    /// By how much of the distance between them a target may be missed.
+    near: T,
+    knots: &'s mut [Knot<T>; MOST],
     /// How many of the knots are at hand.
     found: usize,
 }
 
-impl<T: Real> Shot<T> {
+impl<T: Real> Shot<'_, T> {
+    /// By how much a target may be missed.
+    fn tolerance(&self, targets: &[T], i: usize) -> T {
+        let before = i.checked_sub(1).map(|j| targets[i] - targets[j]);
+        let after = targets.get(i + 1).map(|&next| next - targets[i]);
+        let distance = match (before, after) {
+            (Some(before), Some(after)) => before.min(after),
+            (before, after) => before.or(after).unwrap_or_else(T::zero),
+        };
+        self.near * distance
+    }
+
     /// Takes one shot at each target that no known point is near to.
     fn batch(
         &mut self,
@@ -144,20 +160,44 @@ impl<T: Real> Shot<T> {
         let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
         let (mut asked, mut k) = ([0; MOST], [zero; MOST]);
         let (mut count, mut next) = (0, 0);
+        let mut between: Option<(usize, bool, Between<T>)> = None;
         for (i, &target) in targets.iter().enumerate() {
             while next < known.len() && known[next].x <= target {
                 next += 1;
             }
-            let left = if next > 0 { known[next - 1] } else { self.ends[0] };
-            let right = if next < known.len() { known[next] } else { self.ends[1] };
+            let left = if next > 0 { &known[next - 1] } else { &self.ends[0] };
+            let right = if next < known.len() { &known[next] } else { &self.ends[1] };
             let nearer = if target - left.x < right.x - target { left } else { right };
-            let near = (nearer.x - target).abs() <= tolerance(targets, i);
+            let near = (nearer.x - target).abs() <= self.tolerance(targets, i);
             if near && nearer.slope.is_finite() {
-                self.knots[i] = nearer;
-            } else {
-                (asked[count], k[count]) = (i, predict(left, right, target));
-                count += 1;
+                self.knots[i] = *nearer;
+                continue;
             }
+            // Just outside what is known, its last two points say more than a far end.
+            let pair = match known {
+                [one, other, ..] if next == 0 => Some((one.x - target, one, other)),
+                [.., one, other] if next == known.len() => Some((target - other.x, one, other)),
+                _ => None,
+            };
+            let pair = pair.filter(|(away, one, other)| *away <= other.x - one.x);
+            let (beyond, [from, to]) = match pair {
+                Some((_, one, other)) => (true, [one, other]),
+                None => (false, [left, right]),
+            };
+            let same = between.as_ref().filter(|(at, out, _)| (*at, *out) == (next, beyond));
+            let guess = match same {
+                Some((_, _, between)) => between.parameter(target),
+                None => {
+                    let fresh = Between::new(*from, *to);
+                    let guess = fresh.parameter(target);
+                    between = Some((next, beyond, fresh));
+                    guess
+                }
+            };
+            let inside = (guess - left.k) * (right.k - guess) > T::zero();
+            let chord = || left.k + (target - left.x) / (right.x - left.x) * (right.k - left.k);
+            (asked[count], k[count]) = (i, if inside { guess } else { chord() });
+            count += 1;
         }
         let mut points = [nowhere; MOST];
         piece.curve.at_many(&k[..count], &mut points[..count]);
@@ -179,7 +219,7 @@ impl<T: Real> Shot<T> {
         known: &[Knot<T>],
         cost: &mut Cost,
     ) -> Result<Knot<T>, ContactError<T>> {
-        let (target, near) = (targets[i], tolerance(targets, i));
+        let (target, near) = (targets[i], self.tolerance(targets, i));
         let [mut left, mut right] = self.ends;
         for &knot in known.iter().chain(&self.knots[..self.found]) {
             if knot.x <= target && knot.x >= left.x {
@@ -240,17 +280,6 @@ impl<T: Real> Shot<T> {
         if inside { k } else { T::of(0.5) * left.k + T::of(0.5) * right.k }
     }
 
-    /// Says where a curve that runs the wrong way turns.
-    fn turning_point(&self, piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
-        let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error
-        else {
-            return error;
-        };
-        let [left, _] = piece.k;
-        let (k, x) = turning_point(piece.curve, left.min(k), left.max(k));
-        ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
-    }
-
     fn accept(&self, k: T, point: CurvePoint<T>) -> Result<Knot<T>, ContactError<T>> {
         let knot = Knot::new(k, point);
         if !knot.x.is_finite() {
@@ -267,24 +296,51 @@ impl<T: Real> Shot<T> {
     }
 }
 
-/// The parameter at a target between two points: the cubic `k(x)` through both with their
-/// slopes, or the straight line where that cubic is not monotone.
-fn predict<T: Real>(left: Knot<T>, right: Knot<T>, target: T) -> T {
-    let width = right.x - left.x;
-    let along = (target - left.x) / width;
-    let rise = right.k - left.k;
-    let (at_left, at_right) = (width / left.dx, width / right.dx);
-    let three = T::of(3.0) * rise.abs();
-    let even = |slope: T| slope * rise > T::zero() && slope.abs() <= three;
-    let k = if even(at_left) && even(at_right) {
-        let (twice, sum) = (rise + rise, at_left + at_right);
-        let bend = rise + twice - at_left - sum + (sum - twice) * along;
-        left.k + along * (at_left + along * bend)
-    } else {
-        left.k + along * rise
+/// Says where a curve that runs the wrong way turns.
+fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
+    let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
+        return error;
     };
-    let [lo, hi] = if left.k < right.k { [left.k, right.k] } else { [right.k, left.k] };
-    k.max(lo).min(hi)
+    let [left, _] = piece.k;
+    let (k, x) = turning_point(piece.curve, left.min(k), left.max(k));
+    ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
+}
+
+/// The parameter as a function of x from two points: the cubic `k(x)` through both with their
+/// slopes, or where that is not monotone, the slope at the nearer one.
+struct Between<T> {
+    left: Knot<T>,
+    right: Knot<T>,
+    /// The reciprocal of the distance.
+    share: T,
+    /// The coefficients of the cubic in the share of the way, without the constant.
+    cubic: Option<[T; 3]>,
+}
+
+impl<T: Real> Between<T> {
+    fn new(left: Knot<T>, right: Knot<T>) -> Self {
+        let width = right.x - left.x;
+        let rise = right.k - left.k;
+        let (at_left, at_right) = (width / left.dx, width / right.dx);
+        let three = T::of(3.0) * rise.abs();
+        let even = |slope: T| slope * rise > T::zero() && slope.abs() <= three;
+        let cubic = (even(at_left) && even(at_right)).then(|| {
+            let (twice, sum) = (rise + rise, at_left + at_right);
+            [at_left, rise + twice - at_left - sum, sum - twice]
+        });
+        Self { left, right, share: T::one() / width, cubic }
+    }
+
+    fn parameter(&self, x: T) -> T {
+        let Self { left, right, .. } = self;
+        let along = (x - left.x) * self.share;
+        if let Some([first, second, third]) = self.cubic {
+            return left.k + along * (first + along * (second + along * third));
+        }
+        let nearer = if along < T::of(0.5) { left } else { right };
+        let k = nearer.k + (x - nearer.x) / nearer.dx;
+        if k.is_finite() { k } else { left.k + along * (right.k - left.k) }
+    }
 }
 
 fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {

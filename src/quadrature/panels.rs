@@ -23,8 +23,8 @@ mod panel;
 use super::{Engine, Estimate, Moments, Pressing, Quadrature};
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
-use chebyshev::SIZES;
-use conjugate::{Conjugate, LANES};
+use chebyshev::{MOST, SIZES};
+use conjugate::{Conjugate, Edges, LANES};
 use cover::Cover;
 
 /// The default quadrature: panels.
@@ -61,23 +61,31 @@ impl<T: Real> Quadrature<T> for Panels {
 struct AtWork<T> {
     cover: Cover<T>,
     conjugate: Conjugate<T>,
-    /// On the interval that the conjugate is set to.
-    moments: Option<Moments<T>>,
+    /// The interval last integrated over: in the end that of the conjugate.
+    moments: Option<(Interval<T>, Moments<T>)>,
     /// Of a sketch: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
 }
 
 impl<T: Real> AtWork<T> {
+    fn remember(&mut self, on: Interval<T>) -> Moments<T> {
+        let m = integrals::moments(&self.cover.panels, on, false);
+        self.moments = Some((on, m));
+        m
+    }
+
     /// The number of nodes that should do, by how the coefficients of the sketch fall.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([fall, half_width]) = self.fall else { return 8 };
         let shrunk = on.half_width() / half_width;
         let fall = fall * shrunk * shrunk;
         let mut expected = T::one();
-        for n in (2..=16).step_by(2) {
+        for n in (2..=MOST).step_by(2) {
             expected *= fall;
+            // What four coefficients leave is asked to be smaller, and must not be noise.
+            let left = if n < 8 { expected * T::of(20.0) } else { expected * fall };
             let enough = n >= 8 || self.cover.tolerance >= T::of(400.0) * T::epsilon();
-            if enough && SIZES.contains(&n) && expected * fall <= self.cover.tolerance {
+            if enough && SIZES.contains(&n) && left <= self.cover.tolerance {
                 return n;
             }
         }
@@ -96,11 +104,12 @@ impl<T: Real> Engine<T> for AtWork<T> {
             self.cover.first = self.expected_size(on);
         }
         self.cover.rough = rough;
+        self.moments = None;
         self.cover.clear(true);
         self.cover.extend(gap, on)?;
         self.fall = rough.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
-            let largest = |max: T, panel: &panel::Panel<T>| max.max(ratio(panel.coefficients()));
+            let largest = |max: T, panel: &panel::Panel<T>| max.max(ratio(&panel.series));
             let fall = self.cover.panels.iter().fold(T::epsilon(), largest);
             [fall.min(T::one()), on.half_width()]
         });
@@ -121,27 +130,30 @@ impl<T: Real> Engine<T> for AtWork<T> {
                 return Err(ContactError::OutsideBodies { x, range });
             }
         }
+        if let Some((_, m)) = self.moments.filter(|(last, _)| *last == on) {
+            return Ok(m);
+        }
         if self.fall.is_some() {
-            return Ok(integrals::moments(&self.cover.panels, on));
+            return Ok(integrals::moments(&self.cover.panels, on, true));
         }
         let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         self.cover.extend(gap, sampled)?;
-        let m = integrals::moments(&self.cover.panels, on);
+        let m = integrals::moments(&self.cover.panels, on, false);
         // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
         let poor = m.error > T::of(64.0) * self.cover.tolerance * m.size;
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
         if poor && reach > T::of(1.25) * on.half_width() {
             self.forget();
             self.cover.extend(gap, sampled)?;
-            return Ok(integrals::moments(&self.cover.panels, on));
+            return Ok(self.remember(on));
         }
+        self.moments = Some((on, m));
         Ok(m)
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        let moments = self.moments(gap, on)?;
+        self.moments(gap, on)?;
         self.conjugate.set(&self.cover.panels, on, self.cover.size);
-        self.moments = Some(moments);
         Ok(())
     }
 
@@ -160,22 +172,20 @@ impl<T: Real> Engine<T> for AtWork<T> {
         for (x, out) in x.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let mut lanes = [x[0]; LANES];
             lanes[..x.len()].copy_from_slice(x);
-            let regular = self.conjugate.at(&lanes);
-            let singular = |[at_a, at_b]: [T; 2], x: T| {
-                let (left, right) = (x - on.left, on.right - x);
-                half * (at_a * left + at_b * right) / on.edge_root(x)
-            };
-            for i in 0..out.len() {
-                let mut pressure = scale * regular[i] + singular(bound, x[i]);
+            let edges = Edges::of(on, &lanes);
+            let regular = self.conjugate.at(&lanes, &edges);
+            let pressures: [T; LANES] = std::array::from_fn(|i| {
+                let (left, right) = (edges.left[i], edges.right[i]);
+                let by_root = half / edges.root[i];
+                let pressure = scale * regular[i] + (bound[0] * left + bound[1] * right) * by_root;
                 // What rounding has left of a strength that should be zero stands for the load
                 // that the rounded limits have too much or too little. Close to the edge it is the
                 // limit that counts.
-                let left_over = singular(free, x[i]);
-                if left_over.abs() < least * pressure.abs() {
-                    pressure += left_over;
-                }
-                out[i] = pressure;
-            }
+                let left_over = (free[0] * left + free[1] * right) * by_root;
+                let counts = left_over.abs() < least * pressure.abs();
+                pressure + if counts { left_over } else { T::zero() }
+            });
+            out.copy_from_slice(&pressures[..out.len()]);
         }
         Ok(())
     }
@@ -193,7 +203,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let on = self.conjugate.on;
         let of_series = kappa * self.conjugate.error(x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
-        let strength = self.moments.map_or(T::zero(), |m| kappa * on.half_width() * m.error);
+        let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
         let of_edges = T::of(4.0) * strength / (T::pi() * on.edge_root(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
         Ok(Estimate { value: value[0], error })
@@ -213,7 +223,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
 
     fn forget(&mut self) {
         self.cover.clear(true);
-        self.fall = None;
+        (self.fall, self.moments) = (None, None);
         self.cover.first = 8;
     }
 
@@ -221,7 +231,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.cover.cost = Cost::default();
         if !same_bodies {
             self.cover.clear(false);
-            self.fall = None;
+            (self.fall, self.moments) = (None, None);
         }
     }
 }
@@ -230,7 +240,7 @@ impl<T: Real> AtWork<T> {
     /// K_a and K_b: what is left of them at free edges, and what they are at the others.
     fn strengths(&self, pressing: &Pressing<T>) -> [[T; 2]; 2] {
         let zero = T::zero();
-        let Some(m) = self.moments else { return [[zero; 2]; 2] };
+        let Some((_, m)) = self.moments else { return [[zero; 2]; 2] };
         let mean_pressure = pressing.load / self.conjugate.on.half_width();
         let strength = |sum: T| (mean_pressure - pressing.kappa * sum) / T::pi();
         let both = [strength(m.first + m.mean), strength(m.first - m.mean)];

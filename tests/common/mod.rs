@@ -121,8 +121,8 @@ pub fn scenes() -> Vec<Scene> {
     };
     vec![
         printed("paper_example_2", paper::two(), 1e-15),
-        printed("paper_example_3_scale_one", paper::three(), 2e-14),
-        printed("paper_example_3_scale_half_pi", paper::three(), 2e-14),
+        printed("paper_example_3_scale_one", paper::three(), 6e-14),
+        printed("paper_example_3_scale_half_pi", paper::three(), 6e-14),
         printed("paper_example_4_scale_one", paper::four(), 2e-12),
         printed("paper_example_4_scale_half_pi", paper::four(), 2e-12),
         printed("paper_example_5_scale_one", paper::five(), 5e-13),
@@ -145,7 +145,7 @@ pub fn scenes() -> Vec<Scene> {
                 graph(-9.0, 0.0, |x| [x * x / 2.0, x]),
                 graph(0.0, 9.0, |x| [5e5 * x * x, 1e6 * x]),
             ]),
-            1e-13,
+            1e-12,
         ),
         on_flat("hertz_tiny", parabola(1.0), 1e-15),
         on_flat("hertz_huge", graph(-4e150, 4e150, |x| [x * x / 2.0, x]), 1e-15),

@@ -88,15 +88,24 @@ pub(super) struct Gauss {
     pub weights: [f64; MOST_NODES],
 }
 
-static RULES: LazyLock<[Gauss; 4]> = LazyLock::new(|| [12, 20, 28, MOST_NODES].map(Gauss::new));
+static RULES: LazyLock<[Gauss; 5]> = LazyLock::new(|| [8, 16, 24, 32, MOST_NODES].map(Gauss::new));
 
 impl Gauss {
     /// The rule for a polynomial of n coefficients on a stretch with this tangent.
     pub fn suited<T: Real>(n: usize, tangent: T) -> &'static Self {
         // The poles are at ±1/tangent of the stretch.
-        let wide = [0.2, 0.7].into_iter().filter(|&limit| tangent > T::of(limit)).count();
-        let many = usize::from(n > 8) + usize::from(n > 16);
-        &RULES[(wide + many).min(RULES.len() - 1)]
+        let wide = tangent > T::of(0.7);
+        let narrow = tangent < T::of(0.2);
+        &RULES[match n {
+            0..=8 => 1 + usize::from(wide),
+            9..=12 => 2 + usize::from(wide),
+            _ => 4 - usize::from(!wide) - usize::from(narrow),
+        }]
+    }
+
+    /// The rule for a sketch.
+    pub fn coarsest() -> &'static Self {
+        &RULES[0]
     }
 
     /// The rule for whatever is close.

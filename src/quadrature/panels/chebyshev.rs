@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// The numbers of nodes in use.
-pub(super) const SIZES: [usize; 5] = [4, 8, 12, 16, 24];
+pub(super) const SIZES: [usize; 4] = [4, 8, 12, 24];
 /// The largest of them.
 pub(super) const MOST: usize = 24;
 
@@ -24,6 +24,7 @@ pub(super) struct Table {
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
+static SKETCH: LazyLock<Table> = LazyLock::new(Table::with_ends);
 
 impl Table {
     fn new(n: usize) -> Self {
@@ -40,14 +41,33 @@ impl Table {
         table
     }
 
+    /// Four nodes, two of them at the ends.
+    fn with_ends() -> Self {
+        let mut table = Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST] };
+        table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
+        for j in 0..4 {
+            for k in 0..4 {
+                let halved = |i: usize| if i == 0 || i == 3 { 0.5 } else { 1.0 };
+                let cosine = (PI * (k * (3 - j)) as f64 / 3.0).cos();
+                table.transform[j][k] = 2.0 / 3.0 * halved(j) * halved(k) * cosine;
+            }
+        }
+        table
+    }
+
+    /// The table for a sketch. With its ends among the nodes, a panel beside a joint is good where it
+    /// matters however long it is.
+    pub fn sketch() -> &'static Self {
+        &SKETCH
+    }
+
     /// The table for one of the [`SIZES`].
     pub fn of(n: usize) -> &'static Self {
         &TABLES[match n {
             4 => 0,
             8 => 1,
             12 => 2,
-            16 => 3,
-            _ => 4,
+            _ => 3,
         }]
     }
 
@@ -57,7 +77,6 @@ impl Table {
             4 => self.transform::<4, T>(values),
             8 => self.transform::<8, T>(values),
             12 => self.transform::<12, T>(values),
-            16 => self.transform::<16, T>(values),
             _ => self.transform::<24, T>(values),
         }
     }

@@ -21,8 +21,6 @@ struct Seen<T> {
 /// A row of panels, from left to right without gaps.
 pub(super) struct Cover<T> {
     pub panels: Vec<Panel<T>>,
-    /// Sampled, but not yet in their place.
-    fresh: Vec<Panel<T>>,
     /// Stretches still to be sampled, with what was left open when they were one with their
     /// neighbour.
     waiting: Vec<(T, T, Option<T>)>,
@@ -41,7 +39,6 @@ impl<T: Real> Cover<T> {
     pub fn new(tolerance: T) -> Self {
         Self {
             panels: Vec::new(),
-            fresh: Vec::new(),
             waiting: Vec::new(),
             traces: [Trace::new(), Trace::new()],
             size: T::zero(),
@@ -77,9 +74,7 @@ impl<T: Real> Cover<T> {
     /// Covers an interval, sampling only what is missing.
     pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         let Some(have) = self.interval() else {
-            self.sample(gap, on)?;
-            self.panels.append(&mut self.fresh);
-            return Ok(());
+            return self.sample(gap, on);
         };
         // More than a sliver at a time, but beside a joint perhaps not much.
         let (range, half) = (gap.range(), T::of(0.5));
@@ -88,21 +83,18 @@ impl<T: Real> Cover<T> {
         if on.right > have.right {
             let far = (have.right + more).min(half * on.right + half * range[1]);
             self.sample(gap, Interval { left: have.right, right: on.right.max(far) })?;
-            self.panels.append(&mut self.fresh);
         }
         if on.left < have.left {
+            let count = self.panels.len();
             let far = (have.left - before).max(half * on.left + half * range[0]);
             self.sample(gap, Interval { left: on.left.min(far), right: have.left })?;
-            let count = self.fresh.len();
-            self.panels.append(&mut self.fresh);
-            self.panels.rotate_right(count);
+            self.panels.rotate_left(count);
         }
         Ok(())
     }
 
-    /// Samples an interval into `fresh`.
+    /// Samples an interval; its panels are put last.
     fn sample(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        self.fresh.clear();
         let mut left = on.left;
         loop {
             let joint = gap.joint_after(left).filter(|&joint| joint < on.right);
@@ -118,9 +110,10 @@ impl<T: Real> Cover<T> {
     /// Samples a stretch without joints.
     fn resolve(&mut self, gap: &Gap<'_, T>, left: T, right: T) -> Result<(), ContactError<T>> {
         self.waiting.clear();
-        self.waiting.push((left, right, None));
         let mut splits = 0;
-        while let Some((left, right, parent)) = self.waiting.pop() {
+        let mut next = Some((left, right, None));
+        while let Some((left, right, parent)) = next.or_else(|| self.waiting.pop()) {
+            next = None;
             let mut n = if self.rough { 4 } else { self.first };
             let (panel, split) = loop {
                 let (mut panel, Seen { slope, bodies, noise }) =
@@ -152,12 +145,12 @@ impl<T: Real> Cover<T> {
             if split && long && splits < MOST_SPLITS && !parent.is_some_and(noise) {
                 splits += 1;
                 self.waiting.push((middle, right, Some(panel.tail)));
-                self.waiting.push((left, middle, Some(panel.tail)));
+                next = Some((left, middle, Some(panel.tail)));
             } else {
                 if !self.rough {
                     self.check_slopes()?;
                 }
-                self.fresh.push(panel);
+                self.panels.push(panel);
             }
         }
         Ok(())
@@ -170,25 +163,32 @@ impl<T: Real> Cover<T> {
         x: [T; 2],
         n: usize,
     ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
-        let table = Table::of(n);
+        let table = if self.rough { Table::sketch() } else { Table::of(n) };
         let (half, zero) = (T::of(0.5), T::zero());
         let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
         let mut nodes = [zero; MOST];
         // Never at the very end of a body, where the slope may be infinite.
-        let [first, last] = [x[0] + T::epsilon() * x[0].abs(), x[1] - T::epsilon() * x[1].abs()];
+        let inside = if self.rough { zero } else { T::epsilon() };
+        let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
         for i in 0..n {
             nodes[i] = (centre + reach * T::of(table.z[i])).max(first).min(last);
         }
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
-            aim(gap, body, &nodes[..n], trace, &mut self.cost)?;
+            aim(gap, body, &nodes[..n], self.rough, trace, &mut self.cost)?;
         }
         self.cost.samples += n;
         let mut wanted = [zero; MOST];
         for i in 0..n {
             wanted[i] = reach + reach * T::of(table.z[i]);
         }
-        let [lower, upper] =
-            [0, 1].map(|body| at_nodes(&wanted[..n], &self.traces[body], x[0], reach));
+        let [one, other] = &self.traces;
+        let slopes_of = |trace: &Trace<T>| match n {
+            4 => at_nodes::<4, T>(&wanted, trace, x[0], reach),
+            8 => at_nodes::<8, T>(&wanted, trace, x[0], reach),
+            12 => at_nodes::<12, T>(&wanted, trace, x[0], reach),
+            _ => at_nodes::<MOST, T>(&wanted, trace, x[0], reach),
+        };
+        let (lower, upper) = (slopes_of(one), slopes_of(other));
         let mut slopes = [zero; MOST];
         let mut seen = Seen { slope: zero, bodies: zero, noise: zero };
         for i in 0..n {
@@ -199,7 +199,7 @@ impl<T: Real> Cover<T> {
         let bend = |slopes: &Row<T>| (slopes[n - 1] - slopes[0]).abs() / (nodes[n - 1] - nodes[0]);
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
         seen.noise = rounded * (bend(&lower) + bend(&upper));
-        Ok((Panel { x, n, series: table.coefficients(n, &slopes), tail: zero }, seen))
+        Ok((Panel::new(x, n, table.coefficients(n, &slopes)), seen))
     }
 
     /// Whether the heights of the last points agree with the slopes there, to a tenth: a wrong
@@ -241,13 +241,16 @@ impl<T: Real> Cover<T> {
 
 /// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
 /// from the left end of the panel, where the rounding of x matters less.
-fn at_nodes<T: Real>(nodes: &[T], trace: &Trace<T>, left: T, reach: T) -> Row<T> {
-    let knots = trace.knots();
-    let n = nodes.len();
-    let (mut x, mut values) = ([T::zero(); MOST], [T::zero(); MOST]);
+fn at_nodes<const N: usize, T: Real>(
+    nodes: &Row<T>,
+    trace: &Trace<T>,
+    left: T,
+    reach: T,
+) -> Row<T> {
+    let (mut x, mut values) = ([T::zero(); N], [T::zero(); MOST]);
     let mut miss = T::zero();
-    for i in 0..n {
-        (x[i], values[i]) = (knots[i].x - left, knots[i].slope);
+    for (i, knot) in trace.knots()[..N].iter().enumerate() {
+        (x[i], values[i]) = (knot.x - left, knot.slope);
         miss = miss.max((x[i] - nodes[i]).abs());
     }
     if miss <= T::of(2.0) * T::epsilon() * reach {
@@ -256,36 +259,36 @@ fn at_nodes<T: Real>(nodes: &[T], trace: &Trace<T>, left: T, reach: T) -> Row<T>
     // Barycentric interpolation (Berrut and Trefethen, SIAM Review 46 (2004) 501, Eq. (4.2)), with
     // distances in units that keep the products near 1.
     let unit = T::of(2.0) / reach;
-    for x in &mut x {
-        *x *= unit;
+    let x = x.map(|x| x * unit);
+    let mut weight = [T::one(); N];
+    for j in 0..N {
+        for i in 0..N {
+            let distance = x[i] - x[j];
+            weight[i] *= if i == j { T::one() } else { distance };
+        }
     }
-    let mut weight = [T::one(); MOST];
-    for i in 0..n {
-        for j in 0..n {
-            if j != i {
-                weight[i] *= x[i] - x[j];
-            }
-        }
-        if weight[i].is_zero() {
-            // Too close to be told apart: a panel of a few units in the last place.
-            return values;
-        }
-        weight[i] = weight[i].recip();
+    let mut product = T::one();
+    for weight in &mut weight {
+        product *= *weight;
+        *weight = weight.recip();
+    }
+    if product.is_zero() {
+        // Too close to be told apart: a panel of a few units in the last place.
+        return values;
     }
     let known = values;
-    for i in 0..n {
+    for i in 0..N {
         let at = nodes[i] * unit;
-        let (mut above, mut below, mut hit) = (T::zero(), T::zero(), None);
-        for j in 0..n {
-            let distance = at - x[j];
-            if distance.is_zero() {
-                hit = Some(known[j]);
-            }
-            let share = weight[j] / distance;
-            above += share * known[j];
-            below += share;
+        let (mut above, mut below) = ([T::zero(); 4], [T::zero(); 4]);
+        for j in 0..N {
+            let share = weight[j] / (at - x[j]);
+            above[j % 4] += share * known[j];
+            below[j % 4] += share;
         }
-        values[i] = hit.unwrap_or(above / below);
+        let sum = |lanes: [T; 4]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+        let value = sum(above) / sum(below);
+        // On a point that was sampled both are infinite.
+        values[i] = if value.is_finite() { value } else { known[i] };
     }
     values
 }

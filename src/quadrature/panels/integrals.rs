@@ -26,8 +26,8 @@ impl<T: Real> Sums<T> {
     }
 }
 
-/// The edge integrals over a contact that the panels cover.
-pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
+/// The edge integrals over a contact that the panels cover, or sketch.
+pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: bool) -> Moments<T> {
     let mut sums = Sums::new();
     let first = panels.partition_point(|panel| panel.x[1] <= on.left);
     let last = panels.partition_point(|panel| panel.x[0] < on.right).max(first + 1);
@@ -36,7 +36,7 @@ pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<
         whole(&mut sums, panel, on);
         T::one()
     } else {
-        several(&mut sums, within, on);
+        several(&mut sums, within, on, sketch);
         T::one() / T::pi()
     };
     // A formula of a few terms is good to a few units in the last place.
@@ -59,7 +59,6 @@ fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
         4 => chebyshev::<4, 1, T>(sums, panel, on),
         8 => chebyshev::<8, 1, T>(sums, panel, on),
         12 => chebyshev::<4, 3, T>(sums, panel, on),
-        16 => chebyshev::<8, 2, T>(sums, panel, on),
         _ => chebyshev::<8, 3, T>(sums, panel, on),
     }
     sums.error = panel.tail;
@@ -80,7 +79,7 @@ fn chebyshev<const W: usize, const B: usize, T: Real>(
     for block in 0..B {
         let z: [T; W] = std::array::from_fn(|i| T::of(table.z[block * W + i]));
         let s: [T; W] = std::array::from_fn(|i| middle + reach * z[i]);
-        let (g, slope) = evaluate::<W, T>(&panel.series[..W * B], &s);
+        let (g, slope) = evaluate::<W, T>(panel.coefficients(), &s);
         for i in 0..W {
             let turned = z[i] * slope[i];
             lanes[0][i] += g[i];
@@ -102,7 +101,7 @@ fn chebyshev<const W: usize, const B: usize, T: Real>(
 }
 
 /// Several panels hold it between them.
-fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) {
+fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, sketch: bool) {
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
     let mut before: Option<&Panel<T>> = None;
@@ -114,7 +113,7 @@ fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) {
             jump(sums, before, panel, left, on);
         }
         let right = HalfAngle::of(on, to);
-        stretch(sums, panel, from, Arc::new(to - from, left, right, width));
+        stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
         left = right;
         before = Some(panel);
     }
@@ -125,9 +124,9 @@ fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) {
 }
 
 /// One stretch of several.
-fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>) {
-    const W: usize = 4;
-    let rule = Gauss::suited(panel.n, arc.tangent);
+fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, sketch: bool) {
+    const W: usize = 8;
+    let rule = if sketch { Gauss::coarsest() } else { Gauss::suited(panel.counting, arc.tangent) };
     let by_x = T::one() / panel.half();
     let from = panel.local(from);
     let by_half_width = T::of(2.0) / arc.width();

@@ -8,14 +8,24 @@ use crate::Real;
 pub(super) struct Panel<T> {
     /// Its two ends.
     pub x: [T; 2],
-    /// How many coefficients there are.
+    /// How many nodes it was sampled at.
     pub n: usize,
+    /// As many coefficients, the first `counting` of which are more than rounding.
     pub series: Row<T>,
+    pub counting: usize,
     /// Estimated largest error of the series.
     pub tail: T,
 }
 
 impl<T: Real> Panel<T> {
+    pub fn new(x: [T; 2], n: usize, series: Row<T>) -> Self {
+        let largest = series[..n].iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        let nothing = T::of(0.125) * T::epsilon() * largest;
+        let counts = |a: &T| a.abs() > nothing;
+        let counting = series[..n].iter().rposition(counts).map_or(2, |last| (last + 1).max(2));
+        Self { x, n, series, counting, tail: T::zero() }
+    }
+
     /// The place of `x` in the panel, from -1 to 1; exact at both ends.
     pub fn local(&self, x: T) -> T {
         ((x - self.x[0]) - (self.x[1] - x)) / (self.x[1] - self.x[0])
@@ -26,7 +36,7 @@ impl<T: Real> Panel<T> {
     }
 
     pub fn coefficients(&self) -> &[T] {
-        &self.series[..self.n]
+        &self.series[..self.counting]
     }
 }
 
