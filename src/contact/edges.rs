@@ -324,7 +324,8 @@ impl<T: Real> Goal<T> {
                 Ok(Excess {
                     at_a,
                     at_b,
-                    floor: stiffness * m.error.max(rounding * m.size),
+                    // The estimated error errs on the safe side.
+                    floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.size),
                     carried: Some(borne),
                     growth,
                     error: m.error / m.first.abs() + m.inversion / on.half_width() + rounding,
