@@ -128,9 +128,9 @@ pub fn scenes() -> Vec<Scene> {
         printed("paper_example_5_scale_one", paper::five(), 5e-13),
         printed("paper_example_5_scale_half_pi", paper::five(), 5e-13),
         on_flat("power_n_1", power(1.0), 2e-15),
-        on_flat("power_n_3", power(3.0), 2e-15),
-        on_flat("power_n_6", power(6.0), 2e-15),
-        on_flat("power_n_20", power(20.0), 2e-15),
+        on_flat("power_n_3", power(3.0), 4e-15),
+        on_flat("power_n_6", power(6.0), 4e-15),
+        on_flat("power_n_20", power(20.0), 4e-15),
         on_flat(
             "tilted_wedge",
             join(vec![
