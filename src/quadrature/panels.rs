@@ -140,7 +140,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.cover.extend(gap, sampled)?;
         let m = integrals::moments(&self.cover.panels, on, false);
         // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
-        let poor = m.error > T::of(64.0) * self.cover.tolerance * m.size;
+        let poor = m.error > self.cover.tolerance * m.size;
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
         if poor && reach > T::of(1.25) * on.half_width() {
             self.forget();
