@@ -6,6 +6,7 @@ mod first_contact;
 mod limits;
 mod newton;
 mod peak;
+mod pull;
 mod stride;
 
 pub use edges::{Edge, EdgePressure};

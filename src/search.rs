@@ -225,6 +225,17 @@ pub enum SearchError<T: Real> {
         /// Upper end of the bracket.
         hi: T,
     },
+    /// A strategy has stopped where the function is still far from zero.
+    #[error(
+        "the strategy stopped at {x:?}, where the function is still {residual:?}: tighten its \
+         tolerance"
+    )]
+    Missed {
+        /// What it returned.
+        x: T,
+        /// The function there.
+        residual: T,
+    },
     /// A tolerance is negative, NaN or infinite.
     #[error("{value:?} is no tolerance: give a finite number that is not negative")]
     Tolerance {

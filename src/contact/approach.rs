@@ -11,7 +11,7 @@
 use super::edges::{Conditions, Control, Edge, Goal};
 use super::limits::{self, Nested};
 use super::newton::{Effort, Settled, settle};
-use super::{Contact, Found};
+use super::{Contact, Found, pull};
 use crate::gap::Cost;
 use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};
@@ -34,6 +34,11 @@ pub(super) fn find<T: Real>(
         if let Edge::UpTo(x) = *edge {
             *edge = Edge::Fixed(x);
         }
+    }
+    let pulled = matches!(conditions.control, Control::Load(load) if load <= T::zero());
+    let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+    if pulled && adhesive && conditions.edges.iter().any(|edge| edge.limit().is_none()) {
+        return pull::find(contact, &conditions, engine, warm, cost);
     }
     let mut found = with_edges(contact, &conditions, engine, warm, cost)?;
     for _ in 0..4 {
@@ -59,7 +64,7 @@ pub(super) fn find<T: Real>(
 }
 
 /// The same for edges of which each is either fixed or not.
-fn with_edges<T: Real>(
+pub(super) fn with_edges<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,
@@ -74,7 +79,9 @@ fn with_edges<T: Real>(
         let Control::Load(load) = conditions.control else {
             return Err(ContactError::Control { interval: on });
         };
-        engine.cover(gap, on, false)?;
+        if engine.covered() != Some(on) {
+            engine.cover(gap, on, false)?;
+        }
         let m = engine.moments(gap, on)?;
         return Ok(Found::new(conditions, on, load, None, &m));
     }
@@ -90,7 +97,6 @@ fn with_edges<T: Real>(
             Some(warm) => Some((warm, T::of(0.02))),
             None => sketch(contact, conditions, engine)?,
         };
-
         // What was sampled for the last load serves for the next.
         if let (Some((guess, _)), Some(covered)) = (guess, engine.covered()) {
             settled = settle(engine, gap, conditions, guess, Effort::Full)?
@@ -100,6 +106,11 @@ fn with_edges<T: Real>(
             let guess = guess.unwrap_or_else(|| (start(contact, conditions), T::of(0.02)));
             settled = in_full(contact, conditions, engine, guess)?;
         }
+    }
+    if settled.is_none() && warm.is_some() {
+        // The last contact was no help.
+        engine.forget();
+        return with_edges(contact, conditions, engine, None, cost);
     }
     if settled.is_none() {
         engine.forget();
@@ -214,7 +225,7 @@ fn with_corners<T: Real>(conditions: &Conditions<T>, on: Interval<T>) -> Interva
 }
 
 /// Samples a stretch around a contact that is nearly right, and finds the limits on that.
-fn in_full<T: Real>(
+pub(super) fn in_full<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,

@@ -118,7 +118,16 @@ pub(crate) fn aim<T: Real>(
     for i in 0..n {
         if (shot.knots[i].x - targets[i]).abs() > shot.tolerance(targets, i) {
             let found = shot.search(gap, piece, targets, i, known, cost);
-            shot.knots[i] = found.map_err(|error| turns(piece, error))?;
+            let found = found.map_err(|error| turns(piece, error))?;
+            // A strategy that stops early leaves nodes that are good for nothing.
+            let missed = found.x - targets[i];
+            let largest = shot.ends[0].x.abs().max(shot.ends[1].x.abs());
+            let noise = T::of(1e3) * T::epsilon() * largest;
+            if missed.abs() > T::of(5.0) * shot.tolerance(targets, i) + noise {
+                let source = SearchError::Missed { x: found.k, residual: missed };
+                return Err(ContactError::Inversion { body, x: targets[i], source });
+            }
+            shot.knots[i] = found;
         }
     }
     (*current, *len) = (1 - *current, n);
