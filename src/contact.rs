@@ -10,6 +10,7 @@ mod pull;
 mod stride;
 
 pub use edges::{Edge, EdgePressure};
+pub(crate) use peak::peak;
 
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Moments, Panels, Quadrature};

@@ -188,6 +188,40 @@ impl<'a, T: Real> Gap<'a, T> {
             .take_while(move |&joint| joint < on.right)
     }
 
+    /// Of the joints strictly inside an interval those where the slope jumps in the direction of
+    /// `sign`, so that the pressure is infinite; and of the others no more than about `most`,
+    /// evenly. (A pressure takes time for each piece: at every joint it would take as much as the
+    /// square.)
+    pub(crate) fn telling_joints(
+        &self,
+        on: crate::Interval<T>,
+        sign: T,
+        most: usize,
+    ) -> impl Iterator<Item = T> {
+        let stride = 1 + self.joints(on).count() / most;
+        let telling = move |&(i, joint): &(usize, T)| {
+            let [jump, size] = self.jump(joint);
+            i % stride == 0 || sign * jump > T::epsilon().sqrt() * size || !size.is_finite()
+        };
+        self.joints(on).enumerate().filter(telling).map(|(_, joint)| joint)
+    }
+
+    /// By how much the slope jumps at a joint, from the ends of the pieces, which are known; and
+    /// how large it is there.
+    fn jump(&self, joint: T) -> [T; 2] {
+        let [mut jump, mut size] = [T::zero(); 2];
+        for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
+            let (i, left) = self.piece_at(body, joint, Side::Left);
+            let (j, right) = self.piece_at(body, joint, Side::Right);
+            if i != j {
+                let [left, right] = [left.ends[1], right.ends[0]].map(|end| end.dy / end.dx);
+                jump += sign * (right - left);
+                size += left.abs() + right.abs();
+            }
+        }
+        [jump, size]
+    }
+
     /// The smooth piece of a body to the left or right of `x`, and its number.
     pub(crate) fn piece_at(&self, body: Body, x: T, side: Side) -> (usize, Piece<'_, T>) {
         let surface = &self.bodies[body as usize];

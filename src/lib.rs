@@ -32,7 +32,7 @@
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure.
 //! - [`contact`]: the scene, and the search for its limits.
-//! - [`Solution`], [`Pressure`]: what comes back.
+//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back.
 //!
 //! # Example
 //! ```
@@ -70,7 +70,7 @@ pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Piecewi
 pub use profile::{Piece, ProfileError};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
-pub use solution::{Pressure, Solution};
+pub use solution::{Peak, Pressure, Solution};
 pub use solver::Solver;
 
 /// Compiles and runs the README's code.

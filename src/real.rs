@@ -52,6 +52,7 @@ impl<T: Real> Sum<T> {
     }
 
     pub fn value(self) -> T {
-        self.total + self.lost
+        // What an infinite sum has lost is NaN.
+        if self.total.is_finite() { self.total + self.lost } else { self.total }
     }
 }

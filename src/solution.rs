@@ -1,7 +1,7 @@
 //! What comes back.
 
 use crate::certificate::certify;
-use crate::contact::Found;
+use crate::contact::{Found, peak};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
@@ -90,10 +90,34 @@ impl<'s, T: Real> Solution<'s, T> {
     /// # Errors
     /// [`ContactError::Tension`], [`ContactError::Overlap`]; those of sampling the gap.
     pub fn certify(&self) -> Result<(), ContactError<T>> {
-        let Found { interval: on, load, free, .. } = self.found;
-        let pressing = Pressing { kappa: self.kappa, load, free };
         self.engine.engine().complete(self.gap)?;
-        certify(self.engine.engine(), self.gap, &pressing, on)
+        certify(self.engine.engine(), self.gap, &self.pressing(), self.found.interval)
+    }
+
+    /// The largest pressure and its place, as far as a grid of 64 points and the joints show which
+    /// maximum is the largest. The pressure is flat there: its value has all digits, its place half
+    /// of them.
+    ///
+    /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
+    /// inside.
+    ///
+    /// # Errors
+    /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
+    /// slope of the gap jumps up; those of sampling the gap.
+    pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
+        let Found { interval: on, strengths, free, .. } = self.found;
+        self.engine.engine().complete(self.gap)?;
+        let [x, pressure] = peak(self.engine.engine(), self.gap, &self.pressing(), on)?;
+        if !pressure.is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
+        for ((edge, strength), free) in [on.right, on.left].into_iter().zip(strengths).zip(free) {
+            if !free && strength > rounding {
+                return Err(ContactError::Singular { x: edge });
+            }
+        }
+        Ok(Peak { x, pressure })
     }
 
     /// What finding the limits has cost.
@@ -108,12 +132,26 @@ impl<'s, T: Real> Solution<'s, T> {
     /// Those of sampling the gap.
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
         let cost = self.engine.engine().complete(self.gap)?;
-        let (gap, Found { interval: on, load, free, error, force, .. }) = (self.gap, self.found);
-        let pressing = Pressing { kappa: self.kappa, load, free };
+        let (gap, Found { interval: on, load, error, force, .. }) = (self.gap, self.found);
         let of_limits = T::of(3.0) * load.abs() * error.unwrap_or(T::zero());
         let force = force.unwrap_or(of_limits);
+        let pressing = self.pressing();
         Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, cost })
     }
+
+    fn pressing(&self) -> Pressing<T> {
+        let Found { load, free, .. } = self.found;
+        Pressing { kappa: self.kappa, load, free }
+    }
+}
+
+/// The largest pressure of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak<T> {
+    /// Where it is.
+    pub x: T,
+    /// How large it is.
+    pub pressure: T,
 }
 
 /// The pressure over a contact.

@@ -192,7 +192,12 @@ fn sketch<T: Real>(
         let doubt = if jointed { T::zero() } else { (doubt + doubt).min(T::of(0.3)) };
         let reach = (doubt * stretch.half_width()).max(rounding * largest);
         let [left, right] = beyond(contact, on, T::of(0.125));
-        let next = Interval { left: left.min(on.left - reach), right: right.max(on.right + reach) };
+        // What lies outside was guessed from the outermost panel, which may be a short one.
+        let guessed = |by: T| T::of(1.0 / 64.0) * by.max(T::zero());
+        let next = Interval {
+            left: left.min(on.left - reach - guessed(stretch.left - on.left)),
+            right: right.max(on.right + reach + guessed(on.right - stretch.right)),
+        };
         // Half the way to an end, where the slope may be infinite.
         stretch = Interval {
             left: inward(next.left, on.left, range[0]),

@@ -48,8 +48,11 @@ pub(crate) fn peak<T: Real>(
         }
         Ok(pressure)
     };
-    for joint in gap.joints(on) {
-        at(joint)?;
+    for joint in gap.telling_joints(on, T::one(), 4 * POINTS) {
+        let pressure = at(joint)?;
+        if !pressure.is_finite() && pressure > T::zero() {
+            return Ok([joint, pressure]);
+        }
     }
     // Golden section: the pressure is flat at its peak, so half the digits of x are enough.
     let golden = T::of(0.618_033_988_749_894_9);

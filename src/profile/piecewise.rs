@@ -116,8 +116,11 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
-        let last = self.parts.len() - 1;
-        let i = (0..last).find(|&i| k <= T::count(i + 1)).unwrap_or(last);
+        let (mut i, mut last) = (0, self.parts.len() - 1);
+        while i < last {
+            let middle = (i + last) / 2;
+            if k <= T::count(middle + 1) { last = middle } else { i = middle + 1 }
+        }
         let ([from, to], _) = self.ends[i];
         let scale = to - from;
         let point = self.parts[i].at(from + (k - T::count(i)) * scale);

@@ -1,0 +1,110 @@
+//! What a contact of many pieces costs: a circle cut into up to 100 000 arcs, half of them in the
+//! contact.
+//!
+//! Run with `cargo run --release --example pieces`. Evaluations and microseconds are for each piece
+//! in the contact, those of making the body for each of its pieces. The limits are checked against
+//! the exact solution.
+
+use linecontact::{Contact, Curve, CurvePoint, Flat, Load, Piecewise};
+use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// The arcs go from minus this angle to this angle, on a circle of radius 1.
+const END: f64 = 0.5;
+/// The half-width of the contact, and of the one after it.
+const HALF_WIDTHS: [f64; 2] = [0.25, 0.26];
+/// Pressures asked for, one by one.
+const POINTS: u32 = 16;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    measure(10)?; // The tables of the quadrature are made once.
+    println!("            evaluations               microseconds");
+    println!("    pieces  first  next  |   make   first    next   P(x)  |  error of a");
+    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+    for pieces in [10, 100, 1_000, 10_000, 100_000] {
+        let Row { evaluations: [first, next], micros: [make, cold, warm, pressure], error } =
+            measure(pieces)?;
+        println!(
+            "{pieces:10} {first:6.2} {next:5.2}  | {make:6.2} {cold:7.2} {warm:7.2} {pressure:6.2}  \
+             | {error:9.0e}"
+        );
+        // Of ten pieces the two at the edges, which are sampled beyond the contact, are many.
+        if pieces >= 100 {
+            (least, most) = (least.min(first), most.max(first));
+        }
+        assert!(error < 1e-12);
+    }
+    assert!(most < 1.3 * least, "a piece costs the same however many there are");
+    Ok(())
+}
+
+struct Row {
+    /// Evaluations of the curve for each piece in the contact: of the first and of the second solve.
+    evaluations: [f64; 2],
+    /// Of making the body, the two solves, and one pressure.
+    micros: [f64; 4],
+    /// The larger relative error of `a`.
+    error: f64,
+}
+
+/// Solves one body under two loads.
+fn measure(pieces: usize) -> Result<Row, Box<dyn Error>> {
+    let end = |i: usize| END * (2.0 * i as f64 / pieces as f64 - 1.0);
+    let clock = Clock::start();
+    let arcs = (0..pieces).map(|i| {
+        Curve::new([end(i), end(i + 1)], |k: f64| {
+            let (sin, cos) = k.sin_cos();
+            CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
+        })
+    });
+    let body = Piecewise::new(arcs.collect())?;
+    let make = clock.micros() / pieces as f64;
+
+    // With E* = 1 the load is K(m) - E(m), m = a².
+    let contact = Contact::new(&Flat, &body)?.contact_modulus(1.0);
+    let mut solver = contact.solver()?;
+    let (mut evaluations, mut micros, mut error) = ([0.0; 2], [make, 0.0, 0.0, 0.0], 0.0f64);
+    for (i, a) in HALF_WIDTHS.into_iter().enumerate() {
+        let inside = (0..pieces).filter(|&i| end(i + 1) > -a.asin() && end(i) < a.asin());
+        let count = inside.count() as f64;
+        let clock = Clock::start();
+        let solution = solver.solve(&contact, Load::PerLength(k_less_e(a)))?;
+        micros[1 + i] = clock.micros() / count;
+        evaluations[i] = solution.cost().evaluations as f64 / count;
+        error = error.max((solution.a() / a - 1.0).abs());
+
+        let pressure = solution.pressure()?;
+        let clock = Clock::start();
+        for j in 0..POINTS {
+            black_box(pressure.at(a * (f64::from(j) / f64::from(POINTS) - 0.47))?);
+        }
+        micros[3] = clock.micros() / f64::from(POINTS) / count;
+    }
+    Ok(Row { evaluations, micros, error })
+}
+
+/// `K(m) - E(m)` of the complete elliptic integrals, m = modulus², by the arithmetic-geometric mean.
+fn k_less_e(modulus: f64) -> f64 {
+    let (mut a, mut b, mut c) = (1.0, (1.0 - modulus * modulus).sqrt(), modulus);
+    let (mut sum, mut share) = (0.0, 0.5);
+    while c > 1e-18 {
+        sum += share * c * c;
+        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+        (c, share) = (c * c / (4.0 * a), 2.0 * share);
+    }
+    FRAC_PI_2 / a * sum
+}
+
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    fn micros(&self) -> f64 {
+        self.0.elapsed().as_secs_f64() * 1e6
+    }
+}

@@ -1,0 +1,91 @@
+//! The largest pressure: where it is, and where there is none.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::{graph, parabola};
+use linecontact::{
+    Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise,
+};
+use std::f64::consts::PI;
+
+#[test]
+fn of_a_parabola_away_from_zero() {
+    let body = graph(-1.0, 1.0, |x| [(x - 0.1).powi(2) / 2.0, x - 0.1]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let paper = Midpoint::paper(256, 2);
+    for (contact, accuracy) in [(contact.clone(), 1e-14), (contact.quadrature(&paper), 1e-4)] {
+        let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+        let peak = solution.peak().unwrap();
+        let exact = 0.2 / PI;
+        assert!((peak.pressure / exact - 1.0).abs() < accuracy, "{peak:?}");
+        assert!((peak.x - 0.1).abs() < 0.2 * accuracy.sqrt(), "{peak:?}");
+    }
+}
+
+#[test]
+fn infinite_at_a_fixed_edge_and_at_a_wedge() {
+    let singular = |contact: Contact<'_, f64>, place: f64| {
+        let solution = contact.solve(Load::PerLength(0.1)).unwrap();
+        let found = solution.peak();
+        assert!(matches!(found, Err(ContactError::Singular { x }) if x == place), "{found:?}");
+    };
+    let body = parabola(1.0);
+    let scene = Contact::new(&Flat, &*body).unwrap();
+    singular(scene.clone().edges(Edge::Fixed(-0.25), Edge::Fixed(0.25)), 0.25);
+    singular(scene.edges(Edge::Fixed(-0.25), Edge::Free), -0.25);
+    let face = |slope: f64| {
+        move |k: f64| CurvePoint { x: k, y: slope * k + k * k, dx: 1.0, dy: slope + 2.0 * k }
+    };
+    let wedge = Piecewise::new(vec![
+        Curve::new([-2.0, 0.0], face(-0.1)),
+        Curve::new([0.0, 2.0], face(0.3)),
+    ]);
+    let wedge = wedge.unwrap();
+    singular(Contact::new(&Flat, &wedge).unwrap(), 0.0);
+}
+
+#[test]
+fn inside_an_adhesive_contact() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = contact.edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let peak = solution.peak().unwrap();
+    let beside = solution.pressure().unwrap().at(0.05).unwrap();
+    assert!(peak.x.abs() < 1e-7 && peak.pressure > beside, "{peak:?}");
+}
+
+#[test]
+fn of_many_pieces_one_of_which_has_a_corner() {
+    const PIECES: i32 = 1000;
+    let end = |i: i32| -0.5 + f64::from(i) / f64::from(PIECES);
+    let make = |corner: f64| {
+        let arcs = (0..PIECES).map(|i| {
+            let bend = if i >= 517 { corner } else { 0.0 };
+            Curve::new([end(i), end(i + 1)], move |k: f64| CurvePoint {
+                x: k,
+                y: k * k / 2.0 + bend * (k - end(517)),
+                dx: 1.0,
+                dy: k + bend,
+            })
+        });
+        Piecewise::new(arcs.collect()).unwrap()
+    };
+    let smooth = make(0.0);
+    let contact = Contact::new(&Flat, &smooth).unwrap();
+    let peak = contact.solve(Load::PerLength(0.02)).unwrap().peak().unwrap();
+    assert!((peak.pressure * PI / 0.2 - 1.0).abs() < 1e-12 && peak.x.abs() < 1e-7);
+
+    let up = make(1e-4);
+    let contact = Contact::new(&Flat, &up).unwrap();
+    let peak = contact.solve(Load::PerLength(0.02)).unwrap().peak();
+    assert!(matches!(peak, Err(ContactError::Singular { x }) if x == end(517)), "{peak:?}");
+
+    let down = make(-1e-4);
+    let contact = Contact::new(&Flat, &down).unwrap();
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    assert!(solution.peak().is_ok());
+    let found = solution.certify();
+    assert!(matches!(found, Err(ContactError::Tension { x, .. }) if x == end(517)), "{found:?}");
+}
