@@ -78,6 +78,8 @@ pub(crate) struct Found<T> {
     pub strengths: [T; 2],
     /// Whether they vanish at a and at -b, being what the limits were sought by.
     pub free: [bool; 2],
+    /// Whether the bodies may pull at each other.
+    pub adhesive: bool,
     /// Estimated error of the limits relative to the half-width, where they were sought.
     pub error: Option<T>,
     /// The load that such an error stands for, where it is known.
@@ -97,7 +99,9 @@ impl<T: Real> Found<T> {
         let mean_pressure = load / interval.half_width();
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
         let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
-        Self { interval, load, strengths, free: [free_a, free_b], error, force: None }
+        let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        let free = [free_a, free_b];
+        Self { interval, load, strengths, free, adhesive, error, force: None }
     }
 }
 

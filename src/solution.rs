@@ -85,13 +85,16 @@ impl<'s, T: Real> Solution<'s, T> {
 
     /// Whether this is a contact, and not only a solution of the equations: no negative pressure
     /// inside, no overlap of the bodies outside, as far as a grid of 512 points inside and as many
-    /// on either side shows. Certain beforehand where the slope of the gap rises throughout.
+    /// on either side shows. Between adhesive edges the bodies may pull at each other, and only the
+    /// outside is looked at. A body with a sharp corner ends there: end its domain there, too.
+    /// Certain beforehand where the slope of the gap rises throughout.
     ///
     /// # Errors
     /// [`ContactError::Tension`], [`ContactError::Overlap`]; those of sampling the gap.
     pub fn certify(&self) -> Result<(), ContactError<T>> {
         self.engine.engine().complete(self.gap)?;
-        certify(self.engine.engine(), self.gap, &self.pressing(), self.found.interval)
+        let Found { interval, adhesive, .. } = self.found;
+        certify(self.engine.engine(), self.gap, &self.pressing(), interval, adhesive)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points and the joints show which

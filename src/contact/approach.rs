@@ -29,10 +29,11 @@ pub(super) fn find<T: Real>(
 ) -> Result<Found<T>, ContactError<T>> {
     let mut conditions = conditions;
     let corners = conditions.edges;
-    // A corner holds the contact as long as it presses there.
+    // A corner holds the contact as long as it presses there; a width may be had without it.
     for edge in &mut conditions.edges {
         if let Edge::UpTo(x) = *edge {
-            *edge = Edge::Fixed(x);
+            let held = matches!(conditions.control, Control::Load(_));
+            *edge = if held { Edge::Fixed(x) } else { Edge::Free };
         }
     }
     let pulled = matches!(conditions.control, Control::Load(load) if load <= T::zero());

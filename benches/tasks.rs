@@ -1,0 +1,276 @@
+//! Time, error and cost of whole solves: the limits, then the pressure at 101 points.
+//!
+//! `cargo bench --bench tasks` prints one line of tab-separated values per task and tolerance.
+//! Arguments: tolerances (default 1e-3 1e-6 1e-9 1e-12) and names of tasks (default all).
+//!
+//! T1, T2, T3a and T3b (κ = 1 and π/2), T5: the paper's Examples 1 to 4; T4: a circle on a flat.
+//! Every search starts at [-0.3, 0.3]. Error: the largest `|P - P_ref|` over the largest `|P_ref|`.
+
+use linecontact::{Contact, ContactError, CurvePoint, Edge, Flat, Interval, Load};
+use linecontact::{Panels, ParametricProfile, Piecewise, Solution};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::hint::black_box;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::time::Instant;
+
+type Body = Box<dyn ParametricProfile<f64>>;
+type Result<T> = std::result::Result<T, ContactError<f64>>;
+
+// What touches the solver ...
+
+fn scene<'a>(task: &Task, bodies: &'a [Body; 2], panels: &'a Panels) -> Result<Contact<'a, f64>> {
+    let contact = Contact::new(&*bodies[0], &*bodies[1])?.kappa(task.kappa).quadrature(panels);
+    Ok(match task.fixed {
+        Some([left, right]) => contact.edges(Edge::Fixed(left), Edge::Fixed(right)),
+        None => contact.start(Interval { left: -0.3, right: 0.3 }),
+    })
+}
+
+/// The contact, and `x` and `P(x)` at the points.
+fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> {
+    let on = solution.interval();
+    let (c, half) = (on.centre(), on.half_width());
+    points.x = std::array::from_fn(|i| c + half * (-1.0 + 2.0 * (i + 1) as f64 / 102.0));
+    solution.pressure()?.at_many(&points.x, &mut points.p)?;
+    Ok([on.left, on.right])
+}
+
+/// A solve from the bodies on.
+fn cold(task: &Task, bodies: &[Body; 2], tolerance: f64, points: &mut Points) -> Result<[f64; 2]> {
+    let panels = Panels { tolerance };
+    let contact = scene(task, bodies, &panels)?;
+    let solution = contact.solve(Load::Constant(task.c))?;
+    pressures(&solution, points)
+}
+
+/// µs of a solve that starts from the one before: the same bodies under a load up to 2 % less.
+fn warm(task: &Task, bodies: &[Body; 2], tolerance: f64) -> Result<f64> {
+    let panels = Panels { tolerance };
+    let contact = scene(task, bodies, &panels)?;
+    let mut solver = contact.solver()?;
+    let (mut points, mut turn) = (Points::new(), 0);
+    Ok(time(|| {
+        turn = (turn + 1) % 3;
+        let load = Load::Constant(task.c * (1.0 - 0.01 * f64::from(turn)));
+        let solution = solver.solve(&contact, black_box(load)).expect("solved before");
+        let _ = black_box(pressures(&solution, &mut points));
+    }))
+}
+
+// ... ends here.
+
+/// The 101 places and the pressures there.
+struct Points {
+    x: [f64; 101],
+    p: [f64; 101],
+}
+
+impl Points {
+    fn new() -> Self {
+        Self { x: [0.0; 101], p: [0.0; 101] }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.x.into_iter().zip(self.p).map(|(x, p)| [x, p])
+    }
+}
+
+/// sin k, cos k and cos k - 1, all to full relative accuracy.
+fn trig(k: f64) -> (f64, f64, f64) {
+    let (s, c) = (0.5 * k).sin_cos();
+    let m = -2.0 * s * s;
+    (2.0 * s * c, 1.0 + m, m)
+}
+
+static CALLS: AtomicUsize = AtomicUsize::new(0);
+
+/// Curves by name, range of k, and X, X', Y, Y'; s, c, m are sin k, cos k, cos k - 1. Those with
+/// `COUNT` count their evaluations, in an untimed run.
+macro_rules! curves {
+    ($($name:ident: $from:literal to $to:literal, $k:ident $($s:ident $c:ident $m:ident)? =>
+        $point:expr;)*) => {$(
+        struct $name<const COUNT: bool>;
+        impl<const COUNT: bool> ParametricProfile<f64> for $name<COUNT> {
+            fn domain(&self) -> [f64; 2] {
+                [$from, $to]
+            }
+            fn at(&self, $k: f64) -> CurvePoint<f64> {
+                COUNT.then(|| CALLS.fetch_add(1, Relaxed));
+                $(let ($s, $c, $m) = trig($k);)?
+                let [x, dx, y, dy] = $point;
+                CurvePoint { x, y, dx, dy }
+            }
+        }
+    )*};
+}
+curves! {
+    Lower1: -2.0 to 0.0, k => [k + 1.0, 1.0, -0.5 * (k + 1.0).asin(), -0.5 / (-k * (k + 2.0)).sqrt()];
+    Upper1: -0.3333333333333333 to 0.3333333333333333, k => [3.0 * k, 3.0,
+        1.5 * k * (1.0 - 9.0 * k * k).sqrt(), 1.5 * (1.0 - 18.0 * k * k) / (1.0 - 9.0 * k * k).sqrt()];
+    Lower2: -2.0 to 2.0, k => [2.0 * k + 0.2, 2.0, -36.0 * k * k, -72.0 * k];
+    Upper2: -2.0 to 2.0, k => [3.0 * k + 0.2, 3.0, 63.0 * k * k, 126.0 * k];
+    Lower3: -1.3539997025528523 to 0.7911938540783813, k s c m => [
+        2.0 * m - 8.0 * k * c - 9.0 * s + 7.0 * k * s, -17.0 * c + 5.0 * s + 8.0 * k * s + 7.0 * k * c,
+        (15.0 * s + 9.0 * m - 15.0 * k * c - 6.0 * k * s) * 1e5, (-15.0 * s + 15.0 * k * s - 6.0 * k * c) * 1e5];
+    Upper3: -1.428061671618955 to 0.7623463067015128, k s c m => [
+        7.0 * s - 8.0 * m + 3.0 * k * c - 9.0 * k * s, 10.0 * c - s - 3.0 * k * s - 9.0 * k * c,
+        (35.0 * k * c - 35.0 * s - 30.0 * m + 10.0 * k * s) * 1e5, (40.0 * s - 35.0 * k * s + 10.0 * k * c) * 1e5];
+    Circle: -1.5 to 1.5, k s c m => [s, c, -m, s];
+    Left4: 0.0 to 5.540299783323928, k s c m => [
+        12.0 * m - 2.0 * s - 3.0 * k * c + 2.0 * k * s, -5.0 * c - 10.0 * s + 3.0 * k * s + 2.0 * k * c,
+        (711.0 * m + 63.0 * s - 63.0 * k * c - 783.0 * k * s) * 1e4,
+        (-1494.0 * s + 63.0 * k * s - 783.0 * k * c) * 1e4];
+    Right4: -1.5010288405450835 to 0.0, k s c m => [
+        6.0 * m - 5.0 * s - 3.0 * k * c + 9.0 * k * s, -8.0 * c + 3.0 * s + 3.0 * k * s + 9.0 * k * c,
+        (7.0 * k * s - 56000.0 * k * k - 35.0 * k * k * c) * 1e4,
+        (7.0 * s - 63.0 * k * c - 112000.0 * k + 35.0 * k * k * s) * 1e4];
+    Upper4: -1.317538157404613 to 0.9495704265766943, k s c m => [
+        3.0 * s + 2.0 * k * c - k * s, 5.0 * c - 2.0 * k * s - s - k * c,
+        (27.0 * k * c - 27.0 * s - 1800.0 * m) * 1e4, (1800.0 * s - 27.0 * k * s) * 1e4];
+}
+
+/// The lower body of Example 4, both pieces of one type.
+enum Lower4<const COUNT: bool> {
+    Left,
+    Right,
+}
+impl<const COUNT: bool> ParametricProfile<f64> for Lower4<COUNT> {
+    fn domain(&self) -> [f64; 2] {
+        if matches!(self, Self::Left) { Left4::<COUNT>.domain() } else { Right4::<COUNT>.domain() }
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        if matches!(self, Self::Left) { Left4::<COUNT>.at(k) } else { Right4::<COUNT>.at(k) }
+    }
+}
+
+fn bodies<const COUNT: bool>(task: &str) -> [Body; 2] {
+    match task {
+        "T1" => [Box::new(Lower1::<COUNT>), Box::new(Upper1::<COUNT>)],
+        "T2" => [Box::new(Lower2::<COUNT>), Box::new(Upper2::<COUNT>)],
+        "T4" => [Box::new(Flat), Box::new(Circle::<COUNT>)],
+        "T5" => {
+            let lower = Piecewise::new(vec![Lower4::<COUNT>::Left, Lower4::Right]);
+            [Box::new(lower.expect("both pass through the origin")), Box::new(Upper4::<COUNT>)]
+        }
+        _ => [Box::new(Lower3::<COUNT>), Box::new(Upper3::<COUNT>)],
+    }
+}
+
+/// A task: name, κ, C, fixed limits, and its solution: centre, half-width, Chebyshev coefficients
+/// of the right-hand side (T5: of what would give the part of P that is free of the logarithm).
+struct Task {
+    name: &'static str,
+    kappa: f64,
+    c: f64,
+    fixed: Option<[f64; 2]>,
+    solution: (f64, f64, &'static str),
+}
+
+#[rustfmt::skip]
+const TASKS: [Task; 6] = [
+    Task { name: "T1", kappa: 1.0, c: 0.0, fixed: Some([-1.0, 1.0]), solution: (0.0, 1.0, "") },
+    Task { name: "T2", kappa: FRAC_PI_2, c: 128.0 * PI * PI / 25.0, fixed: None, solution: (0.2, 0.8, "0 40.21238596594935") },
+    Task { name: "T3a", kappa: 1.0, c: 300.0, fixed: None, solution: (-0.00011218768434954629, 0.05774899329627286,
+        "0 3307.1733515846536 6.424798476792179 0.04808389031058748 0.00025813285758667 1.7092377412696486e-06 \
+        1.0939264538202458e-08 7.335405226928906e-11 4.925182490446023e-13") },
+    Task { name: "T3b", kappa: FRAC_PI_2, c: 300.0, fixed: None, solution: (-7.142057824209629e-05, 0.046077268928881136,
+        "0 4144.905636769736 6.424693528807875 0.03836467546514821 0.00016432838517098272 8.681805410828562e-07 \
+        4.433368320127571e-09 2.3719636916371646e-11 1.2707043626945634e-13") },
+    Task { name: "T4", kappa: 1.0, c: 2.0 * (1.685750354812596 - 1.4674622093394272), fixed: None, solution: (0.0, 0.5,
+        "0 0.555866197926681 0 0.020313340445760702 0 0.0011002657326953011 0 6.602238201921369e-05 0 \
+        4.154937871502372e-06 0 2.6879317039424103e-07 0 1.7704998456001767e-08 0 1.18110072717243e-09 0 \
+        7.953781558835368e-11 0 5.3953963306224255e-12 0 3.6812014189293114e-13 0 2.5235146905426402e-14 0 1.736698e-15") },
+    Task { name: "T5", kappa: 1.0, c: 20.0, fixed: None, solution: (-0.001221227286410431, 0.0018828900077427146,
+        "0 11675.914075788261 -1.689868735563791 0.0012598662795463855 -7.643078970743352e-08 \
+        2.5613425669178454e-10 5.2157753485198495e-14") },
+];
+/// T5 has a kink at z = `KINK`: G is more by Σ `JUMP[m] (z - KINK)^m` on its right.
+const KINK: f64 = 0.6485919418492684;
+const JUMP: &str = "0 31252.11420401319 -19.02592960852482 0.010535653793177342 \
+    -1.1187810397463631e-05 3.4111734521404177e-09 -8.953820989601547e-12";
+
+fn numbers(list: &str) -> Vec<f64> {
+    list.split_whitespace().map(|number| number.parse().expect("a number")).collect()
+}
+
+impl Task {
+    fn pressure(&self, x: f64) -> f64 {
+        if self.name == "T1" {
+            let log = ((1.0 + x) / (1.0 - x)).ln();
+            return -(2.0 * x + (1.0 - x * x) * log) / (PI * PI * (1.0 - x * x).sqrt());
+        }
+        let (c, half, series) = self.solution;
+        let z = (x - c) / half;
+        let (mut u, mut jump) = ([0.0; 2], 0.0);
+        let series = numbers(series);
+        series[1..].iter().rev().for_each(|c| u = [c + 2.0 * z * u[0] - u[1], u[0]]);
+        let smooth = (1.0 - z * z).max(0.0).sqrt() / PI * u[0];
+        if self.name != "T5" {
+            return smooth;
+        }
+        numbers(JUMP).iter().rev().for_each(|d| jump = d + (z - KINK) * jump);
+        let tau = |z: f64| ((1.0 - z) / (1.0 + z)).sqrt();
+        let log = ((tau(KINK) + tau(z)) / (tau(KINK) - tau(z))).abs().ln();
+        smooth + if log.is_finite() { jump * log } else { 0.0 } / (PI * PI)
+    }
+
+    /// Errors of the pressure and of the limits.
+    fn errors(&self, [left, right]: [f64; 2], points: &Points) -> [f64; 2] {
+        // By `total_cmp` NaN is the largest number.
+        let largest = |of: &dyn Fn([f64; 2]) -> f64| points.iter().map(of).max_by(f64::total_cmp);
+        let error = largest(&|[x, p]| (p - self.pressure(x)).abs());
+        let scale = largest(&|[x, _]| self.pressure(x).abs());
+        let (c, half, _) = self.solution;
+        let limits = (left - (c - half)).abs().max((right - (c + half)).abs()) / half;
+        [error.unwrap_or(f64::NAN) / scale.unwrap_or(f64::NAN), limits]
+    }
+}
+
+/// µs of a call: the least of three medians over five batches of about 20 ms each.
+fn time(mut call: impl FnMut()) -> f64 {
+    let mut batch = |calls: usize| {
+        let start = Instant::now();
+        (0..calls).for_each(|_| call());
+        start.elapsed().as_secs_f64() * 1e6 / calls as f64
+    };
+    batch(50);
+    let calls = (20e3 / batch(50)).max(1.0) as usize;
+    let mut median = || {
+        let mut each = [(); 5].map(|()| batch(calls));
+        each.sort_by(f64::total_cmp);
+        each[2]
+    };
+    median().min(median()).min(median())
+}
+
+fn measure(task: &Task, tolerance: f64) -> Result<()> {
+    let (counted, bodies) = (bodies::<true>(task.name), bodies::<false>(task.name));
+    let (mut points, before) = (Points::new(), CALLS.load(Relaxed));
+    let contact = cold(task, &counted, tolerance, &mut points)?;
+    let calls = CALLS.load(Relaxed) - before;
+    let [error, limits] = task.errors(contact, &points);
+    let us = time(|| {
+        let _ = black_box(cold(task, black_box(&bodies), black_box(tolerance), &mut points));
+        black_box(&mut points);
+    });
+    let warm = warm(task, &bodies, tolerance)?;
+    print!("{}\t", task.name);
+    println!("{tolerance:e}\t{error:.1e}\t{limits:.1e}\t{calls}\t{us:.4}\t{warm:.4}");
+    Ok(())
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let mut tolerances: Vec<f64> = arguments.iter().filter_map(|a| a.parse().ok()).collect();
+    if tolerances.is_empty() {
+        tolerances = vec![1e-3, 1e-6, 1e-9, 1e-12];
+    }
+    let named = |name| arguments.iter().any(|a| a == name);
+    let all = !TASKS.iter().any(|task| named(task.name));
+    println!("task\ttol\terror\tlimit_error\tevaluations\tcold_us\twarm_us");
+    for task in TASKS.iter().filter(|task| all || named(task.name)) {
+        for &tolerance in &tolerances {
+            measure(task, tolerance).unwrap_or_else(|error| eprintln!("{}: {error}", task.name));
+        }
+    }
+}
