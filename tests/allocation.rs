@@ -1,0 +1,116 @@
+//! A solver that has been used before allocates nothing.
+//!
+//! The count is that of the whole program, so there is one test in this file.
+#![allow(missing_docs)]
+
+use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Solver};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// How often something allocates.
+fn allocations(work: impl FnOnce()) -> usize {
+    let region = Region::new(ALLOCATOR);
+    work();
+    let change = region.change();
+    change.allocations + change.reallocations
+}
+
+/// A circle that rolls over x.
+fn roller(x0: f64, radius: f64) -> impl ParametricProfile<f64> {
+    Curve::new([-1.0, 1.0], move |k: f64| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint {
+            x: x0 + radius * sin,
+            y: radius * (1.0 - cos),
+            dx: radius * cos,
+            dy: radius * sin,
+        }
+    })
+}
+
+/// A blunt wedge, from three pieces: two flanks and an arc.
+fn three_pieces() -> impl ParametricProfile<f64> {
+    let piece = |from: f64, to: f64, bend: f64| {
+        Curve::new([from, to], move |k: f64| {
+            let over = k - k.clamp(-0.1, 0.1);
+            CurvePoint {
+                x: k,
+                y: k * k / 2.0 + bend * over * over,
+                dx: 1.0,
+                dy: k + 2.0 * bend * over,
+            }
+        })
+    };
+    let pieces = vec![piece(-1.0, -0.1, 1.5), piece(-0.1, 0.1, 0.0), piece(0.1, 1.0, 0.7)];
+    Piecewise::new(pieces).expect("the pieces meet")
+}
+
+/// A scene from its two bodies to 101 pressures.
+fn solve(
+    solver: &mut Solver<f64>,
+    lower: &dyn ParametricProfile<f64>,
+    upper: &dyn ParametricProfile<f64>,
+    load: f64,
+) {
+    let contact = Contact::new(lower, upper).unwrap();
+    pressures(solver, &contact, load);
+}
+
+fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
+    let solution = solver.solve(contact, Load::PerLength(load)).unwrap();
+    let (on, mut pressures) = (solution.interval(), [0.0; 101]);
+    let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(0.02 + 0.03 * i as f64));
+    let pressure = solution.pressure().unwrap();
+    pressure.at_many(&x, &mut pressures).unwrap();
+    assert!(pressures.iter().all(|&p| p > 0.0));
+    assert!(pressure.at(on.centre()).unwrap() > 0.0);
+}
+
+#[test]
+fn nothing_is_allocated_after_the_first_solve() {
+    assert!(allocations(|| drop(std::hint::black_box(vec![1; 100]))) > 0, "the counter counts");
+
+    let blunt = three_pieces();
+    let (below, body) = (roller(0.1, -2.0), roller(0.0, 0.5));
+    let contact = Contact::new(&below, &body).unwrap();
+    let on_three = Contact::new(&Flat, &blunt).unwrap();
+    let mut solver = contact.solver().unwrap();
+
+    // Warm up: as much as is to come.
+    for load in [0.05, 0.01, 0.08] {
+        pressures(&mut solver, &contact, load);
+        pressures(&mut solver, &on_three, load);
+    }
+    let again = allocations(|| pressures(&mut solver, &contact, 0.05));
+    assert_eq!(again, 0, "the scene of before");
+    let next = allocations(|| {
+        for load in [0.06, 0.04, 0.02, 0.05] {
+            pressures(&mut solver, &contact, load);
+        }
+    });
+    assert_eq!(next, 0, "the next load");
+    let moved = allocations(|| {
+        for i in 0..20 {
+            let t = 0.01 * f64::from(i);
+            let (lower, upper) = (roller(0.1 + t, -2.0), roller(0.5 * t, 0.5 - 0.1 * t));
+            solve(&mut solver, &lower, &upper, 0.05);
+        }
+    });
+    assert_eq!(moved, 0, "smooth bodies that move");
+    let pieces = allocations(|| {
+        for load in [0.06, 0.04, 0.02, 0.05] {
+            solve(&mut solver, &Flat, &blunt, load);
+        }
+    });
+    assert_eq!(pieces, 0, "a body of three pieces");
+    let moved = allocations(|| {
+        for i in 0..20 {
+            let lower = roller(0.01 * f64::from(i), -4.0);
+            solve(&mut solver, &lower, &blunt, 0.03);
+        }
+    });
+    assert_eq!(moved, 0, "a body of three pieces on one that moves");
+}

@@ -1,0 +1,221 @@
+//! The four ways to say how hard the bodies are pressed together lead to the same contact.
+#![allow(missing_docs)]
+
+mod common;
+
+use approx::assert_relative_eq;
+use common::{Profile, graph, paper, parabola, power, reference};
+use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load};
+use std::f64::consts::PI;
+
+/// What is known of a contact: C, the half-width, the largest pressure.
+struct Known {
+    a: f64,
+    b: f64,
+    c: f64,
+    peak: f64,
+}
+
+fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
+    let Known { a, b, c, peak } = *known;
+    let half_width = 0.5 * (a + b);
+    let ways = [
+        (Load::PerLength(c / PI), 1.0),
+        (Load::Constant(c), 1.0),
+        (Load::ToHalfWidth(half_width), 1.0),
+        // The peak is known to rounding, and so is the half-width that goes with it.
+        (Load::ToPeak(peak), 10.0),
+    ];
+    for (load, factor) in ways {
+        let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
+        let tolerance = factor * tolerance;
+        assert_relative_eq!(solution.a(), a, epsilon = 0.0, max_relative = tolerance);
+        assert_relative_eq!(solution.b(), b, epsilon = 0.0, max_relative = tolerance);
+        assert_relative_eq!(
+            solution.load(),
+            c / PI,
+            epsilon = 0.0,
+            max_relative = 10.0 * tolerance
+        );
+        let strengths = solution.edge_strengths().map(|k| (k * half_width * PI / c).abs());
+        assert!(strengths.iter().all(|&k| k < 10.0 * tolerance), "{load:?}: {strengths:?}");
+    }
+}
+
+#[test]
+fn hertz_by_each_of_them() {
+    // F = κ L²/(2 R), p₀ = κ L/(π R).
+    let (radius, kappa) = (0.4, 2.5);
+    let body = graph(-3.0, 3.0, move |x| [x * x / (2.0 * radius), x / radius]);
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(kappa);
+    for l in [1e-6, 0.02, 1.0, 2.2] {
+        let c = PI * kappa * l * l / (2.0 * radius);
+        let known = Known { a: l, b: l, c, peak: kappa * l / (PI * radius) };
+        check(&contact, &known, 2e-15);
+        // Whatever the start.
+        for reach in [1e-3, 2.0] {
+            let start = Interval { left: -reach, right: 0.3 * reach };
+            check(&contact.clone().start(start), &known, 4e-15);
+        }
+    }
+}
+
+#[test]
+fn the_papers_example_3_by_each_of_them() {
+    let example = paper::three();
+    let want = reference("paper_example_3_scale_one");
+    let contact = Contact::new(&*example.lower, &*example.upper).unwrap();
+    // P_max of the reference.
+    let known = Known { a: want.a, b: want.b, c: want.c, peak: 1052.6986135955237 };
+    check(&contact, &known, 2e-14);
+}
+
+#[test]
+fn a_pressure_that_is_largest_beside_the_middle() {
+    // |x|⁶/6 has two peaks. The peak that a contact turns out to have leads back to it.
+    let body = power(6.0);
+    let want = reference("power_n_6");
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
+    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    let pressure = solution.pressure().unwrap();
+    let scan = (1..4000).map(|i| pressure.at(-want.b + i as f64 * want.half_width() / 2000.0));
+    let peak = scan.fold(0.0, |most: f64, p| most.max(p.unwrap()));
+    assert!(peak > 1.01 * pressure.at(0.0).unwrap());
+    let by_peak = contact.solve(Load::ToPeak(peak)).unwrap();
+    // The scan misses the top by a share of (1/2000)².
+    assert_relative_eq!(by_peak.a(), want.a, epsilon = 0.0, max_relative = 1e-6);
+    let by_width = contact.solve(Load::ToHalfWidth(want.half_width())).unwrap();
+    assert_relative_eq!(by_width.load() * PI, want.c, epsilon = 0.0, max_relative = 1e-14);
+}
+
+#[test]
+fn a_wedge_has_a_width_but_no_peak() {
+    // F = 2 m L/π.
+    let body = power(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for l in [1e-3, 0.1, 1.5] {
+        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        assert_relative_eq!(solution.load(), 2.0 * l / PI, epsilon = 0.0, max_relative = 1e-14);
+        assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
+        let solution = contact.solve(Load::PerLength(2.0 * l / PI)).unwrap();
+        assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-14);
+    }
+    for peak in [1e-3, 1.0, 1e3] {
+        let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
+        let ContactError::NoPeak { wanted, found, .. } = error else { panic!("{error}") };
+        assert_eq!((wanted, found), (peak, f64::INFINITY));
+    }
+}
+
+#[test]
+fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
+    let body = parabola(4.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    // K = 0 at the free edge: F = L (3 L/2 + x₀).
+    for (x0, l) in [(0.0, 0.5), (-0.3, 0.4), (0.2, 1.5)] {
+        let load = l * (1.5 * l + x0);
+        for (left, right, free) in
+            [(Edge::Fixed(x0), Edge::Free, 0), (Edge::Free, Edge::Fixed(-x0), 1)]
+        {
+            let contact = contact.clone().edges(left, right);
+            for control in [Load::ToHalfWidth(l), Load::PerLength(load), Load::Constant(load * PI)]
+            {
+                let solution = contact.solve(control).unwrap();
+                let limits = [solution.a(), solution.b()];
+                assert_eq!(limits[1 - free], -x0);
+                let far = x0 + 2.0 * l;
+                assert_relative_eq!(limits[free], far, epsilon = 0.0, max_relative = 2e-15);
+                assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
+            }
+            let error = contact.solve(Load::ToPeak(0.3)).unwrap_err();
+            assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
+        }
+    }
+    // Two adhesive edges: F = L²/2 - 2 sqrt(w L), negative where the contact is narrow.
+    let (work, l) = (0.01, 0.3f64);
+    let adhesive = contact.clone().edges(Edge::Adhesive(work), Edge::Adhesive(work));
+    let solution = adhesive.solve(Load::ToHalfWidth(l)).unwrap();
+    let load = l * l / 2.0 - 2.0 * (work * l).sqrt();
+    assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
+    assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
+    // Also where it is not the one that grows with the load.
+    let narrow = adhesive.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let load = 0.005 - 2.0 * (work * 0.1).sqrt();
+    assert_relative_eq!(narrow.load(), load, epsilon = 0.0, max_relative = 1e-14);
+    let error = adhesive.solve(Load::ToPeak(0.3)).unwrap_err();
+    assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
+}
+
+#[test]
+fn values_that_are_none() {
+    let bodies: [Profile; 2] = [parabola(1.0), power(3.0)];
+    let ways: [fn(f64) -> Load<f64>; 4] =
+        [Load::PerLength, Load::Constant, Load::ToHalfWidth, Load::ToPeak];
+    for body in &bodies {
+        let contact = Contact::new(&Flat, &**body).unwrap();
+        for value in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for way in ways {
+                let load = way(value);
+                let error = contact.solve(load).unwrap_err();
+                assert!(matches!(error, ContactError::Load { .. }), "{load:?}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn more_than_the_bodies_can_give_is_an_error() {
+    // A parabola that reaches to ±1: L < 1, p₀ < 1/π.
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for value in [1.01, 2.0, 1e6, 1e300] {
+        for load in [Load::ToHalfWidth(value), Load::ToPeak(value / PI)] {
+            assert!(contact.solve(load).is_err(), "{load:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "bug: NoBalance, as if the gap closed nowhere"]
+fn the_error_says_that_the_bodies_are_too_short() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for value in [1.01, 2.0, 1e6, 1e300] {
+        for load in [Load::ToHalfWidth(value), Load::ToPeak(value / PI)] {
+            let error = contact.solve(load).unwrap_err();
+            let (short, outside, peak) = (
+                matches!(error, ContactError::TooShort { .. }),
+                matches!(error, ContactError::OutsideBodies { .. }),
+                matches!(error, ContactError::NoPeak { .. }),
+            );
+            assert!(short || outside || peak, "{load:?}: {error}");
+        }
+    }
+}
+
+#[test]
+fn half_widths_up_to_the_ends_of_the_bodies() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for l in [0.9, 0.999, 0.999999, 1.0 - 1e-12] {
+        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+        assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
+        assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 1e-13);
+    }
+}
+
+#[test]
+#[ignore = "bug: NoBalance, where a trial is wider than the bodies"]
+fn peaks_up_to_the_ends_of_the_bodies() {
+    // p₀ = L/π.
+    for reach in [1.0, 3.0] {
+        let body = parabola(reach);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.9999] {
+            let l = part * reach;
+            let solution = contact.solve(Load::ToPeak(l / PI));
+            let solution = solution.unwrap_or_else(|e| panic!("{l} of {reach}: {e}"));
+            assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-13);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What the library says of its own errors.
+#![allow(missing_docs)]
+
+mod common;
+
+use common::{power, reference, scenes};
+use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Load, Piecewise};
+use std::f64::consts::PI;
+
+/// Estimate and error, and what rounding alone makes of it.
+struct Judged {
+    what: String,
+    estimate: f64,
+    error: f64,
+    floor: f64,
+}
+
+/// Scenes with errors beyond what the library says, as yet.
+const BEYOND: [&str; 2] = ["rounded_punch_1e-6", "gear_involute_pitch_point"];
+
+/// Scenes with estimates more than 1000 times too large, as yet.
+const IDLE: [&str; 3] =
+    ["rounded_punch_1e-6", "paper_example_4_scale_one", "paper_example_4_scale_half_pi"];
+
+/// Everything that the library says of its errors, for the scenes of some names.
+fn judged(wanted: fn(&str) -> bool) -> Vec<Judged> {
+    let mut all = Vec::new();
+    for scene in scenes().into_iter().filter(|scene| wanted(scene.name)) {
+        let want = reference(scene.name);
+        let contact = scene.contact();
+        let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+        let half_width = want.half_width();
+        let estimate = solution.limits_error().unwrap();
+        for (limit, got, exact) in [("a", solution.a(), want.a), ("b", solution.b(), want.b)] {
+            all.push(Judged {
+                what: format!("{} {limit}", scene.name),
+                estimate,
+                error: (got - exact).abs() / half_width,
+                floor: 4.0 * f64::EPSILON * (exact.abs() / half_width).max(1.0),
+            });
+        }
+        let pressure = solution.pressure().unwrap();
+        let largest = want.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
+        for (&[x, exact], amplification) in want.points.iter().zip(&want.amplification) {
+            if exact == 0.0 || !exact.is_finite() {
+                continue;
+            }
+            let got = pressure.estimate(x, &mut Cost::default()).expect(scene.name);
+            all.push(Judged {
+                what: format!("{} P at z = {}", scene.name, want.z(x)),
+                estimate: got.error,
+                error: (got.value - exact).abs(),
+                floor: amplification * f64::EPSILON / 2.0 * exact + 1e-15 * largest,
+            });
+        }
+    }
+    all
+}
+
+fn check_cover(wanted: fn(&str) -> bool) {
+    let mut failures = 0;
+    for Judged { what, estimate, error, .. } in judged(wanted) {
+        if error > estimate {
+            failures += 1;
+            println!("{what}: error {error:.2e}, said to be {estimate:.2e}");
+        }
+    }
+    assert_eq!(failures, 0);
+}
+
+fn check_idle_doubt(wanted: fn(&str) -> bool) {
+    let (mut failures, mut worst) = (0, 0.0f64);
+    for Judged { what, estimate, error, floor } in judged(wanted) {
+        let idle = estimate / error.max(floor);
+        worst = worst.max(idle);
+        if idle > 1000.0 {
+            failures += 1;
+            println!("{what}: error {error:.2e}, floor {floor:.2e}, said to be {estimate:.2e}");
+        }
+    }
+    println!("at most {worst} times too large");
+    assert_eq!(failures, 0);
+}
+
+#[test]
+fn the_estimates_cover_the_errors() {
+    check_cover(|name| !BEYOND.contains(&name));
+}
+
+#[test]
+fn the_estimates_are_no_idle_doubt() {
+    check_idle_doubt(|name| !IDLE.contains(&name));
+}
+
+#[test]
+#[ignore = "bug: errors of P up to 1.7 times what is said"]
+fn the_estimates_cover_all_errors() {
+    check_cover(|name| BEYOND.contains(&name));
+}
+
+#[test]
+#[ignore = "bug: estimates of P 17 000 times too large over the rounded punch, 1300 in Example 4"]
+fn the_estimates_are_nowhere_idle_doubt() {
+    check_idle_doubt(|name| IDLE.contains(&name));
+}
+
+/// The largest error of the pressure over x²⁰/20, as a share of the largest pressure, and the
+/// largest error as a multiple of its estimate. The slope is `x¹⁹`, and `cos¹⁹θ` is a sum of binomials
+/// times `cos kθ`.
+fn scan_power_20<T: linecontact::Real>(to_f64: fn(T) -> f64) -> [f64; 2] {
+    let want = reference("power_n_20");
+    let half = |from: f64, to: f64, sign: f64| {
+        Curve::new([T::of(from), T::of(to)], move |k: T| {
+            let root = T::of(sign) * k;
+            let slope = root.powf(T::of(19.0));
+            CurvePoint {
+                x: k,
+                y: slope * root / T::of(20.0),
+                dx: T::one(),
+                dy: T::of(sign) * slope,
+            }
+        })
+    };
+    let body = Piecewise::new(vec![half(-2.0, 0.0, -1.0), half(0.0, 2.0, 1.0)]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::Constant(T::of(want.c))).unwrap();
+    let pressure = solution.pressure().unwrap();
+    let mut binomials = vec![1.0];
+    for i in 0..9 {
+        binomials.push(binomials[i] * (19.0 - i as f64) / (i as f64 + 1.0));
+    }
+    let l = want.half_width();
+    let exact = |x: f64| {
+        let theta = 2.0 * ((l - x) / (l + x)).sqrt().atan();
+        let terms = binomials.iter().enumerate();
+        let sum: f64 = terms.map(|(j, c)| c * ((19.0 - 2.0 * j as f64) * theta).sin()).sum();
+        l.powi(19) / (f64::powi(2.0, 18) * PI) * sum
+    };
+    let points = (1..4000).map(|i| T::of(0.98 * l * (f64::from(i) / 2000.0 - 1.0)));
+    let judged: Vec<[f64; 3]> = points
+        .map(|x| {
+            let got = pressure.estimate(x, &mut Cost::default()).unwrap();
+            let exact = exact(to_f64(x));
+            [(to_f64(got.value) - exact).abs(), to_f64(got.error), exact]
+        })
+        .collect();
+    let largest = judged.iter().fold(0.0f64, |most, [.., exact]| most.max(*exact));
+    let floor = 4.0 * to_f64(T::epsilon()) * largest;
+    judged.iter().fold([0.0; 2], |[worst, missed], [error, estimate, _]| {
+        [worst.max(error / largest), missed.max((error - floor) / estimate)]
+    })
+}
+
+#[test]
+fn there_are_no_spikes_between_the_points_of_a_reference() {
+    let [worst, missed] = scan_power_20::<f64>(|x| x);
+    println!("off by {worst:.1e} of the largest, {missed:.1} times what is said");
+    assert!(worst <= 1e-13 && missed <= 1.0, "{worst:e} {missed}");
+}
+
+#[test]
+#[ignore = "bug: 1.5e-5 off at x = 0.41, twice what is said"]
+fn there_are_no_spikes_in_single_precision() {
+    let [worst, missed] = scan_power_20::<f32>(f64::from);
+    println!("off by {worst:.1e} of the largest, {missed:.1} times what is said");
+    assert!(worst <= 2e-5 && missed <= 1.0, "{worst:e} {missed}");
+}
+
+/// A cusp at a joint: |x|^(3/2)/(3/2), P by the reference.
+fn scan_cusp() -> (f64, f64) {
+    let body = power(1.5);
+    let want = reference("power_n_3_over_2");
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
+    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    let pressure = solution.pressure().unwrap();
+    want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.99).fold(
+        (0.0, 0.0),
+        |(w, m), &[x, p]| {
+            let got = pressure.estimate(x, &mut Cost::default()).unwrap();
+            let error = (got.value - p).abs();
+            (error.max(w), (error / got.error).max(m))
+        },
+    )
+}
+
+#[test]
+fn a_cusp_of_the_pressure_at_a_joint() {
+    let (worst, _) = scan_cusp();
+    assert!(worst <= 1e-12, "{worst:e}");
+}
+
+#[test]
+fn the_estimate_covers_the_error_at_a_cusp() {
+    let (worst, missed) = scan_cusp();
+    assert!(missed <= 1.0, "{worst:e}, {missed} times what is said");
+}

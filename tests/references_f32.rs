@@ -1,0 +1,213 @@
+//! The reference contacts in single precision.
+//!
+//! What the formulas leave uncertain is measured by evaluating each in `f32` and in `f64` at the
+//! same `k`: the difference of the slopes, and that of `X` times the bend. A file passes if its
+//! errors, as shares of the half-width and of the largest pressure, are at most 1e-5 or, where
+//! that is more, 20 times that noise as a share of the slope, and of what rounding makes of each
+//! pressure (`points_amplification`).
+#![allow(missing_docs)]
+
+#[allow(dead_code)]
+#[path = "../examples/references/bodies.rs"]
+mod bodies;
+#[allow(dead_code)]
+#[path = "../examples/references/reference.rs"]
+mod reference;
+
+use bodies::Body;
+use linecontact::profile::Piece;
+use linecontact::{Contact, ContactError, Cost, Interval, Load, ParametricProfile};
+use reference::{Kind, Reference};
+use serde_json::Value;
+
+const WANTED: f64 = 1e-5;
+const MARGIN: f64 = 20.0;
+
+/// The smooth pieces of a body.
+fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
+    match body.pieces() {
+        0 => vec![Piece::new(body).expect("a body that can be solved")],
+        count => (0..count).filter_map(|i| body.piece(i)).collect(),
+    }
+}
+
+/// The `k` at which a curve is at `x`, by bisection.
+fn parameter(piece: &Piece<f64>, x: f64) -> f64 {
+    let [mut left, mut right] = piece.k;
+    for _ in 0..80 {
+        let k = 0.5 * left + 0.5 * right;
+        if piece.curve.x(k) < x { left = k } else { right = k }
+    }
+    0.5 * left + 0.5 * right
+}
+
+/// The largest error of the slope of a body over the contact, and the steepest slope.
+fn noise(single: &Body<f32>, double: &Body<f64>, on: Interval<f64>) -> f64 {
+    const POINTS: usize = 64;
+    let mut worst = 0.0f64;
+    for (single, double) in pieces(&**single).iter().zip(pieces(&**double)) {
+        let [from, to] = double.x();
+        let (from, to) = (from.max(on.left), to.min(on.right));
+        if from >= to || double.curve.slope_at(from).is_some() {
+            continue;
+        }
+        let [from, to] = [from, to].map(|x| parameter(&double, x));
+        let slope = |k: f64| double.curve.dy(k) / double.curve.dx(k);
+        for i in 0..=POINTS {
+            let k = from + (to - from) * (i as f64 + 0.37) / (POINTS as f64 + 1.0);
+            let (narrow, step) = (k as f32, 1e-5 * (to - from));
+            let k = f64::from(narrow);
+            let of_x = (f64::from(single.curve.x(narrow)) - double.curve.x(k)).abs();
+            let slope_32 = single.curve.dy(narrow) / single.curve.dx(narrow);
+            let of_slope = (f64::from(slope_32) - slope(k)).abs();
+            let rise = slope(k + step) - slope(k - step);
+            let bend = rise / (double.curve.x(k + step) - double.curve.x(k - step));
+            worst = worst.max(of_slope + bend.abs() * of_x);
+        }
+    }
+    worst
+}
+
+/// The largest slope of the gap in a few places of the contact.
+fn steepest(bodies: &[Body<f64>; 2], on: Interval<f64>) -> f64 {
+    let slope = |body: &Body<f64>, x: f64| {
+        let pieces = pieces(&**body);
+        let piece = pieces.iter().find(|piece| x <= piece.x()[1]).unwrap_or(&pieces[0]);
+        piece.curve.slope_at(x).unwrap_or_else(|| {
+            let k = parameter(piece, x);
+            piece.curve.dy(k) / piece.curve.dx(k)
+        })
+    };
+    let places = (1..20).map(|i| on.left + 0.1 * f64::from(i) * on.half_width());
+    places.fold(0.0, |most, x| most.max((slope(&bodies[1], x) - slope(&bodies[0], x)).abs()))
+}
+
+/// Whether numbers of this size, and their squares, can be told from zero and infinity in `f32`.
+fn in_range(sizes: &[f64]) -> bool {
+    let (least, most) = (f64::from(f32::MIN_POSITIVE).sqrt(), f64::from(f32::MAX).sqrt());
+    sizes.iter().all(|size| (least..most).contains(&size.abs()))
+}
+
+/// Each as a share of what is allowed.
+struct Errors {
+    of_limits: f64,
+    of_pressure: f64,
+    /// The noise of the formulas, and the solver's own estimate of the limits.
+    floor: f64,
+    estimate: f64,
+}
+
+fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, String> {
+    let farthest = on.left.abs().max(on.right.abs());
+    if !in_range(&[on.half_width(), farthest, want.c, want.kappa]) {
+        return Err("skipped: out of range".into());
+    }
+    // One unit of x in the last place.
+    let rounding = f64::from(f32::EPSILON) * farthest / on.half_width();
+    if rounding > 1e-2 {
+        return Err(format!("skipped: x is rounded to {rounding:.0e} of the half-width"));
+    }
+    let single = bodies::bodies::<f32>(file).map_err(|error| format!("bodies: {error}"))?;
+    let double = bodies::bodies::<f64>(file).map_err(|error| format!("bodies: {error}"))?;
+    let [lower, upper] = [0, 1].map(|i| noise(&single[i], &double[i], on));
+    let floor = (lower + upper) / steepest(&double, on) + rounding;
+    if floor.is_nan() || MARGIN * floor > 0.3 {
+        return Err(format!("skipped: the formulas are off by {floor:.0e} of the slope"));
+    }
+    let allowed = |floor: f64| WANTED.max(MARGIN * floor);
+    let said = |error: ContactError<f32>| format!("noise {floor:.1e}: {error}");
+    let contact = Contact::new(&*single[0], &*single[1]).map_err(said)?;
+    let contact = contact.kappa(want.kappa as f32);
+    let solution = contact.solve(Load::Constant(want.c as f32)).map_err(said)?;
+    let estimate = solution.limits_error().ok_or("limits were sought")?;
+    let edge = |got: f32, exact: f64| (f64::from(got) - exact).abs() / on.half_width();
+    let of_limits = edge(solution.a(), on.right).max(edge(-solution.b(), on.left)) / allowed(floor);
+    let pressure = solution.pressure().map_err(|error| error.to_string())?;
+    let largest = want.points.iter().fold(0.0f64, |most, point| most.max(point.pressure.abs()));
+    let mut of_pressure = 0.0f64;
+    for point in &want.points {
+        let z = (point.x - on.centre()) / on.half_width();
+        if z.abs() < 0.99 {
+            let got = pressure.estimate(point.x as f32, &mut Cost::default());
+            let got = got.map_err(|error| error.to_string())?;
+            let error = (f64::from(got.value) - point.pressure).abs() / largest;
+            let rounded = point.amplification.unwrap_or(1.0) * f64::from(f32::EPSILON) / 2.0;
+            let rounded = rounded * point.pressure.abs() / largest;
+            if error > allowed(floor + rounded) {
+                let (x, value) = (point.x, got.value);
+                println!("    P({x}), z = {z:.1e}: {value:?} is off by {error:.1e} of the largest");
+            }
+            of_pressure = of_pressure.max(error / allowed(floor + rounded));
+        }
+    }
+    Ok(Errors { of_limits, of_pressure, floor, estimate: estimate.into() })
+}
+
+fn files() -> Vec<(String, Value)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "json"))
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            (name, serde_json::from_str(&text).unwrap())
+        })
+        .collect();
+    files.sort_by(|one, two| one.0.cmp(&two.0));
+    files
+}
+
+/// Files that fail as yet.
+const FAILING: [&str; 5] = [
+    // The derivative is said to be wrong, though formula and derivative agree to rounding.
+    "paper_example_4_scale_half_pi",
+    "paper_example_4_scale_one",
+    "paper_example_5_scale_half_pi",
+    "paper_example_5_scale_one",
+    // The pressure is off by 3e-5 at x = -2e-16, next to the joint.
+    "power_n_3_over_2",
+];
+
+/// Solves the files of some names; how many were neither skipped nor failed.
+fn check(wanted: impl Fn(&str) -> bool) -> usize {
+    let (mut solved, mut failed) = (0, Vec::new());
+    println!("{:30} {:>7} {:>7} {:>8} {:>8}", "", "LIMITS", "P", "NOISE", "ESTIMATE");
+    for (name, file) in files().into_iter().filter(|(name, _)| wanted(name)) {
+        let want = Reference::read(&file).expect("a reference file");
+        let (Kind::Contact, Some(on)) = (want.kind, want.limits) else { continue };
+        match errors(&file, &want, on) {
+            Ok(Errors { of_limits, of_pressure, floor, estimate }) => {
+                let ok = of_limits <= 1.0 && of_pressure <= 1.0;
+                println!(
+                    "{name:30} {of_limits:7.4} {of_pressure:7.4} {floor:8.1e} {estimate:8.1e} {ok}"
+                );
+                solved += 1;
+                if !ok {
+                    failed.push(name);
+                }
+            }
+            Err(why) => {
+                println!("{name:30} {why}");
+                if !why.starts_with("skipped") {
+                    failed.push(name);
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+    solved
+}
+
+#[test]
+fn contacts_in_single_precision() {
+    let solved = check(|name| !FAILING.contains(&name));
+    assert!(solved >= 15, "{solved}");
+}
+
+#[test]
+#[ignore = "bug: derivatives said to be wrong (Examples 4, 5), a spike of P (power 3/2)"]
+fn contacts_in_single_precision_that_fail_as_yet() {
+    assert_eq!(check(|name| FAILING.contains(&name)), FAILING.len());
+}

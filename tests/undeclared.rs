@@ -1,0 +1,298 @@
+//! Bodies that are not as smooth as one could wish, and nobody said so: kinks inside a curve, ends
+//! like square roots, uneven parameters, noise; and bodies of very many pieces.
+#![allow(missing_docs)]
+
+mod common;
+
+use approx::assert_relative_eq;
+use common::{graph, join, parabola, reference};
+use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Interval, Load, Piecewise, Solution};
+use std::f64::consts::PI;
+
+fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, most: usize) {
+    let (got, cost) = (solution.interval(), solution.cost());
+    let error = (got.left - want.left).abs().max((got.right - want.right).abs());
+    let (error, estimate) = (error / want.half_width(), solution.limits_error().unwrap());
+    println!("error {error:.1e}, said to be {estimate:.1e}, {cost:?}");
+    assert!(error <= tolerance, "{got:?} is not {want:?}");
+    assert!(cost.evaluations <= most, "{cost:?}");
+    assert!(error <= estimate, "error {error:e}, said to be {estimate:e}");
+}
+
+#[test]
+#[ignore = "bug: limits off by 1e-10, said to be 2e-14"]
+fn a_wedge_as_one_curve() {
+    // F = 2 m L/π, P = (2 m/π²) arcosh(L/|x - s|). The kink is in no special place.
+    for (m, s, l) in [(1.0, 0.1, 0.3), (0.2, -0.237, 0.6), (3.0, 0.0123, 1e-3)] {
+        let body = graph(-1.0, 1.0, move |x| [m * (x - s).abs(), m * (x - s).signum()]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Load::PerLength(2.0 * m * l / PI)).unwrap();
+        assert_solved(&solution, Interval { left: s - l, right: s + l }, 1e-10, 5000);
+        let pressure = solution.pressure().unwrap();
+        for i in -9..10 {
+            let z = 0.1 * f64::from(i) + 0.033;
+            let exact = 2.0 * m / (PI * PI) * (1.0 / z.abs()).acosh();
+            assert_relative_eq!(
+                pressure.at(s + z * l).unwrap(),
+                exact,
+                epsilon = 0.0,
+                max_relative = 1e-9
+            );
+        }
+    }
+}
+
+#[test]
+fn a_parabola_with_a_kink_as_one_curve() {
+    // The slope x + m sign(x - s): with sin φ = (s - c)/L the moments of the sign are elementary,
+    // m₀ = c - 2 m φ/π and m₁ = L/2 + 2 m cos φ/π. Both vanish, but for the load, at
+    // φ = π c/(2 m), F = L m₁.
+    let (m, c, l) = (0.2f64, 0.03, 0.4);
+    let phi = PI * c / (2.0 * m);
+    let s = c + l * phi.sin();
+    let load = l * (l / 2.0 + 2.0 * m * phi.cos() / PI);
+    let body =
+        graph(-1.0, 1.0, move |x| [x * x / 2.0 + m * (x - s).abs(), x + m * (x - s).signum()]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    assert_solved(&solution, Interval { left: c - l, right: c + l }, 1e-10, 5000);
+    // Declared, it is the same.
+    let declared = join(vec![
+        graph(-1.0, s, move |x| [x * x / 2.0 - m * (x - s), x - m]),
+        graph(s, 1.0, move |x| [x * x / 2.0 + m * (x - s), x + m]),
+    ]);
+    let contact = Contact::new(&Flat, &*declared).unwrap();
+    let declared = contact.solve(Load::PerLength(load)).unwrap();
+    assert_solved(&declared, Interval { left: c - l, right: c + l }, 1e-14, 200);
+    let [one, two] = [&solution, &declared].map(|solution| solution.pressure().unwrap());
+    for i in -9..10 {
+        let x = c + l * (0.1 * f64::from(i) + 0.033);
+        let (one, two) = (one.at(x).unwrap(), two.at(x).unwrap());
+        assert_relative_eq!(one, two, epsilon = 0.0, max_relative = 1e-9);
+    }
+}
+
+#[test]
+fn a_slope_like_a_square_root_as_one_curve() {
+    // |x|^(3/2)/(3/2), its lowest point moved to 0.1.
+    let want = reference("power_n_3_over_2");
+    let s = 0.1;
+    let body = graph(-2.0, 2.0, move |x| {
+        let root = (x - s).abs().sqrt();
+        [(x - s).abs() * root / 1.5, root * (x - s).signum()]
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
+    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    assert_solved(&solution, Interval { left: s - want.b, right: s + want.a }, 1e-10, 5000);
+    let pressure = solution.pressure().unwrap();
+    let largest = want.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
+    for &[x, exact] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.99) {
+        let got = pressure.estimate(s + x, &mut Cost::default()).unwrap();
+        let error = (got.value - exact).abs();
+        println!("z = {:9.1e}: error {error:.1e}, said to be {:.1e}", want.z(x), got.error);
+        // At the very place P has a cusp of infinite slope.
+        let tolerance = if want.z(x).abs() < 1e-2 { 1e-5 } else { 1e-9 };
+        assert!(error <= tolerance * largest, "P({x}): off by {error:e}");
+    }
+}
+
+#[test]
+fn an_end_like_a_square_root() {
+    // A parabola of which the right half goes over into a vertical tangent just outside the
+    // contact: slope x + h(x) with h of a square-root end at x = e.
+    let e = 0.301;
+    let slope = move |x: f64| x + 0.01 * (1.0 - (1.0 - (x / e).min(1.0)).sqrt());
+    let primitive = move |x: f64| {
+        let rest = 1.0 - (x / e).min(1.0);
+        x * x / 2.0 + 0.01 * (x + e * 2.0 / 3.0 * (rest * rest.sqrt() - 1.0))
+    };
+    let body = graph(-0.6, e, move |x| [primitive(x), slope(x)]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    // The contact whose right limit is 0.3, its left found by bisection on the mean slope, by
+    // Gauss's rule in θ, which is periodic and analytic short of e.
+    const N: usize = 4000;
+    let moments = |on: Interval<f64>| {
+        let nodes = (0..N).map(|i| PI * (i as f64 + 0.5) / N as f64);
+        nodes.fold([0.0, 0.0], |[mean, first], angle| {
+            let g = slope(on.centre() + on.half_width() * angle.cos());
+            [mean + g / N as f64, first + g * angle.cos() / N as f64]
+        })
+    };
+    let (mut lo, mut hi) = (-0.4, -0.2);
+    for _ in 0..60 {
+        let left = 0.5 * (lo + hi);
+        // The mean slope rises with the left limit.
+        if moments(Interval { left, right: 0.3 })[0] < 0.0 { lo = left } else { hi = left }
+    }
+    let on = Interval { left: lo, right: 0.3 };
+    let load = on.half_width() * moments(on)[1];
+    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    assert_solved(&solution, on, 1e-10, 3000);
+}
+
+#[test]
+fn parameters_that_run_unevenly() {
+    // A circle by its angle, by sinh, by a cube: the same contact.
+    let curve = |steep: f64| {
+        let scale = 1.4 / steep.sinh();
+        Curve::new([-1.0, 1.0], move |k: f64| {
+            let (angle, rate) = (scale * (steep * k).sinh(), scale * steep * (steep * k).cosh());
+            let (sin, cos) = angle.sin_cos();
+            CurvePoint { x: sin, y: 1.0 - cos, dx: cos * rate, dy: sin * rate }
+        })
+    };
+    // L₁ of the circle: m₁ = (1/π) ∫ L cos²θ/sqrt(1 - L² cos²θ) dθ, by the midpoint rule.
+    let l = 0.4f64;
+    let first = (0..200).map(|i| {
+        let x = l * (PI * (f64::from(i) + 0.5) / 200.0).cos();
+        x * x / l / (1.0 - x * x).sqrt() / 200.0
+    });
+    let load = l * first.sum::<f64>();
+    for (steep, most) in [(1e-3, 80), (1.0, 80), (3.0, 200), (10.0, 400), (40.0, 2000)] {
+        let body = curve(steep);
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, most);
+    }
+}
+
+/// Between -1 and 1, at random but the same for the same k.
+fn hash(k: f64) -> f64 {
+    let mut bits = k.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    bits = (bits ^ (bits >> 32)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    bits ^= bits >> 32;
+    (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// Solves a parabola whose slope is noisy.
+fn check_noise(noise: f64, most: usize) {
+    let l = 0.4;
+    let body = graph(-1.0, 1.0, move |x| [x * x / 2.0, x + noise * hash(x)]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+    let estimate = solution.limits_error().unwrap();
+    println!("noise {noise:.0e}");
+    assert_solved(&solution, Interval { left: -l, right: l }, 10.0 * noise / l, most);
+    assert!(estimate >= 0.1 * noise / l && estimate <= 100.0 * noise / l, "{estimate:e}");
+    let pressure = solution.pressure().unwrap();
+    for i in -9..10 {
+        let x = 0.1 * f64::from(i) * l;
+        let exact = (l * l - x * x).sqrt() / PI;
+        let got = pressure.estimate(x, &mut Cost::default()).unwrap();
+        let error = (got.value - exact).abs();
+        assert!(error <= 20.0 * noise, "P({x}) is off by {error:e}");
+        // Known from a few coefficients only.
+        assert!(error <= 4.0 * got.error, "P({x}): {error:e}, said to be {:e}", got.error);
+    }
+}
+
+#[test]
+fn a_little_noise_is_seen_reported_and_not_followed() {
+    for noise in [1e-13, 1e-12, 1e-11, 1e-10, 1e-9] {
+        check_noise(noise, 2000);
+    }
+}
+
+#[test]
+fn much_noise_is_seen_and_reported() {
+    for noise in [1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
+        check_noise(noise, usize::MAX);
+    }
+}
+
+#[test]
+#[ignore = "bug: 60 000 evaluations from a noise of 1e-5 on"]
+fn much_noise_is_not_followed() {
+    for noise in [1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
+        check_noise(noise, 2000);
+    }
+}
+
+/// A parabola cut into equal pieces.
+fn cut(pieces: usize, reach: f64) -> impl linecontact::ParametricProfile<f64> {
+    let x = move |i: usize| reach * (2.0 * i as f64 / pieces as f64 - 1.0);
+    let piece = |i: usize| {
+        Curve::new([x(i), x(i + 1)], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k })
+    };
+    Piecewise::new((0..pieces).map(piece).collect()).unwrap()
+}
+
+#[test]
+fn the_cost_of_pieces_is_linear() {
+    // The contact covers all but a part of the outermost pieces.
+    let mut shares = Vec::new();
+    for pieces in [10, 50, 100, 200, 400, 1000] {
+        let body = cut(pieces, 1.0);
+        let l = 1.0 - 0.7 / pieces as f64;
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let contact = contact.start(Interval { left: -l, right: l });
+        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 20 * pieces);
+        let pressure = solution.pressure().unwrap();
+        for i in -9..10 {
+            let x = 0.1 * f64::from(i) * l + 0.0123;
+            let exact = (l * l - x * x).sqrt() / PI;
+            let got = pressure.at(x).unwrap();
+            assert_relative_eq!(got, exact, epsilon = 0.0, max_relative = 1e-13);
+        }
+        shares.push(solution.cost().evaluations as f64 / pieces as f64);
+    }
+    println!("evaluations a piece: {shares:?}");
+    let (least, most) =
+        shares.iter().fold((f64::MAX, 0.0f64), |(lo, hi), &s| (lo.min(s), hi.max(s)));
+    assert!(most <= 1.3 * least, "{shares:?}");
+}
+
+#[test]
+fn few_of_many_pieces_are_looked_at() {
+    // The contact covers a hundredth of them.
+    let body = cut(1000, 1.0);
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let l = 0.0103;
+    for contact in [contact.clone(), contact.start(Interval { left: -0.02, right: 0.02 })] {
+        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 20_000);
+    }
+    let smooth = parabola(1.0);
+    let smooth = Contact::new(&Flat, &*smooth).unwrap();
+    let smooth = smooth.solve(Load::PerLength(l * l / 2.0)).unwrap();
+    assert_solved(&smooth, Interval { left: -l, right: l }, 1e-14, 60);
+}
+
+/// The circle of radius 1 under F = L²/2, where its height `1 - cos k` keeps few digits or none;
+/// the slope, which counts, keeps all.
+fn touch_lightly<T: linecontact::Real>(half_widths: &[f64], tolerance: f64) {
+    let circle = Curve::new([-T::one(), T::one()], |k: T| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: sin, y: T::one() - cos, dx: cos, dy: sin }
+    });
+    let contact = Contact::new(&Flat, &circle).unwrap();
+    for &half_width in half_widths {
+        let l = T::of(half_width);
+        let solution = contact.solve(Load::PerLength(l * l * T::of(0.5)));
+        let solution = solution.unwrap_or_else(|error| panic!("L = {half_width:e}: {error}"));
+        // F = L²/2 (1 + 3 L²/8 + ...).
+        let close = T::of(tolerance + half_width * half_width);
+        for limit in [solution.a(), solution.b()] {
+            assert!((limit / l - T::one()).abs() <= close, "{limit} is not {half_width:e}");
+        }
+    }
+}
+
+#[test]
+fn a_circle_under_light_loads() {
+    touch_lightly::<f64>(&[1e-3, 1e-5, 1e-6, 1e-7], 1e-14);
+    touch_lightly::<f32>(&[1e-1, 1e-2, 2e-3], 1e-5);
+}
+
+#[test]
+#[ignore = "bug: the derivative is said to be wrong"]
+fn a_circle_whose_height_is_all_rounding() {
+    touch_lightly::<f64>(&[1e-8, 1e-9, 1e-12], 1e-14);
+}
+
+#[test]
+#[ignore = "bug: the derivative is said to be wrong"]
+fn a_circle_whose_height_is_all_rounding_in_single_precision() {
+    touch_lightly::<f32>(&[1e-3, 7.5e-4, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6], 1e-5);
+}
