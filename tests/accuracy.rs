@@ -122,7 +122,6 @@ fn the_cost_falls_with_each_looser_tolerance() {
 }
 
 #[test]
-#[ignore = "bug: Singular at a joint from a tolerance of 1e-6 on"]
 fn a_joint_is_no_singularity_at_any_tolerance() {
     // The slope of |x|²⁰/20 is continuous at its joint.
     let want = reference("power_n_20");

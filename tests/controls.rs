@@ -176,7 +176,6 @@ fn more_than_the_bodies_can_give_is_an_error() {
 }
 
 #[test]
-#[ignore = "bug: NoBalance, as if the gap closed nowhere"]
 fn the_error_says_that_the_bodies_are_too_short() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
@@ -205,7 +204,6 @@ fn half_widths_up_to_the_ends_of_the_bodies() {
 }
 
 #[test]
-#[ignore = "bug: NoBalance, where a trial is wider than the bodies"]
 fn peaks_up_to_the_ends_of_the_bodies() {
     // p₀ = L/π.
     for reach in [1.0, 3.0] {

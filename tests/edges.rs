@@ -332,7 +332,6 @@ fn adhesion_bears_a_pull_down_to_pull_off() {
 }
 
 #[test]
-#[ignore = "bug: PullOff where g(a) < 0 at the free edge, though P > 0 next to it"]
 fn one_adhesive_edge_bears_a_pull_down_to_pull_off() {
     // Under 0.84 of the load the free edge passes x = 0, the lowest point of the body.
     let [_, left, right] = PullOff::cases();

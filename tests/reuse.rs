@@ -114,7 +114,6 @@ fn a_hundred_time_steps() {
 }
 
 #[test]
-#[ignore = "bug: OutsideBodies, about the contact of the scene before"]
 fn the_last_contact_may_lie_beyond_the_next_bodies() {
     let scene = |middle: f64| {
         graph(middle - 1.0, middle + 1.0, move |x| [(x - middle).powi(2) / 2.0, x - middle])
@@ -134,7 +133,6 @@ fn the_last_contact_may_lie_beyond_the_next_bodies() {
 }
 
 #[test]
-#[ignore = "bug: OutsideBodies or Inversion, where the scene before lies beyond the bodies"]
 fn one_solver_serves_scenes_that_have_nothing_in_common() {
     let scenes = scenes();
     let mut solver = scenes[0].contact().solver().unwrap();

@@ -20,7 +20,6 @@ fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, 
 }
 
 #[test]
-#[ignore = "bug: limits off by 1e-10, said to be 2e-14"]
 fn a_wedge_as_one_curve() {
     // F = 2 m L/π, P = (2 m/π²) arcosh(L/|x - s|). The kink is in no special place.
     for (m, s, l) in [(1.0, 0.1, 0.3), (0.2, -0.237, 0.6), (3.0, 0.0123, 1e-3)] {
@@ -201,7 +200,6 @@ fn much_noise_is_seen_and_reported() {
 }
 
 #[test]
-#[ignore = "bug: 60 000 evaluations from a noise of 1e-5 on"]
 fn much_noise_is_not_followed() {
     for noise in [1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
         check_noise(noise, 2000);
@@ -286,13 +284,11 @@ fn a_circle_under_light_loads() {
 }
 
 #[test]
-#[ignore = "bug: the derivative is said to be wrong"]
 fn a_circle_whose_height_is_all_rounding() {
     touch_lightly::<f64>(&[1e-8, 1e-9, 1e-12], 1e-14);
 }
 
 #[test]
-#[ignore = "bug: the derivative is said to be wrong"]
 fn a_circle_whose_height_is_all_rounding_in_single_precision() {
     touch_lightly::<f32>(&[1e-3, 7.5e-4, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6], 1e-5);
 }

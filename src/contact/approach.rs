@@ -30,8 +30,12 @@ pub(super) fn find<T: Real>(
     let mut conditions = conditions;
     let corners = conditions.edges;
     // A corner holds the contact as long as it presses there; a width may be had without it.
+    let range = contact.gap.range();
     for edge in &mut conditions.edges {
         if let Edge::UpTo(x) = *edge {
+            if !(x >= range[0] && x <= range[1]) {
+                return Err(ContactError::OutsideBodies { x, range });
+            }
             let held = matches!(conditions.control, Control::Load(_));
             *edge = if held { Edge::Fixed(x) } else { Edge::Free };
         }
@@ -41,7 +45,18 @@ pub(super) fn find<T: Real>(
     if pulled && adhesive && conditions.edges.iter().any(|edge| edge.limit().is_none()) {
         return pull::find(contact, &conditions, engine, warm, cost);
     }
-    let mut found = with_edges(contact, &conditions, engine, warm, cost)?;
+    let mut found = match with_edges(contact, &conditions, engine, warm, cost) {
+        Err(error) if conditions.edges != corners => {
+            // A corner that is far off may not be held at all.
+            for (edge, corner) in conditions.edges.iter_mut().zip(&corners) {
+                if let Edge::UpTo(_) = corner {
+                    *edge = Edge::Free;
+                }
+            }
+            with_edges(contact, &conditions, engine, warm, cost).map_err(|_| error)?
+        }
+        found => found?,
+    };
     for _ in 0..4 {
         let on = found.interval;
         let mut changed = false;
@@ -93,6 +108,8 @@ pub(super) fn with_edges<T: Real>(
         }
     }
     let mut settled = None;
+    let range = gap.range();
+    let warm = warm.filter(|on| on.left >= range[0] && on.right <= range[1]);
     if contact.search.is_none() {
         let guess = match warm {
             Some(warm) => Some((warm, T::of(0.02))),
@@ -100,12 +117,18 @@ pub(super) fn with_edges<T: Real>(
         };
         // What was sampled for the last load serves for the next.
         if let (Some((guess, _)), Some(covered)) = (guess, engine.covered()) {
-            settled = settle(engine, gap, conditions, guess, Effort::Full)?
+            let again = settle(engine, gap, conditions, guess, Effort::Full);
+            settled = again
+                .unwrap_or(None)
                 .filter(|settled| settled.on.half_width() >= T::of(0.3) * covered.half_width());
         }
         if settled.is_none() {
             let guess = guess.unwrap_or_else(|| (start(contact, conditions), T::of(0.02)));
-            settled = in_full(contact, conditions, engine, guess)?;
+            settled = match in_full(contact, conditions, engine, guess) {
+                // About the contact of another scene.
+                Err(_) if warm.is_some() => None,
+                settled => settled?,
+            };
         }
     }
     if settled.is_none() && warm.is_some() {

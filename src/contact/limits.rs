@@ -108,7 +108,11 @@ pub(super) fn place<T: Real>(
         Search { goal, gap, engine, cost, strategy, origin, range, load, share, stiffness };
     match search.place(half_width)? {
         Placed::At(trial) => Ok(Nested { on: trial.on, error: trial.excess.error }),
-        Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
+        Placed::Beyond(end) => Err(ContactError::OutsideBodies {
+            x: [origin - half_width, origin + half_width][end],
+            range,
+        }),
+        Placed::Adrift => Err(search.no_balance(half_width)),
     }
 }
 

@@ -132,6 +132,9 @@ fn opening<T: Real>(
     to: Interval<T>,
 ) -> Interval<T> {
     let (zero, half) = (T::zero(), T::of(0.5));
+    if is_pulled(conditions) {
+        return to;
+    }
     let cut = |from: T, to: T, sign: T| {
         let opens = |x: T| engine.slope(x).is_none_or(|slope| slope * sign > zero);
         if opens(to) || !opens(from) {
@@ -151,12 +154,18 @@ fn opening<T: Real>(
     }
 }
 
+/// Whether adhesion acts, under which the bodies need not open at the other edge either.
+fn is_pulled<T: Real>(conditions: &Conditions<T>) -> bool {
+    conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
+}
+
 /// Whether the bodies open at those edges of a contact that are free.
 fn opens<T: Real>(engine: &dyn Engine<T>, conditions: &Conditions<T>, on: Interval<T>) -> bool {
     let opens = |x: T, sign: T| engine.slope(x).is_none_or(|slope| slope * sign >= T::zero());
     let [left, right] = &conditions.edges;
-    (!left.is_free() || opens(on.left, -T::one()))
-        && (!right.is_free() || opens(on.right, T::one()))
+    is_pulled(conditions)
+        || (!left.is_free() || opens(on.left, -T::one()))
+            && (!right.is_free() || opens(on.right, T::one()))
 }
 
 /// The equations, linearised: rows for a, -b and the control; columns in units of the half-width

@@ -103,8 +103,26 @@ pub(super) fn find<T: Real>(
     let start = warm.or(contact.start).map(|on| on.half_width());
     let mut half_width = start.unwrap_or(T::of(1.0 / 64.0) * (range[1] - range[0]));
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
+    let mut too_wide: Option<T> = None;
     for _ in 0..MOST_WIDTHS {
-        let (found, pressure) = attempt(half_width)?;
+        let (found, pressure) = match attempt(half_width) {
+            Ok(trial) => trial,
+            // Too wide for the bodies: half the way back.
+            Err(
+                error @ (ContactError::OutsideBodies { .. }
+                | ContactError::TooShort { .. }
+                | ContactError::NoBalance { .. }),
+            ) => {
+                let from = low.map_or(T::zero(), |[half_width, _]| half_width);
+                too_wide = Some(half_width);
+                half_width = T::of(0.5) * (from + half_width);
+                if half_width - from <= T::of(1e-9) * half_width {
+                    return Err(error);
+                }
+                continue;
+            }
+            Err(error) => return Err(error),
+        };
         if pressure == wanted {
             return Ok(found);
         }
@@ -141,7 +159,11 @@ pub(super) fn find<T: Real>(
         // The pressure of a round body grows with the half-width.
         let factor = wanted / pressure;
         let factor = if pressure < wanted { factor * T::of(1.2) } else { factor / T::of(1.2) };
+        let last = half_width;
         half_width *= factor.max(T::of(1e-3)).min(T::of(4.0));
+        if let Some(too_wide) = too_wide.filter(|&too_wide| half_width >= too_wide) {
+            half_width = T::of(0.5) * (last + too_wide);
+        }
     }
     let found = low.or(high).map_or(T::zero(), |[_, pressure]| pressure);
     Err(ContactError::NoPeak { wanted, half_width, found })

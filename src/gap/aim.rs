@@ -47,13 +47,22 @@ pub(crate) struct Trace<T> {
     current: usize,
     /// Where `X(k) = x` needs no solving there is no `Y`, and the knots are at their targets.
     pub direct: bool,
+    /// The largest `|Y|` at the ends of the piece.
+    pub height: T,
 }
 
 impl<T: Real> Trace<T> {
     pub fn new() -> Self {
         let nil = T::zero();
         let knot = Knot { k: nil, x: nil, y: nil, dx: nil, slope: nil };
-        Self { piece: None, len: 0, rows: [[knot; MOST]; 2], current: 0, direct: false }
+        Self {
+            piece: None,
+            len: 0,
+            rows: [[knot; MOST]; 2],
+            current: 0,
+            direct: false,
+            height: nil,
+        }
     }
 
     /// Forgets what was sampled: the body is another.
@@ -94,6 +103,7 @@ pub(crate) fn aim<T: Real>(
         return Ok(());
     }
     trace.direct = false;
+    trace.height = piece.ends[0].y.abs().max(piece.ends[1].y.abs());
     let Trace { len, rows: [one, other], current, .. } = trace;
     let (knots, spare) = if *current == 0 { (one, other) } else { (other, one) };
     let mut shot = Shot {

@@ -153,7 +153,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         self.moments(gap, on)?;
-        self.conjugate.set(&self.cover.panels, on, self.cover.size);
+        self.conjugate.set(&self.cover.panels, on, self.cover.size, self.cover.tolerance);
         Ok(())
     }
 

@@ -87,6 +87,8 @@ pub(super) struct Conjugate<T> {
     near: bool,
     /// The largest slope.
     size: T,
+    /// The largest jump that the series may have where there is only a kink.
+    kink: T,
 }
 
 /// A panel, or what of it lies in the contact.
@@ -105,12 +107,21 @@ struct Part<T> {
 impl<T: Real> Conjugate<T> {
     pub fn new() -> Self {
         let on = Interval { left: T::zero(), right: T::zero() };
-        Self { on, parts: Vec::new(), used: 0, nodes: Vec::new(), near: true, size: T::zero() }
+        Self {
+            on,
+            parts: Vec::new(),
+            used: 0,
+            nodes: Vec::new(),
+            near: true,
+            size: T::zero(),
+            kink: T::zero(),
+        }
     }
 
     /// Sets it to a contact that the panels cover.
-    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, size: T) {
+    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, size: T, tolerance: T) {
         (self.on, self.size) = (on, size);
+        self.kink = size * T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         self.used = 0;
         self.nodes.clear();
         self.near = true;
@@ -236,7 +247,7 @@ impl<T: Real> Conjugate<T> {
 
     /// Whether a jump at a joint is nothing but what rounding makes of a kink.
     fn is_kink(&self, jump: T) -> bool {
-        jump.abs() <= T::epsilon().sqrt() * self.size
+        jump.abs() <= self.kink
     }
 
     /// Estimated error of `π² R` at a point, from what the series leave open.

@@ -8,6 +8,10 @@ use crate::{Body, ContactError, Interval, ProfileError, Real};
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
 
+/// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
+/// is not resolved yet.
+const NOISY_LEVEL: usize = 4;
+
 /// What a panel has met.
 struct Seen<T> {
     /// The largest slope of the gap.
@@ -18,12 +22,29 @@ struct Seen<T> {
     noise: T,
 }
 
+/// A panel that may have to be split.
+#[derive(Clone, Copy)]
+struct Trial<T> {
+    panel: Panel<T>,
+    split: bool,
+    /// The error that it may have.
+    allowed: T,
+    /// How often the stretch has been halved.
+    level: usize,
+}
+
+/// Whether a panel can be halved: it is longer than a few units in the last place.
+fn is_long<T: Real>([left, right]: [T; 2]) -> bool {
+    let middle = T::of(0.5) * left + T::of(0.5) * right;
+    let fine = T::of(8.0) * T::epsilon() * left.abs().max(right.abs());
+    right - left > fine && middle > left && middle < right
+}
+
 /// A row of panels, from left to right without gaps.
 pub(super) struct Cover<T> {
     pub panels: Vec<Panel<T>>,
-    /// Stretches still to be sampled, with what was left open when they were one with their
-    /// neighbour.
-    waiting: Vec<(T, T, Option<T>)>,
+    /// Panels still to be looked at, the leftmost last.
+    waiting: Vec<Trial<T>>,
     traces: [Trace<T>; 2],
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
@@ -110,50 +131,89 @@ impl<T: Real> Cover<T> {
     /// Samples a stretch without joints.
     fn resolve(&mut self, gap: &Gap<'_, T>, left: T, right: T) -> Result<(), ContactError<T>> {
         self.waiting.clear();
+        let begin = self.panels.len();
+        let mut next = Some(self.trial(gap, [left, right], 0)?);
         let mut splits = 0;
-        let mut next = Some((left, right, None));
-        while let Some((left, right, parent)) = next.or_else(|| self.waiting.pop()) {
-            next = None;
-            let mut n = if self.rough { 4 } else { self.first };
-            let (panel, split) = loop {
-                let (mut panel, Seen { slope, bodies, noise }) =
-                    self.panel(gap, [left, right], n)?;
-                if parent.is_none() {
-                    self.size = self.size.max(slope);
-                }
-                // Next to a singularity the slope may be large, or noisy, beyond all that counts
-                // elsewhere.
-                let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-                let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
-                let (tail, next, split) = match verdict {
-                    Verdict::Good(tail) | Verdict::Noise(tail) => (tail, None, false),
-                    Verdict::Take(next, tail) => (tail, Some(next), true),
-                    Verdict::Split(tail) => (tail, None, true),
-                };
-                panel.tail = tail;
-                match next {
-                    Some(next) if !self.rough => n = next,
-                    _ => break (panel, split && !self.rough),
-                }
-            };
+        while let Some(trial) = next.take().or_else(|| self.waiting.pop()) {
+            let [left, right] = trial.panel.x;
             let middle = T::of(0.5) * left + T::of(0.5) * right;
-            // Noise is what a shorter panel has as much of.
-            let noise =
-                |parent| panel.tail >= T::of(0.8) * parent && panel.tail <= T::of(1e-6) * self.size;
-            let fine = T::of(8.0) * T::epsilon() * left.abs().max(right.abs());
-            let long = right - left > fine && middle > left && middle < right;
-            if split && long && splits < MOST_SPLITS && !parent.is_some_and(noise) {
+            if trial.split && splits < MOST_SPLITS && is_long(trial.panel.x) {
                 splits += 1;
-                self.waiting.push((middle, right, Some(panel.tail)));
-                next = Some((left, middle, Some(panel.tail)));
-            } else {
-                if !self.rough {
-                    self.check_slopes()?;
+                let level = trial.level + 1;
+                let mut one = self.trial(gap, [left, middle], level)?;
+                let mut other = self.trial(gap, [middle, right], level)?;
+                // Noise is what both halves have as much of. A wave that is not resolved yet has,
+                // too, if it is no longer faint.
+                let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
+                let as_much = |half: &Trial<T>| {
+                    half.split && half.panel.tail >= T::of(0.8) * trial.panel.tail
+                };
+                if faint && as_much(&one) && as_much(&other) {
+                    (one.split, other.split) = (false, false);
                 }
-                self.panels.push(panel);
+                self.waiting.push(other);
+                next = Some(one);
+                continue;
             }
+            // What happens between the last node and the end of a panel shows at its neighbour.
+            let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
+            if let Some(before) = before.filter(|before| !self.meets(before, &trial)) {
+                let finer = is_long(trial.panel.x) || is_long(before.x);
+                if finer && splits < MOST_SPLITS && !self.rough {
+                    self.panels.pop();
+                    let again = |panel, trial: &Trial<T>| Trial { panel, split: true, ..*trial };
+                    self.waiting.push(again(trial.panel, &trial));
+                    self.waiting.push(again(before, &trial));
+                    continue;
+                }
+            }
+            self.panels.push(trial.panel);
         }
         Ok(())
+    }
+
+    /// Whether two neighbours have the same slope where they meet.
+    fn meets(&self, left: &Panel<T>, right: &Trial<T>) -> bool {
+        let [from, to] = [(left, T::one()), (&right.panel, -T::one())]
+            .map(|(panel, s)| value_at(panel.coefficients(), s));
+        let doubt = left.tail + right.panel.tail + right.allowed;
+        (from - to).abs() <= T::of(16.0) * doubt
+    }
+
+    /// Samples a panel with as many nodes as it takes, or says that it must be split.
+    fn trial(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+        level: usize,
+    ) -> Result<Trial<T>, ContactError<T>> {
+        let mut n = if self.rough { 4 } else { self.first };
+        loop {
+            let (mut panel, Seen { slope, bodies, noise }) = self.panel(gap, x, n)?;
+            if level == 0 {
+                self.size = self.size.max(slope);
+            }
+            // Next to a singularity the slope may be large, or noisy, beyond all that counts
+            // elsewhere.
+            let allowed = (self.tolerance * self.size.max(slope)).max(noise);
+            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
+            let (tail, next, split) = match verdict {
+                Verdict::Good(tail) | Verdict::Noise(tail) => (tail, None, false),
+                Verdict::Take(next, tail) => (tail, Some(next), true),
+                Verdict::Split(tail) => (tail, None, true),
+            };
+            panel.tail = tail;
+            match next {
+                Some(next) if !self.rough => n = next,
+                _ if self.rough => return Ok(Trial { panel, split: false, allowed, level }),
+                _ => {
+                    if !split {
+                        self.check_slopes()?;
+                    }
+                    return Ok(Trial { panel, split, allowed, level });
+                }
+            }
+        }
     }
 
     /// Samples one panel with n nodes.
@@ -225,7 +285,7 @@ impl<T: Real> Cover<T> {
                     worst = (miss, one, rise / run);
                 }
             }
-            let noise = T::of(1e4) * T::epsilon() * rounded;
+            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height);
             let reach = knots[knots.len() - 1].x - knots[0].x;
             let noise = noise + T::of(1e-6) * self.size * reach;
             if off > T::of(0.1) * sum + noise {
