@@ -93,13 +93,11 @@ fn the_estimates_are_no_idle_doubt() {
 }
 
 #[test]
-#[ignore = "bug: errors of P up to 1.7 times what is said"]
 fn the_estimates_cover_all_errors() {
     check_cover(|name| BEYOND.contains(&name));
 }
 
 #[test]
-#[ignore = "bug: estimates of P 17 000 times too large over the rounded punch, 1300 in Example 4"]
 fn the_estimates_are_nowhere_idle_doubt() {
     check_idle_doubt(|name| IDLE.contains(&name));
 }

@@ -204,7 +204,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let of_series = kappa * self.conjugate.error(x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
-        let of_edges = T::of(4.0) * strength / (T::pi() * on.edge_root(x));
+        let of_edges = T::of(6.0) * strength / (T::pi() * on.edge_root(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
         Ok(Estimate { value: value[0], error })
     }

@@ -267,7 +267,7 @@ impl<T: Real> Conjugate<T> {
                 sum += part.panel.tail * sine * length / away;
             }
         }
-        T::of(4.0) * (sum + here + T::of(8.0) * T::epsilon() * self.size * sine)
+        T::of(8.0) * (sum + here)
     }
 }
 

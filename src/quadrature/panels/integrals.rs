@@ -40,7 +40,7 @@ pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: boo
         T::one() / T::pi()
     };
     // A formula of a few terms is good to a few units in the last place.
-    let rounding = T::of(12.0) * T::epsilon() * sums.size;
+    let rounding = T::of(16.0) * T::epsilon() * sums.size;
     let half_width = on.half_width();
     let [by_0, by_1, by_2] = sums.slope;
     Moments {

@@ -95,7 +95,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let plateau = third(2);
     let faint = plateau <= rounded / T::epsilon().cbrt();
     if n >= 12 && faint && plateau >= T::of(0.42) * third(1) {
-        return Verdict::Noise(T::of(4.0) * plateau);
+        return Verdict::Noise(T::of(1.5) * plateau);
     }
     if faint && n < MOST {
         return Verdict::Take(if n < 8 { 8 } else { MOST }, last);
