@@ -121,7 +121,9 @@ impl<T: Real> Conjugate<T> {
     /// Sets it to a contact that the panels cover.
     pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, size: T, tolerance: T) {
         (self.on, self.size) = (on, size);
-        self.kink = size * T::epsilon().sqrt().max(T::of(64.0) * tolerance);
+        let tail = panels.iter().fold(T::zero(), |max, panel| max.max(panel.tail));
+        let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
+        self.kink = size * rounding + T::of(64.0) * tail;
         self.used = 0;
         self.nodes.clear();
         self.near = true;
