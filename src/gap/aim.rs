@@ -6,7 +6,7 @@
 //! where the curve then turns out to be is where the node is. On a range that the curve crosses
 //! evenly this takes one evaluation a node, all of them in one batch. A target that is missed by
 //! more than a tenth of the distance to its neighbours is searched for with the user's strategy,
-//! which is stopped as soon as it is near.
+//! which is stopped as soon as it is near: it meets a zero there.
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, turning_point};
