@@ -30,9 +30,9 @@
 //! - [`profile`]: bodies, from a closure, a struct of your own, or pieces joined.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
-//! - [`quadrature`]: from that slope to edge strengths and pressure.
-//! - [`contact`]: the scene, and the search for its limits.
-//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back.
+//! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
+//! - [`contact`]: the scene, its edges, and the search for its limits.
+//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back. [`Solver`]: solving again and again.
 //!
 //! # Example
 //! ```
