@@ -5,8 +5,8 @@
 //! beside it, a stretch around it is sketched anew. Then a stretch a little wider than the
 //! contact is sampled in full, and Newton's method finds the limits on that. The nested search
 //! ([`limits`](super::limits)) takes over where this goes astray, and is used throughout where
-//! the user has chosen a strategy or the quadrature knows no derivatives; what it has found is
-//! then sampled and settled as before.
+//! the user has chosen a strategy or the quadrature knows no derivatives; it ends on panels made for
+//! the contact, too.
 
 use super::edges::{Conditions, Control, Edge, Goal};
 use super::limits::{self, Nested};
@@ -138,7 +138,20 @@ pub(super) fn with_edges<T: Real>(
     }
     if settled.is_none() {
         engine.forget();
-        let (nested, load) = nested(contact, conditions, engine, cost)?;
+        let (mut nested, mut load) = nested(contact, conditions, engine, contact.start, cost)?;
+        // Panels much wider than the contact are not as good as they look: search again on new ones.
+        for _ in 0..3 {
+            let covered = engine.covered().map(|on| on.half_width());
+            let wide = |covered: T| covered > T::of(1.25) * nested.on.half_width();
+            if contact.search.is_none() || !covered.is_some_and(wide) {
+                break;
+            }
+            let [left, right] = beyond(contact, nested.on, T::of(0.02));
+            let stretch = Interval { left: left.max(range[0]), right: right.min(range[1]) };
+            engine.cover(gap, with_corners(conditions, stretch), false)?;
+            let start = Some(nested.on);
+            (nested, load) = self::nested(contact, conditions, engine, start, cost)?;
+        }
         let error = Some(nested.error);
         if contact.search.is_none() {
             settled = in_full(contact, conditions, engine, (nested.on, T::zero()))?;
@@ -265,7 +278,7 @@ pub(super) fn in_full<T: Real>(
     let half = T::of(0.5);
     let (mut guess, mut best) = (guess, None);
     for _ in 0..3 {
-        let [left, right] = beyond(contact, guess, T::of(0.01) + doubt);
+        let [left, right] = beyond(contact, guess, T::of(0.02) + doubt);
         let stretch = Interval {
             left: left.max(half * guess.left + half * range[0]),
             right: right.min(half * guess.right + half * range[1]),
@@ -292,13 +305,14 @@ fn nested<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,
+    start: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<(Nested<T>, Option<T>), ContactError<T>> {
     let load = conditions.load();
     let goal = Goal::Strength { conditions: *conditions, load };
     match conditions.control {
         Control::Load(load) => {
-            let nested = limits::find(contact, load, goal, engine, contact.start, cost)?;
+            let nested = limits::find(contact, load, goal, engine, start, cost)?;
             Ok((nested, Some(load)))
         }
         Control::HalfWidth(half_width) => {

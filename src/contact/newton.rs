@@ -57,6 +57,8 @@ pub(super) fn settle<T: Real>(
     let mut on = conditions.with_given_limits(start);
     let mut load = conditions.load();
     let mut before: Option<T> = None;
+    // A step that was cut short tells nothing of the next.
+    let certain = |size: T| Some(size).filter(|&size| size <= T::of(0.25));
     for _ in 0..MOST_STEPS {
         let half_width = on.half_width();
         if !(half_width > T::zero() && half_width.is_finite()) {
@@ -95,7 +97,7 @@ pub(super) fn settle<T: Real>(
                 let sound = opens(engine, conditions, on) && system.is_stable(conditions);
                 return Ok(sound.then_some(Settled { on, load, error: size, force: size }));
             }
-            before = Some(size);
+            before = certain(size);
             continue;
         }
         let done = next <= half * T::epsilon() && size <= half * half;
@@ -118,7 +120,7 @@ pub(super) fn settle<T: Real>(
                 return Ok(Some(Settled { on, load, error: errors[0].max(errors[1]), force }));
             }
         }
-        before = Some(size);
+        before = certain(size);
     }
     Ok(None)
 }

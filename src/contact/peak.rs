@@ -103,20 +103,23 @@ pub(super) fn find<T: Real>(
     let start = warm.or(contact.start).map(|on| on.half_width());
     let mut half_width = start.unwrap_or(T::of(1.0 / 64.0) * (range[1] - range[0]));
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
-    let mut too_wide: Option<T> = None;
+    let (mut too_wide, mut narrowest): (Option<T>, Option<T>) = (None, None);
     for _ in 0..MOST_WIDTHS {
         let (found, pressure) = match attempt(half_width) {
             Ok(trial) => trial,
-            // Too wide for the bodies: half the way back.
+            // Too wide for the bodies, or beyond a place where the pressure is infinite: half the way
+            // back.
             Err(
-                error @ (ContactError::OutsideBodies { .. }
+                error @ (ContactError::NoPeak { .. }
+                | ContactError::OutsideBodies { .. }
                 | ContactError::TooShort { .. }
                 | ContactError::NoBalance { .. }),
             ) => {
                 let from = low.map_or(T::zero(), |[half_width, _]| half_width);
                 too_wide = Some(half_width);
                 half_width = T::of(0.5) * (from + half_width);
-                if half_width - from <= T::of(1e-9) * half_width {
+                let first = *narrowest.get_or_insert(T::of(1e-6) * half_width);
+                if half_width - from <= T::of(1e-9) * half_width || half_width < first {
                     return Err(error);
                 }
                 continue;

@@ -32,7 +32,8 @@ use cover::Cover;
 pub struct Panels {
     /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in
     /// the contact. Never taken below sixteen units in the last place, which is what the
-    /// default 0 stands for.
+    /// default 0 stands for. What a looser tolerance leaves open is estimated from a few coefficients,
+    /// and the error estimates may then be too small; the tolerance itself is what bounds the error.
     pub tolerance: f64,
 }
 
@@ -204,7 +205,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let of_series = kappa * self.conjugate.error(x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
-        let of_edges = T::of(6.0) * strength / (T::pi() * on.edge_root(x));
+        let of_edges = T::of(9.0) * strength / (T::pi() * on.edge_root(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
         Ok(Estimate { value: value[0], error })
     }

@@ -269,7 +269,7 @@ impl<T: Real> Conjugate<T> {
                 sum += part.panel.tail * sine * length / away;
             }
         }
-        T::of(8.0) * (sum + here)
+        T::of(12.0) * (sum + here)
     }
 }
 

@@ -157,7 +157,8 @@ impl<T: Real> Cover<T> {
             }
             // What happens between the last node and the end of a panel shows at its neighbour.
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
-            if let Some(before) = before.filter(|before| !self.meets(before, &trial)) {
+            let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
+            if let Some(before) = before.filter(apart) {
                 let finer = is_long(trial.panel.x) || is_long(before.x);
                 if finer && splits < MOST_SPLITS && !self.rough {
                     self.panels.pop();
@@ -173,10 +174,10 @@ impl<T: Real> Cover<T> {
     }
 
     /// Whether two neighbours have the same slope where they meet.
-    fn meets(&self, left: &Panel<T>, right: &Trial<T>) -> bool {
-        let [from, to] = [(left, T::one()), (&right.panel, -T::one())]
+    fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
+        let [from, to] = [(left, T::one()), (right, -T::one())]
             .map(|(panel, s)| value_at(panel.coefficients(), s));
-        let doubt = left.tail + right.panel.tail + right.allowed;
+        let doubt = left.tail + right.tail + allowed.max(self.tolerance * self.size);
         (from - to).abs() <= T::of(16.0) * doubt
     }
 
@@ -262,7 +263,7 @@ impl<T: Real> Cover<T> {
         Ok((Panel::new(x, n, table.coefficients(n, &slopes)), seen))
     }
 
-    /// Whether the heights of the last points agree with the slopes there, to a tenth: a wrong
+    /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
     /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
     fn check_slopes(&self) -> Result<(), ContactError<T>> {
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
@@ -288,7 +289,7 @@ impl<T: Real> Cover<T> {
             let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height);
             let reach = knots[knots.len() - 1].x - knots[0].x;
             let noise = noise + T::of(1e-6) * self.size * reach;
-            if off > T::of(0.1) * sum + noise {
+            if off > T::of(0.3) * sum + noise {
                 let (_, Knot { k, slope: given, .. }, difference) = worst;
                 let quantity = "the slope Y'/X'";
                 let source = ProfileError::Derivative { quantity, k, given, difference };
