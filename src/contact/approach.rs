@@ -13,7 +13,7 @@ use super::limits::{self, Nested};
 use super::newton::{Effort, Settled, settle};
 use super::{Contact, Found, pull};
 use crate::gap::Cost;
-use crate::quadrature::Engine;
+use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Interval, Real};
 
 /// Sketches before the approach is given up.
@@ -158,6 +158,7 @@ pub(super) fn with_edges<T: Real>(
         }
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
+            check_strengths(conditions, nested.on, &m)?;
             let load = load.unwrap_or(conditions.kappa * nested.on.half_width() * m.first);
             return Ok(Found::new(conditions, nested.on, load, error, &m));
         }
@@ -170,6 +171,26 @@ pub(super) fn with_edges<T: Real>(
         }
         None => unreachable!("one of the two ways has been taken"),
     }
+}
+
+/// What the nested search has found on panels that were changed under way must hold on those that
+/// it has left: no strength worth the name at a free edge.
+fn check_strengths<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    m: &Moments<T>,
+) -> Result<(), ContactError<T>> {
+    let Control::Load(load) = conditions.control else { return Ok(()) };
+    let stiffness = conditions.kappa * on.half_width();
+    let allowed = T::of(0.01) * (load.abs() + stiffness * m.size);
+    for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
+        let missed = load - stiffness * (m.first + sign * m.mean);
+        if edge.is_free() && missed.abs() > allowed {
+            let half_width = on.half_width();
+            return Err(ContactError::NoBalance { half_width, near: on.centre() });
+        }
+    }
+    Ok(())
 }
 
 /// The start, or the middle half of the bodies.

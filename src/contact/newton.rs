@@ -117,6 +117,10 @@ pub(super) fn settle<T: Real>(
                     |i: usize| T::of(4.0) * (noise[i] + rounding[i]) + left_over * step[i].abs();
                 let errors = [error(0), error(1)];
                 let force = system.force(errors);
+                // More doubt than this is no contact found.
+                if errors[0].max(errors[1]) > T::of(0.03) {
+                    return Ok(None);
+                }
                 return Ok(Some(Settled { on, load, error: errors[0].max(errors[1]), force }));
             }
         }
