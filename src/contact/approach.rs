@@ -158,7 +158,7 @@ pub(super) fn with_edges<T: Real>(
         }
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
-            check_strengths(conditions, nested.on, &m)?;
+            check_strengths(conditions, &nested, &m)?;
             let load = load.unwrap_or(conditions.kappa * nested.on.half_width() * m.first);
             return Ok(Found::new(conditions, nested.on, load, error, &m));
         }
@@ -174,15 +174,17 @@ pub(super) fn with_edges<T: Real>(
 }
 
 /// What the nested search has found on panels that were changed under way must hold on those that
-/// it has left: no strength worth the name at a free edge.
+/// it has left: no more strength at a free edge than the search says that it may have left.
 fn check_strengths<T: Real>(
     conditions: &Conditions<T>,
-    on: Interval<T>,
+    nested: &Nested<T>,
     m: &Moments<T>,
 ) -> Result<(), ContactError<T>> {
+    let on = nested.on;
     let Control::Load(load) = conditions.control else { return Ok(()) };
     let stiffness = conditions.kappa * on.half_width();
-    let allowed = T::of(0.01) * (load.abs() + stiffness * m.size);
+    let share = T::of(0.01).max(T::of(10.0) * nested.error);
+    let allowed = share * (load.abs() + stiffness * m.size);
     for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
         let missed = load - stiffness * (m.first + sign * m.mean);
         if edge.is_free() && missed.abs() > allowed {
