@@ -309,3 +309,31 @@ fn single_precision() {
         assert_relative_eq!(f64::from(peak), exact, epsilon = 0.0, max_relative = 1e-5);
     }
 }
+
+#[test]
+fn a_curvature_that_jumps_by_two_to_the_27th() {
+    // Mirrored, from any start, and by the paper's engine, which shares no code with the panels.
+    let steep = f64::from(1 << 27);
+    let bent = |bend: f64| move |x: f64| [bend * x * x / 2.0, bend * x];
+    let body = |left, right| {
+        common::join(vec![graph(-9.0, 0.0, bent(left)), graph(0.0, 9.0, bent(right))])
+    };
+    let (right, left) = (body(1.0, steep), body(steep, 1.0));
+    let rule = Midpoint::default();
+    let scene = Contact::new(&Flat, &*right).unwrap().quadrature(&rule);
+    let other = scene.solve(Load::PerLength(0.3)).unwrap();
+    for start in [None, Some((-0.3, 0.3)), Some((3.0, 4.0)), Some((-1e-7, 1e-7))] {
+        for (body, mirrored) in [(&right, false), (&left, true)] {
+            let mut contact = Contact::new(&Flat, &**body).unwrap();
+            if let Some((left, right)) = start {
+                contact = contact.start(Interval { left, right });
+            }
+            let solution = contact.solve(Load::PerLength(0.3)).unwrap();
+            let [a, b] =
+                if mirrored { [solution.b(), solution.a()] } else { [solution.a(), solution.b()] };
+            assert_relative_eq!(b, other.b(), epsilon = 0.0, max_relative = 2e-15);
+            // A millionth of the other, and as exact as that, compared with the half-width.
+            assert!((a - other.a()).abs() < 1e-15 * b, "{start:?} {a:e} {:e}", other.a());
+        }
+    }
+}
