@@ -164,11 +164,7 @@ pub(super) fn with_edges<T: Real>(
         }
     }
     match settled {
-        Some(Settled { on, load, error, force }) => {
-            let m = engine.moments(gap, on)?;
-            let found = Found::new(conditions, on, load, Some(error), &m);
-            Ok(Found { force: Some(force), ..found })
-        }
+        Some(settled) => contact_of(contact, conditions, engine, settled),
         None => unreachable!("one of the two ways has been taken"),
     }
 }
@@ -203,6 +199,17 @@ fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Inter
     let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
     let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
     conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle))
+}
+
+/// The contact that Newton's method has settled on.
+pub(super) fn contact_of<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    Settled { on, load, error, force }: Settled<T>,
+) -> Result<Found<T>, ContactError<T>> {
+    let m = engine.moments(&contact.gap, on)?;
+    Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
 }
 
 /// A first estimate of the contact, from sketches, and how far it is in doubt as a share of its

@@ -1,6 +1,6 @@
 //! Adhesive contacts that are pulled at.
 
-use super::approach::{in_full, with_edges};
+use super::approach::{contact_of, in_full, with_edges};
 use super::edges::{Conditions, Control};
 use super::{Contact, Found};
 use crate::gap::Cost;
@@ -24,12 +24,11 @@ pub(super) fn find<T: Real>(
         None => with_edges(contact, &under(T::zero()), engine, None, cost)?.interval,
     };
     let attempt = |engine: &mut dyn Engine<T>, load: T, from: Interval<T>| {
-        let Some(settled) = in_full(contact, &under(load), engine, (from, T::of(0.02)))? else {
-            return Ok(None);
-        };
-        let m = engine.moments(&contact.gap, settled.on)?;
-        let found = Found::new(&under(load), settled.on, load, Some(settled.error), &m);
-        Ok::<_, ContactError<T>>(Some(Found { force: Some(settled.force), ..found }))
+        let conditions = under(load);
+        match in_full(contact, &conditions, engine, (from, T::of(0.02)))? {
+            Some(settled) => contact_of(contact, &conditions, engine, settled).map(Some),
+            None => Ok(None),
+        }
     };
     if let Some(found) = attempt(engine, load, last)? {
         return Ok(found);
