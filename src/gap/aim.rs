@@ -4,9 +4,10 @@
 //! is as good as at them. So nothing is inverted. The parameter of each target is read off the
 //! cubic `k(x)` through the two known points around it (`dk/dx = 1/X'` is known there too), and
 //! where the curve then turns out to be is where the node is. On a range that the curve crosses
-//! evenly this takes one evaluation a node, all of them in one batch. A target that is missed by
-//! more than a tenth of the distance to its neighbours is searched for with the user's strategy,
-//! which is stopped as soon as it is near: it meets a zero there.
+//! evenly this takes one evaluation a node, all of them in one batch. Where nothing is known but the
+//! far ends of a piece, the first point is found by a few steps of Newton's rule. A target that is
+//! missed by more than a tenth of the distance to its neighbours is searched for with the user's
+//! strategy, which is stopped as soon as it is near: it meets a zero there.
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, turning_point};
@@ -18,6 +19,9 @@ const MOST: usize = 24;
 
 /// By how much of the distance to the next target a node may miss its own, and for a sketch.
 const NEAR: [f64; 2] = [0.1, 0.45];
+
+/// Steps of Newton's rule to the first target, before it is left to the user's strategy.
+const STEPS: usize = 4;
 
 /// A known point of a curve.
 #[derive(Clone, Copy, Debug)]
@@ -36,42 +40,64 @@ impl<T: Real> Knot<T> {
     }
 }
 
+/// The two ends of a piece and the known points between them, from left to right.
+#[derive(Clone, Debug)]
+struct Knots<T> {
+    /// How many there are between the ends.
+    len: usize,
+    row: [Knot<T>; MOST + 2],
+}
+
+impl<T: Real> Knots<T> {
+    fn new() -> Self {
+        let nil = T::zero();
+        let knot = Knot { k: nil, x: nil, y: nil, dx: nil, slope: nil };
+        Self { len: 0, row: [knot; MOST + 2] }
+    }
+
+    fn ends(&self) -> [Knot<T>; 2] {
+        [self.row[0], self.row[self.len + 1]]
+    }
+
+    fn set_ends(&mut self, [left, right]: [Knot<T>; 2], len: usize) {
+        self.len = len;
+        (self.row[0], self.row[len + 1]) = (left, right);
+    }
+
+    fn inner(&self) -> &[Knot<T>] {
+        &self.row[1..=self.len]
+    }
+}
+
 /// The points of one body that were sampled last, from left to right.
 #[derive(Clone, Debug)]
 pub(crate) struct Trace<T> {
     /// The piece they lie on.
     piece: Option<usize>,
-    len: usize,
-    /// The knots, and room for the next; which of them changes.
-    rows: [[Knot<T>; MOST]; 2],
-    current: usize,
+    knots: Knots<T>,
     /// Where `X(k) = x` needs no solving there is no `Y`, and the knots are at their targets.
     pub direct: bool,
-    /// The largest `|Y|` at the ends of the piece.
-    pub height: T,
 }
 
 impl<T: Real> Trace<T> {
     pub fn new() -> Self {
-        let nil = T::zero();
-        let knot = Knot { k: nil, x: nil, y: nil, dx: nil, slope: nil };
-        Self {
-            piece: None,
-            len: 0,
-            rows: [[knot; MOST]; 2],
-            current: 0,
-            direct: false,
-            height: nil,
-        }
+        Self { piece: None, knots: Knots::new(), direct: false }
     }
 
     /// Forgets what was sampled: the body is another.
     pub fn clear(&mut self) {
-        (self.piece, self.len) = (None, 0);
+        self.piece = None;
     }
 
+    /// The last points, one for each target.
     pub fn knots(&self) -> &[Knot<T>] {
-        &self.rows[self.current][..self.len]
+        self.knots.inner()
+    }
+
+    /// The larger `|Y|` at the ends of the piece.
+    pub fn height(&self) -> T {
+        let [left, right] = self.knots.ends();
+        left.y.abs().max(right.y.abs())
     }
 }
 
@@ -87,78 +113,69 @@ pub(crate) fn aim<T: Real>(
 ) -> Result<(), ContactError<T>> {
     let n = targets.len();
     let (index, piece) = gap.piece_at(body, targets[n / 2], Side::Left);
-    if trace.piece != Some(index) {
-        (trace.piece, trace.len) = (Some(index), 0);
-    }
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
-        trace.direct = true;
-        trace.len = n;
-        for (i, (knot, &x)) in trace.rows[trace.current].iter_mut().zip(targets).enumerate() {
+        (trace.direct, trace.piece, trace.knots.len) = (true, None, n);
+        for (i, &x) in targets.iter().enumerate() {
             let slope = if i == 0 { slope } else { piece.curve.slope_at(x).unwrap_or(slope) };
             if !slope.is_finite() {
                 return Err(not_finite(body, "slope_at(x)", x, slope));
             }
-            *knot = Knot { k: x, x, y: T::zero(), dx: T::one(), slope };
+            (trace.knots.row[i + 1].x, trace.knots.row[i + 1].slope) = (x, slope);
         }
         return Ok(());
     }
     trace.direct = false;
-    trace.height = piece.ends[0].y.abs().max(piece.ends[1].y.abs());
-    let Trace { len, rows: [one, other], current, .. } = trace;
-    let (knots, spare) = if *current == 0 { (one, other) } else { (other, one) };
-    let mut shot = Shot {
-        body,
-        rises: piece.k[0] < piece.k[1],
-        ends: [0, 1].map(|i| Knot::new(piece.k[i], piece.ends[i])),
-        near: T::of(NEAR[usize::from(rough)]),
-        knots: spare,
-        found: 0,
-    };
-    // A range much longer than that of the targets says little of where they are: with one found,
-    // the others are aimed at from there.
-    let [first, last] = [targets[0], targets[n - 1]];
-    let far = last - first < T::of(0.25) * (shot.ends[1].x - shot.ends[0].x);
-    let beside = first <= shot.ends[0].x || last >= shot.ends[1].x;
-    if *len == 0 && far && !beside {
-        let found = shot.search(gap, piece, targets, n / 2, &[], cost);
-        (knots[0], *len) = (found.map_err(|error| turns(piece, error))?, 1);
+    if trace.piece != Some(index) {
+        let ends = [0, 1].map(|i| Knot::new(piece.k[i], piece.ends[i]));
+        trace.piece = Some(index);
+        trace.knots.set_ends(ends, 0);
     }
-    let known = &knots[..*len];
-    shot.batch(piece, targets, known, cost).map_err(|error| turns(piece, error))?;
-    for i in 0..n {
-        if (shot.knots[i].x - targets[i]).abs() > shot.tolerance(targets, i) {
-            let found = shot.search(gap, piece, targets, i, known, cost);
-            let found = found.map_err(|error| turns(piece, error))?;
-            // A strategy that stops early leaves nodes that are good for nothing.
-            let missed = found.x - targets[i];
-            let largest = shot.ends[0].x.abs().max(shot.ends[1].x.abs());
-            let noise = T::of(1e3) * T::epsilon() * largest;
-            if missed.abs() > T::of(5.0) * shot.tolerance(targets, i) + noise {
-                let source = SearchError::Missed { x: found.k, residual: missed };
-                return Err(ContactError::Inversion { body, x: targets[i], source });
-            }
-            shot.knots[i] = found;
-        }
-    }
-    (*current, *len) = (1 - *current, n);
-    Ok(())
+    let near = T::of(NEAR[usize::from(rough)]);
+    let shot = Shot { gap, body, piece, rises: piece.k[0] < piece.k[1], targets, near };
+    shot.take(&mut trace.knots, cost).map_err(|error| turns(piece, error))
 }
 
-struct Shot<'s, T> {
+/// What is aimed at.
+struct Shot<'s, T: Real> {
+    gap: &'s Gap<'s, T>,
     body: Body,
+    piece: Piece<'s, T>,
     rises: bool,
-    ends: [Knot<T>; 2],
+    targets: &'s [T],
     /// By how much of the distance between them a target may be missed.
     near: T,
-    knots: &'s mut [Knot<T>; MOST],
-    /// How many of the knots are at hand.
-    found: usize,
 }
 
 impl<T: Real> Shot<'_, T> {
+    /// Puts knots near the targets in place of those that are known.
+    fn take(&self, known: &mut Knots<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let (targets, n) = (self.targets, self.targets.len());
+        let ends = known.ends();
+        // A range much longer than that of the targets says little of where they are: with one found,
+        // the others are aimed at from there.
+        let [first, last] = [targets[0], targets[n - 1]];
+        let far = last - first < T::of(0.25) * (ends[1].x - ends[0].x);
+        let beside = first <= ends[0].x || last >= ends[1].x;
+        if known.len == 0 && far && !beside {
+            let found = self.first(n / 2, known, cost)?;
+            known.set_ends(ends, 1);
+            known.row[1] = found;
+        }
+        let mut knots = Knots::new();
+        knots.set_ends(ends, n);
+        let all_near = self.batch(known, &mut knots, cost)?;
+        if !all_near {
+            self.search_missed(known, &mut knots, cost)?;
+        }
+        known.set_ends(ends, n);
+        known.row[1..=n].copy_from_slice(knots.inner());
+        Ok(())
+    }
+
     /// By how much a target may be missed.
-    fn tolerance(&self, targets: &[T], i: usize) -> T {
-        let before = i.checked_sub(1).map(|j| targets[i] - targets[j]);
+    fn tolerance(&self, i: usize) -> T {
+        let targets = self.targets;
+        let before = if i > 0 { Some(targets[i] - targets[i - 1]) } else { None };
         let after = targets.get(i + 1).map(|&next| next - targets[i]);
         let distance = match (before, after) {
             (Some(before), Some(after)) => before.min(after),
@@ -167,152 +184,200 @@ impl<T: Real> Shot<'_, T> {
         self.near * distance
     }
 
-    /// Takes one shot at each target that no known point is near to.
+    /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
     fn batch(
-        &mut self,
-        piece: Piece<'_, T>,
-        targets: &[T],
-        known: &[Knot<T>],
+        &self,
+        known: &Knots<T>,
+        knots: &mut Knots<T>,
         cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Result<bool, ContactError<T>> {
         let zero = T::zero();
         let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
         let (mut asked, mut k) = ([0; MOST], [zero; MOST]);
-        let (mut count, mut next) = (0, 0);
-        let mut between: Option<(usize, bool, Between<T>)> = None;
-        for (i, &target) in targets.iter().enumerate() {
-            while next < known.len() && known[next].x <= target {
-                next += 1;
+        let (row, len) = (&known.row[..known.len + 2], known.len);
+        let (mut count, mut right) = (0, 1);
+        let mut way = Way::new(&row[0], &row[1]);
+        let mut from = 0;
+        for (i, &target) in self.targets.iter().enumerate() {
+            while right <= len && row[right].x <= target {
+                right += 1;
             }
-            let left = if next > 0 { &known[next - 1] } else { &self.ends[0] };
-            let right = if next < known.len() { &known[next] } else { &self.ends[1] };
-            let nearer = if target - left.x < right.x - target { left } else { right };
-            let near = (nearer.x - target).abs() <= self.tolerance(targets, i);
+            let left = right - 1;
+            let [one, other] = [&row[left], &row[right]];
+            let [from_left, to_right] = [target - one.x, other.x - target];
+            let nearer = if from_left < to_right { one } else { other };
+            let near = (nearer.x - target).abs() <= self.tolerance(i);
             if near && nearer.slope.is_finite() {
-                self.knots[i] = *nearer;
+                knots.row[i + 1] = *nearer;
                 continue;
             }
             // Just outside what is known, its last two points say more than a far end.
-            let pair = match known {
-                [one, other, ..] if next == 0 => Some((one.x - target, one, other)),
-                [.., one, other] if next == known.len() => Some((target - other.x, one, other)),
-                _ => None,
+            let pair = if left == 0 && len >= 2 && to_right <= row[2].x - other.x {
+                1
+            } else if left == len && len >= 2 && from_left <= one.x - row[len - 1].x {
+                len - 1
+            } else {
+                left
             };
-            let pair = pair.filter(|(away, one, other)| *away <= other.x - one.x);
-            let (beyond, [from, to]) = match pair {
-                Some((_, one, other)) => (true, [one, other]),
-                None => (false, [left, right]),
-            };
-            let same = between.as_ref().filter(|(at, out, _)| (*at, *out) == (next, beyond));
-            let guess = match same {
-                Some((_, _, between)) => between.parameter(target),
-                None => {
-                    let fresh = Between::new(*from, *to);
-                    let guess = fresh.parameter(target);
-                    between = Some((next, beyond, fresh));
-                    guess
-                }
-            };
-            let inside = (guess - left.k) * (right.k - guess) > T::zero();
-            let chord = || left.k + (target - left.x) / (right.x - left.x) * (right.k - left.k);
-            (asked[count], k[count]) = (i, if inside { guess } else { chord() });
+            if from != pair {
+                (from, way) = (pair, Way::new(&row[pair], &row[pair + 1]));
+            }
+            (asked[count], k[count]) = (i, way.parameter(target, one, other));
             count += 1;
         }
         let mut points = [nowhere; MOST];
-        piece.curve.at_many(&k[..count], &mut points[..count]);
+        self.piece.curve.at_many(&k[..count], &mut points[..count]);
         cost.evaluations += count;
-        for j in 0..count {
-            self.knots[asked[j]] = self.accept(k[j], points[j])?;
+        let (mut all_near, mut sound) = (true, true);
+        for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {
+            let knot = Knot::new(k, point);
+            sound &= self.is_sound(&knot);
+            all_near &= (knot.x - self.targets[i]).abs() <= self.tolerance(i);
+            knots.row[i + 1] = knot;
         }
-        self.found = targets.len();
+        if !sound {
+            knots.inner().iter().try_for_each(|knot| self.check(knot))?;
+        }
+        Ok(all_near)
+    }
+
+    /// Finds a point near a target by Newton's rule from the ends of the piece; where a few steps are not
+    /// enough, with the user's strategy.
+    fn first(
+        &self,
+        i: usize,
+        known: &Knots<T>,
+        cost: &mut Cost,
+    ) -> Result<Knot<T>, ContactError<T>> {
+        let (target, near) = (self.targets[i], self.tolerance(i));
+        let [left, right] = known.ends();
+        let mut k = Way::new(&left, &right).parameter(target, &left, &right);
+        for _ in 0..STEPS {
+            cost.evaluations += 1;
+            let knot = Knot::new(k, self.piece.curve.at(k));
+            self.check(&knot)?;
+            if (knot.x - target).abs() <= near {
+                return Ok(knot);
+            }
+            k = knot.k + (target - knot.x) / knot.dx;
+            if !is_between(k, left.k, right.k) {
+                break;
+            }
+        }
+        self.search(i, known, None, cost)
+    }
+
+    /// Finds points near the targets that were missed.
+    fn search_missed(
+        &self,
+        known: &Knots<T>,
+        knots: &mut Knots<T>,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        let [left, right] = known.ends();
+        for (i, &target) in self.targets.iter().enumerate() {
+            if (knots.row[i + 1].x - target).abs() <= self.tolerance(i) {
+                continue;
+            }
+            let found = self.search(i, known, Some(knots), cost)?;
+            // A strategy that stops early leaves nodes that are good for nothing.
+            let missed = found.x - target;
+            let noise = T::of(1e3) * T::epsilon() * left.x.abs().max(right.x.abs());
+            if missed.abs() > T::of(5.0) * self.tolerance(i) + noise {
+                let source = SearchError::Missed { x: found.k, residual: missed };
+                return Err(ContactError::Inversion { body: self.body, x: target, source });
+            }
+            knots.row[i + 1] = found;
+        }
         Ok(())
     }
 
-    /// Finds a point near one target with the user's strategy.
+    /// Finds a point near one target with the user's strategy, between the points at hand.
     fn search(
         &self,
-        gap: &Gap<'_, T>,
-        piece: Piece<'_, T>,
-        targets: &[T],
         i: usize,
-        known: &[Knot<T>],
+        known: &Knots<T>,
+        fresh: Option<&Knots<T>>,
         cost: &mut Cost,
     ) -> Result<Knot<T>, ContactError<T>> {
-        let (target, near) = (targets[i], self.tolerance(targets, i));
-        let [mut left, mut right] = self.ends;
-        for &knot in known.iter().chain(&self.knots[..self.found]) {
-            if knot.x <= target && knot.x >= left.x {
-                left = knot;
-            }
-            if knot.x >= target && knot.x <= right.x {
-                right = knot;
+        let (target, near, body) = (self.targets[i], self.tolerance(i), self.body);
+        let [mut left, mut right] = known.ends();
+        for knots in [Some(known), fresh].into_iter().flatten() {
+            for &knot in knots.inner() {
+                if knot.x <= target && knot.x >= left.x {
+                    left = knot;
+                }
+                if knot.x >= target && knot.x <= right.x {
+                    right = knot;
+                }
             }
         }
         let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
+        if lo.k >= hi.k {
+            // The two known points are one and the same.
+            return Ok(left);
+        }
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
-        let bracket = bracket.guess(self.newton(left, right, target));
+        let bracket = bracket.guess(newton(left, right, target));
         let (mut best, mut failed) = (None, None);
         let mut f = |k: T| {
             cost.evaluations += 1;
-            let point = piece.curve.at(k);
-            match self.accept(k, point) {
-                Ok(knot) => {
-                    best = Some(knot);
-                    let missed = knot.x - target;
-                    (if missed.abs() <= near { T::zero() } else { missed }, knot.dx)
-                }
-                Err(error) => {
-                    failed = Some(error);
-                    (T::of(f64::NAN), point.dx)
-                }
+            let knot = Knot::new(k, self.piece.curve.at(k));
+            if let Err(error) = self.check(&knot) {
+                failed = Some(error);
+                return (T::of(f64::NAN), knot.dx);
             }
+            best = Some(knot);
+            let missed = knot.x - target;
+            (if missed.abs() <= near { T::zero() } else { missed }, knot.dx)
         };
-        let body = self.body;
-        let found = if lo.k < hi.k {
-            gap.inversion().find_with_slope(&mut f, &bracket)
-        } else {
-            // The two known points are one and the same.
-            return Ok(left);
-        };
-        match (failed, found) {
-            (Some(error), _) => Err(error),
-            (None, Ok(root)) if !(root.x >= lo.k && root.x <= hi.k) => {
+        match (self.gap.inversion().find_with_slope(&mut f, &bracket), failed) {
+            (_, Some(error)) => Err(error),
+            (Ok(root), None) if !(root.x >= lo.k && root.x <= hi.k) => {
                 let source = SearchError::Astray { x: root.x, lo: lo.k, hi: hi.k };
                 Err(ContactError::Inversion { body, x: target, source })
             }
-            (None, Ok(root)) => match best.filter(|best| best.k == root.x) {
+            (Ok(root), None) => match best.filter(|best| best.k == root.x) {
                 Some(knot) => Ok(knot),
                 None => {
                     cost.evaluations += 1;
-                    self.accept(root.x, piece.curve.at(root.x))
+                    let knot = Knot::new(root.x, self.piece.curve.at(root.x));
+                    self.check(&knot).map(|()| knot)
                 }
             },
-            (None, Err(source)) => Err(ContactError::Inversion { body, x: target, source }),
+            (Err(source), None) => Err(ContactError::Inversion { body, x: target, source }),
         }
     }
 
-    /// A step of Newton's rule from the nearer of two points, kept between them.
-    fn newton(&self, left: Knot<T>, right: Knot<T>, target: T) -> T {
-        let nearer = if target - left.x < right.x - target { left } else { right };
-        let k = nearer.k + (target - nearer.x) / nearer.dx;
-        let inside = (k - left.k) * (right.k - k) > T::zero();
-        if inside { k } else { T::of(0.5) * left.k + T::of(0.5) * right.k }
+    /// Whether a point can be used: the curve runs on, and has a slope.
+    #[inline(always)]
+    fn is_sound(&self, knot: &Knot<T>) -> bool {
+        let onward = if self.rises { knot.dx } else { -knot.dx };
+        knot.x.is_finite() & knot.slope.is_finite() & (onward >= T::zero())
     }
 
-    fn accept(&self, k: T, point: CurvePoint<T>) -> Result<Knot<T>, ContactError<T>> {
-        let knot = Knot::new(k, point);
-        if !knot.x.is_finite() {
-            return Err(not_finite(self.body, "X", k, knot.x));
-        }
-        if (knot.dx < T::zero()) == self.rises && !knot.dx.is_zero() {
-            let source = ProfileError::TurnsBack { k, x: knot.x };
-            return Err(ContactError::Profile { body: self.body, source });
-        }
-        if !knot.slope.is_finite() {
-            return Err(not_finite(self.body, "the slope Y'/X'", k, knot.slope));
-        }
-        Ok(knot)
+    fn check(&self, knot: &Knot<T>) -> Result<(), ContactError<T>> {
+        if self.is_sound(knot) { Ok(()) } else { Err(self.fault(knot)) }
     }
+
+    #[cold]
+    fn fault(&self, &Knot { k, x, slope, .. }: &Knot<T>) -> ContactError<T> {
+        if !x.is_finite() {
+            not_finite(self.body, "X", k, x)
+        } else if !slope.is_finite() {
+            not_finite(self.body, "the slope Y'/X'", k, slope)
+        } else {
+            let source = ProfileError::TurnsBack { k, x };
+            ContactError::Profile { body: self.body, source }
+        }
+    }
+}
+
+/// A step of Newton's rule from the nearer of two points, kept between them.
+fn newton<T: Real>(left: Knot<T>, right: Knot<T>, target: T) -> T {
+    let nearer = if target - left.x < right.x - target { left } else { right };
+    let k = nearer.k + (target - nearer.x) / nearer.dx;
+    if is_between(k, left.k, right.k) { k } else { T::of(0.5) * left.k + T::of(0.5) * right.k }
 }
 
 /// Says where a curve that runs the wrong way turns.
@@ -325,9 +390,13 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
     ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
 }
 
-/// The parameter as a function of x from two points: the cubic `k(x)` through both with their
-/// slopes, or where that is not monotone, the slope at the nearer one.
-struct Between<T> {
+fn is_between<T: Real>(k: T, one: T, other: T) -> bool {
+    (k - one) * (other - k) > T::zero()
+}
+
+/// The parameter as a function of x by two knots: the cubic `k(x)` through both with their slopes, or
+/// where that is not monotone, the slope at the nearer one.
+struct Way<T> {
     left: Knot<T>,
     right: Knot<T>,
     /// The reciprocal of the distance.
@@ -336,8 +405,8 @@ struct Between<T> {
     cubic: Option<[T; 3]>,
 }
 
-impl<T: Real> Between<T> {
-    fn new(left: Knot<T>, right: Knot<T>) -> Self {
+impl<T: Real> Way<T> {
+    fn new(left: &Knot<T>, right: &Knot<T>) -> Self {
         let width = right.x - left.x;
         let rise = right.k - left.k;
         let (at_left, at_right) = (width / left.dx, width / right.dx);
@@ -347,18 +416,26 @@ impl<T: Real> Between<T> {
             let (twice, sum) = (rise + rise, at_left + at_right);
             [at_left, rise + twice - at_left - sum, sum - twice]
         });
-        Self { left, right, share: T::one() / width, cubic }
+        Self { left: *left, right: *right, share: T::one() / width, cubic }
     }
 
-    fn parameter(&self, x: T) -> T {
-        let Self { left, right, .. } = self;
-        let along = (x - left.x) * self.share;
-        if let Some([first, second, third]) = self.cubic {
-            return left.k + along * (first + along * (second + along * third));
+    /// The parameter at x, which is between two other knots, or the same.
+    #[inline(always)]
+    fn parameter(&self, x: T, one: &Knot<T>, other: &Knot<T>) -> T {
+        let along = (x - self.left.x) * self.share;
+        let k = match self.cubic {
+            Some([first, second, third]) => {
+                self.left.k + along * (first + along * (second + along * third))
+            }
+            None => {
+                let nearer = if along < T::of(0.5) { &self.left } else { &self.right };
+                nearer.k + (x - nearer.x) / nearer.dx
+            }
+        };
+        if is_between(k, one.k, other.k) {
+            return k;
         }
-        let nearer = if along < T::of(0.5) { left } else { right };
-        let k = nearer.k + (x - nearer.x) / nearer.dx;
-        if k.is_finite() { k } else { left.k + along * (right.k - left.k) }
+        one.k + (x - one.x) / (other.x - one.x) * (other.k - one.k)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{MOST, Row, Table, value_at};
+use super::chebyshev::{MOST, Table, value_at};
 use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Trace, aim};
 use crate::{Body, ContactError, Interval, ProfileError, Real};
@@ -224,43 +224,44 @@ impl<T: Real> Cover<T> {
         x: [T; 2],
         n: usize,
     ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
-        let table = if self.rough { Table::sketch() } else { Table::of(n) };
+        match n {
+            4 => self.with_nodes::<4>(gap, x),
+            8 => self.with_nodes::<8>(gap, x),
+            12 => self.with_nodes::<12>(gap, x),
+            _ => self.with_nodes::<MOST>(gap, x),
+        }
+    }
+
+    fn with_nodes<const N: usize>(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+    ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
+        let table = if self.rough { Table::sketch() } else { Table::of(N) };
         let (half, zero) = (T::of(0.5), T::zero());
         let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
-        let mut nodes = [zero; MOST];
         // Never at the very end of a body, where the slope may be infinite.
         let inside = if self.rough { zero } else { T::epsilon() };
         let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
-        for i in 0..n {
-            nodes[i] = (centre + reach * T::of(table.z[i])).max(first).min(last);
-        }
+        let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
+        let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
-            aim(gap, body, &nodes[..n], self.rough, trace, &mut self.cost)?;
+            aim(gap, body, &nodes, self.rough, trace, &mut self.cost)?;
         }
-        self.cost.samples += n;
-        let mut wanted = [zero; MOST];
-        for i in 0..n {
-            wanted[i] = reach + reach * T::of(table.z[i]);
-        }
-        let [one, other] = &self.traces;
-        let slopes_of = |trace: &Trace<T>| match n {
-            4 => at_nodes::<4, T>(&wanted, trace, x[0], reach),
-            8 => at_nodes::<8, T>(&wanted, trace, x[0], reach),
-            12 => at_nodes::<12, T>(&wanted, trace, x[0], reach),
-            _ => at_nodes::<MOST, T>(&wanted, trace, x[0], reach),
-        };
-        let (lower, upper) = (slopes_of(one), slopes_of(other));
+        self.cost.samples += N;
+        let wanted = offsets.map(|offset| reach + offset);
+        let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
         let mut slopes = [zero; MOST];
         let mut seen = Seen { slope: zero, bodies: zero, noise: zero };
-        for i in 0..n {
+        for i in 0..N {
             slopes[i] = upper[i] - lower[i];
             seen.slope = seen.slope.max(slopes[i].abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
         }
-        let bend = |slopes: &Row<T>| (slopes[n - 1] - slopes[0]).abs() / (nodes[n - 1] - nodes[0]);
+        let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
-        seen.noise = rounded * (bend(&lower) + bend(&upper));
-        Ok((Panel::new(x, n, table.coefficients(n, &slopes)), seen))
+        seen.noise = rounded * (bend(&lower) + bend(&upper)) / (nodes[N - 1] - nodes[0]);
+        Ok((Panel::new(x, N, table.coefficients(N, &slopes)), seen))
     }
 
     /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
@@ -268,29 +269,31 @@ impl<T: Real> Cover<T> {
     fn check_slopes(&self) -> Result<(), ContactError<T>> {
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
             let knots = trace.knots();
-            if trace.direct || knots.len() < 8 {
+            let n = knots.len();
+            if trace.direct || n < 8 {
                 continue;
             }
-            let (mut off, mut sum) = (T::zero(), T::zero());
-            let mut rounded = T::zero();
-            let mut worst = (T::zero(), knots[0], T::zero());
-            for pair in knots.windows(2) {
-                let [one, other] = [pair[0], pair[1]];
-                let run = other.x - one.x;
-                let (rise, due) = (other.y - one.y, T::of(0.5) * run * (one.slope + other.slope));
-                let miss = (rise - due).abs();
-                off += miss;
+            // How far two points are apart in height, and how far they should be.
+            let rise = |i: usize| {
+                let [one, other] = [&knots[i], &knots[i + 1]];
+                let due = T::of(0.5) * (other.x - one.x) * (one.slope + other.slope);
+                [other.y - one.y, due]
+            };
+            let (mut off, mut sum, mut rounded) = (T::zero(), T::zero(), T::zero());
+            for i in 0..n - 1 {
+                let [rise, due] = rise(i);
+                off += (rise - due).abs();
                 sum += rise.abs() + due.abs();
-                rounded = rounded.max(one.y.abs() + one.x.abs() * one.slope.abs());
-                if miss > worst.0 {
-                    worst = (miss, one, rise / run);
-                }
+                rounded = rounded.max(knots[i].y.abs() + (knots[i].x * knots[i].slope).abs());
             }
-            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height);
-            let reach = knots[knots.len() - 1].x - knots[0].x;
-            let noise = noise + T::of(1e-6) * self.size * reach;
+            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height());
+            let noise = noise + T::of(1e-6) * self.size * (knots[n - 1].x - knots[0].x);
             if off > T::of(0.3) * sum + noise {
-                let (_, Knot { k, slope: given, .. }, difference) = worst;
+                let miss = |i: usize| rise(i)[0] - rise(i)[1];
+                let worse = |i: usize, j: usize| if miss(j).abs() > miss(i).abs() { j } else { i };
+                let i = (0..n - 1).fold(0, worse);
+                let Knot { k, slope: given, .. } = knots[i];
+                let difference = rise(i)[0] / (knots[i + 1].x - knots[i].x);
                 let quantity = "the slope Y'/X'";
                 let source = ProfileError::Derivative { quantity, k, given, difference };
                 return Err(ContactError::Profile { body, source });
@@ -302,54 +305,45 @@ impl<T: Real> Cover<T> {
 
 /// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
 /// from the left end of the panel, where the rounding of x matters less.
+///
+/// With node t next to the point xᵢ, Lagrange's formula for what the slope differs from that at xᵢ:
+///
+/// ```text
+/// f(t) = fᵢ + Σⱼ (fⱼ - fᵢ) wⱼ Π_{m≠j} (t - x_m),    wⱼ = 1/Π_{m≠j} (xⱼ - x_m)
+/// ```
+///
+/// whose terms are small where the rounding would be large; and it takes no division for a node.
 fn at_nodes<const N: usize, T: Real>(
-    nodes: &Row<T>,
+    nodes: &[T; N],
     trace: &Trace<T>,
     left: T,
     reach: T,
-) -> Row<T> {
-    let (mut x, mut values) = ([T::zero(); N], [T::zero(); MOST]);
-    let mut miss = T::zero();
-    for (i, knot) in trace.knots()[..N].iter().enumerate() {
-        (x[i], values[i]) = (knot.x - left, knot.slope);
-        miss = miss.max((x[i] - nodes[i]).abs());
+) -> [T; N] {
+    let knots = &trace.knots()[..N];
+    let known: [T; N] = std::array::from_fn(|i| knots[i].slope);
+    if trace.direct {
+        return known;
     }
-    if miss <= T::of(2.0) * T::epsilon() * reach {
-        return values;
-    }
-    // Barycentric interpolation (Berrut and Trefethen, SIAM Review 46 (2004) 501, Eq. (4.2)), with
-    // distances in units that keep the products near 1.
+    // In units that keep the products near 1.
     let unit = T::of(2.0) / reach;
-    let x = x.map(|x| x * unit);
+    let x: [T; N] = std::array::from_fn(|i| (knots[i].x - left) * unit);
+    let at = nodes.map(|node| node * unit);
     let mut weight = [T::one(); N];
     for j in 0..N {
         for i in 0..N {
-            let distance = x[i] - x[j];
-            weight[i] *= if i == j { T::one() } else { distance };
+            weight[i] *= if i == j { T::one() } else { x[i] - x[j] };
         }
     }
-    let mut product = T::one();
-    for weight in &mut weight {
-        product *= *weight;
-        *weight = weight.recip();
-    }
-    if product.is_zero() {
-        // Too close to be told apart: a panel of a few units in the last place.
-        return values;
-    }
-    let known = values;
-    for i in 0..N {
-        let at = nodes[i] * unit;
-        let (mut above, mut below) = ([T::zero(); 4], [T::zero(); 4]);
-        for j in 0..N {
-            let share = weight[j] / (at - x[j]);
-            above[j % 4] += share * known[j];
-            below[j % 4] += share;
+    let weight = weight.map(|weight| T::one() / weight);
+    let (mut sum, mut product) = ([T::zero(); N], [T::one(); N]);
+    for j in 0..N {
+        for i in 0..N {
+            let distance = at[i] - x[j];
+            sum[i] = sum[i] * distance + (known[j] - known[i]) * weight[j] * product[i];
+            product[i] *= distance;
         }
-        let sum = |lanes: [T; 4]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-        let value = sum(above) / sum(below);
-        // On a point that was sampled both are infinite.
-        values[i] = if value.is_finite() { value } else { known[i] };
     }
-    values
+    // Points too close to be told apart: a panel of a few units in the last place.
+    let apart = sum.iter().fold(true, |all, sum| all & sum.is_finite());
+    std::array::from_fn(|i| if apart { known[i] + sum[i] } else { known[i] })
 }
