@@ -41,6 +41,10 @@ impl<T: Real> Sum<T> {
         Self { total: T::zero(), lost: T::zero() }
     }
 
+    pub fn of(total: T) -> Self {
+        Self { total, lost: T::zero() }
+    }
+
     pub fn add(&mut self, term: T) {
         let next = self.total + term;
         self.lost += if self.total.abs() >= term.abs() {

@@ -17,6 +17,7 @@ mod angles;
 mod chebyshev;
 mod conjugate;
 mod cover;
+mod far;
 mod integrals;
 mod panel;
 
@@ -202,7 +203,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.pressures(gap, pressing, &[x], &mut value, cost)?;
         let Pressing { kappa, .. } = *pressing;
         let on = self.conjugate.on;
-        let of_series = kappa * self.conjugate.error(x) / (T::pi() * T::pi());
+        let of_series = kappa * self.conjugate.error(&self.cover.panels, x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
         let of_edges = T::of(9.0) * strength / (T::pi() * on.edge_root(x));

@@ -10,7 +10,11 @@
 //!
 //! which keeps all digits of a distance within the stretch however short it is, and the integrand
 //! is smooth: its only poles are at σ = ±i, and |σ| < 1.
+//!
+//! Where digits of short distances are not needed, a polynomial is summed up as a cosine series
+//! instead, whose integrals over a stretch are differences of `sin kθ/k`.
 
+use super::chebyshev::MOST;
 use crate::{Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -39,6 +43,36 @@ impl<T: Real> HalfAngle<T> {
         (self.cos + self.cos) * self.sin
     }
 }
+
+/// The integrals `∫₀^θ cos kφ dφ`: θ itself, then `sin kθ/k`.
+pub(super) type Sines<T> = [T; MOST + 2];
+
+impl<T: Real> HalfAngle<T> {
+    /// The first `count` of them.
+    pub fn sines(&self, count: usize) -> Sines<T> {
+        let two = T::of(2.0);
+        let mut sines = [T::zero(); MOST + 2];
+        let twice = two * self.cosine();
+        let (mut before, mut sine) = (T::zero(), self.sine());
+        sines[0] = two * self.sin.atan2(self.cos);
+        for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {
+            *integral = sine * T::of(share);
+            (before, sine) = (sine, twice * sine - before);
+        }
+        sines
+    }
+}
+
+/// 1/k from k = 1 on.
+const SHARES: [f64; MOST + 1] = {
+    let mut shares = [0.0; MOST + 1];
+    let mut k = 0;
+    while k <= MOST {
+        shares[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    shares
+};
 
 /// A stretch of a contact, by the angles of its ends.
 pub(super) struct Arc<T> {

@@ -114,11 +114,60 @@ pub(super) fn evaluate<const W: usize, T: Real>(
     (value, slope)
 }
 
+/// The polynomial at W points.
+#[inline(always)]
+pub(super) fn values<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
+    let [b1, b2] = recurrence(&coefficients[1..], s);
+    std::array::from_fn(|i| s[i] * b1[i] + (coefficients[0] - b2[i]))
+}
+
+/// `Σ c_k U_k` at W points, U_k being the Chebyshev polynomials of the second kind.
+#[inline(always)]
+pub(super) fn second_kind<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
+    recurrence(coefficients, s)[0]
+}
+
+/// The last two numbers of Clenshaw's recurrence, the later one first.
+#[inline(always)]
+fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W]; 2] {
+    let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
+    let (mut b1, mut b2) = ([T::zero(); W], [T::zero(); W]);
+    for &a in coefficients.iter().rev() {
+        for i in 0..W {
+            let b = twice[i] * b1[i] + (a - b2[i]);
+            (b2[i], b1[i]) = (b1[i], b);
+        }
+    }
+    [b1, b2]
+}
+
 /// The polynomial at one point.
 pub(super) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
-    let (mut b1, mut b2) = (T::zero(), T::zero());
-    for &a in coefficients[1..].iter().rev() {
-        (b1, b2) = ((s + s) * b1 + (a - b2), b1);
+    values(coefficients, &[s])[0]
+}
+
+/// The coefficients, as many as there are or a few more, of the same polynomial on the range from
+/// `left` to `right`, which need not lie between -1 and 1.
+pub(super) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+    match size_for(coefficients.len()) {
+        4 => expanded::<4, T>(coefficients, left, right),
+        8 => expanded::<8, T>(coefficients, left, right),
+        12 => expanded::<12, T>(coefficients, left, right),
+        _ => expanded::<MOST, T>(coefficients, left, right),
     }
-    s * b1 + (coefficients[0] - b2)
+}
+
+fn expanded<const N: usize, T: Real>(coefficients: &[T], left: T, right: T) -> Row<T> {
+    let half = T::of(0.5);
+    let (middle, reach) = (half * (left + right), half * (right - left));
+    let table = Table::of(N);
+    let mut row = [T::zero(); MOST];
+    let s: [T; N] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
+    row[..N].copy_from_slice(&values(coefficients, &s));
+    table.transform::<N, T>(&row)
+}
+
+/// The smallest of the [`SIZES`] that holds so many coefficients.
+pub(super) fn size_for(n: usize) -> usize {
+    SIZES.into_iter().find(|&size| size >= n).unwrap_or(MOST)
 }

@@ -1,14 +1,19 @@
 //! The edge integrals of a row of panels, and their derivatives by the two limits.
 //!
-//! One panel that holds the whole contact needs no angles: the Chebyshev points of the contact
-//! itself integrate it exactly. Of several, each is a stretch of θ for Gauss's rule.
+//! A polynomial p on `c + L z` is `Σ c_k T_k(z)`, that is `Σ c_k cos kθ`, and so is its derivative:
+//! what a panel adds is a sum of differences of `sin kθ/k`. The series of a panel may be continued
+//! over the whole contact as long as it does not grow too much on the way. Where panels are too
+//! short for that, each is a stretch of θ for Gauss's rule.
 
-use super::angles::{Arc, Gauss, HalfAngle};
-use super::chebyshev::{Table, evaluate};
-use super::panel::Panel;
+use super::angles::{Arc, Gauss, HalfAngle, Sines};
+use super::chebyshev::{MOST, Row, evaluate, size_for};
+use super::panel::{Panel, largest, within};
 use crate::quadrature::{Moments, Trend};
 use crate::real::Sum;
 use crate::{Interval, Real};
+
+/// How much larger than the slopes in the contact the coefficients of a continued series may be.
+pub(super) const GROWTH: f64 = 16.0;
 
 /// `∫ g cosⁱθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
@@ -24,84 +29,145 @@ impl<T: Real> Sums<T> {
         let zero = T::zero();
         Self { g: [Sum::new(); 2], size: zero, slope: [zero; 3], error: zero }
     }
+
+    fn scale(&mut self, share: T) {
+        self.g = self.g.map(|sum| Sum::of(sum.value() * share));
+        self.slope = self.slope.map(|sum| sum * share);
+        self.size *= share;
+        self.error *= share;
+    }
 }
 
 /// The edge integrals over a contact that the panels cover, or sketch.
 pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: bool) -> Moments<T> {
+    let within = within(panels, on);
     let mut sums = Sums::new();
-    let first = panels.partition_point(|panel| panel.x[1] <= on.left);
-    let last = panels.partition_point(|panel| panel.x[0] < on.right).max(first + 1);
-    let within = &panels[first.min(panels.len() - 1)..last.min(panels.len())];
-    let share = if let [panel] = within {
+    if let [panel] = within {
         whole(&mut sums, panel, on);
-        T::one()
-    } else {
-        several(&mut sums, within, on, sketch);
-        T::one() / T::pi()
-    };
+    } else if !by_cosines(&mut sums, within, on) {
+        sums = Sums::new();
+        by_gauss(&mut sums, within, on, sketch);
+    }
     // A formula of a few terms is good to a few units in the last place.
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
-    let half_width = on.half_width();
     let [by_0, by_1, by_2] = sums.slope;
     Moments {
-        mean: sums.g[0].value() * share,
-        first: sums.g[1].value() * share,
+        mean: sums.g[0].value(),
+        first: sums.g[1].value(),
         size: sums.size,
         error: sums.error.max(rounding),
         inversion: T::zero(),
-        trend: Some(Trend { by_0, by_1, by_2 }).filter(|_| half_width > T::zero()),
+        trend: Some(Trend { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
     }
 }
 
-/// One panel holds the contact.
-fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
-    match panel.n {
-        4 => chebyshev::<4, 1, T>(sums, panel, on),
-        8 => chebyshev::<8, 1, T>(sums, panel, on),
-        12 => chebyshev::<4, 3, T>(sums, panel, on),
-        _ => chebyshev::<8, 3, T>(sums, panel, on),
+/// The coefficients of the derivative by z.
+#[inline(always)]
+fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
+    let mut slopes = [T::zero(); MOST];
+    for k in (1..N).rev() {
+        let before = if k + 1 < N { slopes[k + 1] } else { T::zero() };
+        slopes[k - 1] = before + T::of(2.0 * k as f64) * series[k];
     }
+    slopes[0] *= T::of(0.5);
+    slopes
+}
+
+/// One panel holds the contact: over half a turn every cosine vanishes.
+fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
+    let half = T::of(0.5);
+    let (series, counting) = panel.over(on);
+    let slopes = match size_for(counting) {
+        4 => derivative::<4, T>(&series),
+        8 => derivative::<8, T>(&series),
+        12 => derivative::<12, T>(&series),
+        _ => derivative::<MOST, T>(&series),
+    };
+    let by_x = T::one() / on.half_width();
+    sums.g[0].add(series[0]);
+    sums.g[1].add(half * series[1]);
+    let [h0, h1, h2] = [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])];
+    sums.slope = [by_x * h0, by_x * h1, by_x * h2];
+    let squares = series[1..counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
+    sums.size = (series[0] * series[0] + half * squares).sqrt();
     sums.error = panel.tail;
 }
 
-/// With B blocks of W nodes.
-#[inline(always)]
-fn chebyshev<const W: usize, const B: usize, T: Real>(
-    sums: &mut Sums<T>,
-    panel: &Panel<T>,
-    on: Interval<T>,
-) {
-    let table = Table::of(W * B);
-    let half = T::of(0.5);
-    let (left, right) = (panel.local(on.left), panel.local(on.right));
-    let (middle, reach) = (half * (left + right), half * (right - left));
-    let mut lanes = [[T::zero(); W]; 6];
-    for block in 0..B {
-        let z: [T; W] = std::array::from_fn(|i| T::of(table.z[block * W + i]));
-        let s: [T; W] = std::array::from_fn(|i| middle + reach * z[i]);
-        let (g, slope) = evaluate::<W, T>(panel.coefficients(), &s);
-        for i in 0..W {
-            let turned = z[i] * slope[i];
-            lanes[0][i] += g[i];
-            lanes[1][i] += z[i] * g[i];
-            lanes[2][i] += g[i].abs();
-            lanes[3][i] += slope[i];
-            lanes[4][i] += turned;
-            lanes[5][i] += z[i] * turned;
+/// Several panels hold it between them, and their series can be continued over it; `false` if not.
+fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
+    let (zero, half) = (T::zero(), T::of(0.5));
+    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
+    let count = size_for(most) + 1;
+    let allowed = T::of(GROWTH) * largest(panels, on);
+    let mut left = [zero; MOST + 2];
+    left[0] = T::pi();
+    let mut slope_before = zero;
+    for (i, panel) in panels.iter().enumerate() {
+        let (series, counting) = panel.over(on);
+        let bulk = series[..counting].iter().fold(zero, |sum, a| sum + a.abs());
+        if bulk > allowed {
+            return false;
         }
+        let [mut from, mut to] = panel.at_ends();
+        if i == 0 {
+            from = panel.value(on.left);
+        } else {
+            jump(sums, from - slope_before, HalfAngle::of(on, panel.x[0]), on);
+        }
+        let mut right = [zero; MOST + 2];
+        if i + 1 < panels.len() {
+            right = HalfAngle::of(on, panel.x[1]).sines(count);
+        } else {
+            to = panel.value(on.right);
+        }
+        slope_before = to;
+        let stretch = std::array::from_fn(|k| left[k] - right[k]);
+        match size_for(counting) {
+            4 => stretch_of::<4, T>(sums, &series, &stretch, on),
+            8 => stretch_of::<8, T>(sums, &series, &stretch, on),
+            12 => stretch_of::<12, T>(sums, &series, &stretch, on),
+            _ => stretch_of::<MOST, T>(sums, &series, &stretch, on),
+        }
+        sums.size += half * (from.abs() + to.abs()) * stretch[0];
+        sums.error += (panel.tail + T::of(4.0) * T::epsilon() * bulk) * stretch[0];
+        left = right;
     }
-    let share = T::one() / T::count(W * B);
-    let total = |lane: [T; W]| lane.into_iter().fold(T::zero(), |sum, term| sum + term) * share;
-    let [g0, g1, size, h0, h1, h2] = lanes.map(total);
-    let by_x = T::one() / panel.half();
-    sums.g[0].add(g0);
-    sums.g[1].add(g1);
-    sums.size = size;
-    sums.slope = [h0 * by_x, h1 * by_x, h2 * by_x];
+    sums.scale(T::frac_1_pi());
+    true
 }
 
-/// Several panels hold it between them.
-fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, sketch: bool) {
+/// What the series adds on a stretch, given the integrals of cos kθ over it.
+#[inline(always)]
+fn stretch_of<const N: usize, T: Real>(
+    sums: &mut Sums<T>,
+    series: &Row<T>,
+    integrals: &Sines<T>,
+    on: Interval<T>,
+) {
+    let (half, by_x) = (T::of(0.5), T::one() / on.half_width());
+    let slopes = derivative::<N, T>(series);
+    let (mut g, mut h) = ([T::zero(); 2], [T::zero(); 3]);
+    for k in 0..N {
+        // Times cos θ, and times its square.
+        let once = half * (integrals[k.abs_diff(1)] + integrals[k + 1]);
+        g[0] += series[k] * integrals[k];
+        g[1] += series[k] * once;
+        if k + 1 < N {
+            let twice = half * (integrals[k.abs_diff(2)] + integrals[k + 2]);
+            h[0] += slopes[k] * integrals[k];
+            h[1] += slopes[k] * once;
+            h[2] += slopes[k] * half * (integrals[k] + twice);
+        }
+    }
+    sums.g[0].add(g[0]);
+    sums.g[1].add(g[1]);
+    for (sum, h) in sums.slope.iter_mut().zip(h) {
+        *sum += by_x * h;
+    }
+}
+
+/// Several panels hold it between them, some of them too short for their series to be continued.
+fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, sketch: bool) {
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
     let mut before: Option<&Panel<T>> = None;
@@ -110,17 +176,14 @@ fn several<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, sk
         let from = if i == 0 { on.left } else { panel.x[0] };
         let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
         if let Some(before) = before {
-            jump(sums, before, panel, left, on);
+            jump(sums, panel.at_ends()[0] - before.at_ends()[1], left, on);
         }
         let right = HalfAngle::of(on, to);
         stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
         left = right;
         before = Some(panel);
     }
-    let share = T::one() / T::pi();
-    sums.slope = sums.slope.map(|sum| sum * share);
-    sums.size *= share;
-    sums.error *= share;
+    sums.scale(T::frac_1_pi());
 }
 
 /// One stretch of several.
@@ -165,17 +228,8 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
 }
 
 /// Where g jumps, g' is an impulse.
-fn jump<T: Real>(
-    sums: &mut Sums<T>,
-    left: &Panel<T>,
-    right: &Panel<T>,
-    at: HalfAngle<T>,
-    on: Interval<T>,
-) {
-    let alternate = |sum: T, (i, &a): (usize, &T)| if i % 2 == 0 { sum + a } else { sum - a };
-    let from = right.coefficients().iter().enumerate().fold(T::zero(), alternate);
-    let to = left.coefficients().iter().fold(T::zero(), |sum, &a| sum + a);
-    let impulse = (from - to) / (on.half_width() * at.sine());
+fn jump<T: Real>(sums: &mut Sums<T>, jump: T, at: HalfAngle<T>, on: Interval<T>) {
+    let impulse = jump / (on.half_width() * at.sine());
     let cosine = at.cosine();
     if impulse.is_finite() {
         sums.slope[0] += impulse;

@@ -1,7 +1,7 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{MOST, Row, SIZES};
-use crate::Real;
+use super::chebyshev::{MOST, Row, SIZES, expand, size_for, value_at};
+use crate::{Interval, Real};
 
 /// The slope of the gap over an interval without joints, as a Chebyshev series.
 #[derive(Clone, Copy)]
@@ -38,6 +38,48 @@ impl<T: Real> Panel<T> {
     pub fn coefficients(&self) -> &[T] {
         &self.series[..self.counting]
     }
+
+    /// The slope at the left and at the right end.
+    pub fn at_ends(&self) -> [T; 2] {
+        let mut sums = [T::zero(); 2];
+        for (i, &a) in self.coefficients().iter().enumerate() {
+            sums[i % 2] += a;
+        }
+        [sums[0] - sums[1], sums[0] + sums[1]]
+    }
+
+    /// The slope at x.
+    pub fn value(&self, x: T) -> T {
+        value_at(self.coefficients(), self.local(x))
+    }
+
+    /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`, and how many of the coefficients count.
+    pub fn over(&self, on: Interval<T>) -> (Row<T>, usize) {
+        if self.x == [on.left, on.right] {
+            return (self.series, self.counting);
+        }
+        let ends = [self.local(on.left), self.local(on.right)];
+        (expand(self.coefficients(), ends), size_for(self.counting))
+    }
+}
+
+/// Those of the panels that an interval lies on. The outermost of them may have to be continued a
+/// little.
+pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T>] {
+    let first = panels.partition_point(|panel| panel.x[1] <= on.left);
+    let last = panels.partition_point(|panel| panel.x[0] < on.right).max(first + 1);
+    &panels[first.min(panels.len() - 1)..last.min(panels.len())]
+}
+
+/// The largest slope at the ends of the panels and of the contact that they make up.
+pub(super) fn largest<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> T {
+    let Some((first, others)) = panels.split_first() else { return T::zero() };
+    let edges = first.value(on.left).abs().max(panels[others.len()].value(on.right).abs());
+    let at_joint = |max: T, pair: &[Panel<T>]| {
+        let [to, from] = [pair[0].at_ends()[1], pair[1].at_ends()[0]];
+        max.max(from.abs()).max(to.abs())
+    };
+    panels.windows(2).fold(edges, at_joint)
 }
 
 /// What the coefficients say of a series.

@@ -1,0 +1,160 @@
+//! The regular part of the pressure on panels too short for their series to be continued over the
+//! contact: about a square root that nobody declared, say.
+//!
+//! The closed form of `conjugate.rs`, in the panel's own variable, is used on the panel that holds x and
+//! around it, as far as the polynomial can be continued without losing digits; from further away the
+//! panel is summed up by Gauss's rule.
+
+use super::angles::{Arc, Gauss, HalfAngle};
+use super::chebyshev::{MOST, Row, value_at};
+use super::conjugate::{Joint, Rounding};
+use super::panel::Panel;
+use crate::real::Sum;
+use crate::{Interval, Real};
+
+/// How far beyond its panel, in half-lengths, a polynomial may be used.
+const REACHES: [f64; 5] = [1.6, 3.0, 8.0, 13.0, 18.0];
+
+/// The panels of a contact.
+pub(super) struct Far<T> {
+    parts: Vec<Part<T>>,
+    /// Distances from the start of their part, and the slope there times the weight.
+    nodes: Vec<[T; 2]>,
+}
+
+/// A panel, or what of it lies in the contact.
+struct Part<T> {
+    panel: Panel<T>,
+    joint: Joint<T>,
+    /// `b_k` is multiplied by `integrals[k - 1]`.
+    integrals: Row<T>,
+    reach: T,
+    nodes: std::ops::Range<usize>,
+}
+
+impl<T: Real> Far<T> {
+    pub fn new() -> Self {
+        Self { parts: Vec::new(), nodes: Vec::new() }
+    }
+
+    /// Sets it to the panels of a contact.
+    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>) {
+        self.parts.clear();
+        self.nodes.clear();
+        for (i, panel) in panels.iter().enumerate() {
+            let from = if i == 0 { on.left } else { panel.x[0] };
+            let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
+            self.parts.push(Part::new(clip(panel, from, to), on, &mut self.nodes));
+        }
+    }
+
+    /// `π² R` at a point.
+    pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
+        let (mut sum, mut log, mut before) = (Sum::new(), Sum::new(), None);
+        let roots = [[(x - on.left).sqrt()], [(on.right - x).sqrt()]];
+        for (j, part) in self.parts.iter().enumerate() {
+            let s = part.panel.local(x);
+            let value = if s.abs() <= part.reach {
+                let (regular, value) = part.regular(s);
+                sum.add(regular);
+                Some(value)
+            } else {
+                let offset = part.panel.x[0] - x;
+                let nodes = &self.nodes[part.nodes.clone()];
+                let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
+                sum.add(nodes.iter().fold(T::zero(), term));
+                None
+            };
+            if j > 0 && (value.is_some() || before.is_some()) {
+                let zero = T::zero();
+                let change = value.unwrap_or(zero) - before.unwrap_or(zero);
+                log.add(part.joint.logarithms([change], &[x], &roots, on, rounding)[0]);
+            }
+            before = value;
+        }
+        on.edge_root(x) * sum.value() + log.value()
+    }
+}
+
+/// The part of a panel between two points, expanded anew.
+fn clip<T: Real>(panel: &Panel<T>, from: T, to: T) -> Panel<T> {
+    let (series, _) = panel.over(Interval { left: from, right: to });
+    let clipped = Panel::new([from, to], panel.n, series);
+    Panel { tail: panel.tail, ..clipped }
+}
+
+impl<T: Real> Part<T> {
+    fn new(panel: Panel<T>, on: Interval<T>, nodes: &mut Vec<[T; 2]>) -> Self {
+        const W: usize = 8;
+        let [from, to] = panel.x;
+        let width = on.right - on.left;
+        let arc = Arc::new(to - from, HalfAngle::of(on, from), HalfAngle::of(on, to), width);
+        let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
+        let reach = reach(panel.coefficients(), farthest);
+        let is_near = reach >= farthest;
+        let rule = if reach < T::of(3.0) && !is_near {
+            Gauss::finest()
+        } else {
+            Gauss::suited(panel.counting, arc.tangent)
+        };
+        let by_x = T::one() / panel.half();
+        let start = nodes.len();
+        let mut integrals = [T::zero(); MOST];
+        for block in 0..rule.n / W {
+            let (mut along, mut weight) = ([T::zero(); W], [T::zero(); W]);
+            for i in 0..W {
+                let node = block * W + i;
+                let (y, turn) = arc.beside_middle(arc.tangent * T::of(rule.nodes[node]));
+                along[i] = y - arc.to_left;
+                weight[i] = T::of(rule.weights[node]) * turn * arc.tangent;
+            }
+            let s = along.map(|along| along * by_x - T::one());
+            let (mut t0, mut t1) = ([T::one(); W], s);
+            for integral in &mut integrals[..panel.counting] {
+                for i in 0..W {
+                    *integral += weight[i] * t0[i];
+                    (t0[i], t1[i]) = (t1[i], (s[i] + s[i]) * t1[i] - t0[i]);
+                }
+            }
+            if !is_near {
+                for i in 0..W {
+                    nodes.push([along[i], weight[i] * value_at(panel.coefficients(), s[i])]);
+                }
+            }
+        }
+        for (k, integral) in integrals[..panel.counting].iter_mut().enumerate() {
+            let twice = if k == 0 { T::one() } else { T::of(2.0) };
+            *integral *= twice * by_x;
+        }
+        let joint = Joint::new(&panel, on, from);
+        Self { panel, joint, integrals, reach, nodes: start..nodes.len() }
+    }
+
+    /// `∫ q dθ` and the polynomial itself at a place in the panel.
+    fn regular(&self, s: T) -> (T, T) {
+        let series = self.panel.coefficients();
+        let (mut b1, mut b2, mut sum) = (T::zero(), T::zero(), T::zero());
+        for k in (1..series.len()).rev() {
+            (b1, b2) = ((s + s) * b1 + (series[k] - b2), b1);
+            sum += self.integrals[k - 1] * b1;
+        }
+        (sum, s * b1 + (series[0] - b2))
+    }
+}
+
+/// How far from its panel a polynomial may be used: while its terms are no larger than the values
+/// that it has on the panel.
+fn reach<T: Real>(series: &[T], farthest: T) -> T {
+    let largest = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+    let mut reach = T::of(REACHES[0]);
+    for further in REACHES {
+        let further = T::of(further).min(farthest);
+        let growth = further + further;
+        let size = series[1..].iter().rev().fold(T::zero(), |sum, a| (sum + a.abs()) * growth);
+        if size > T::of(40.0) * largest.max(series[0].abs()) {
+            break;
+        }
+        reach = reach.max(further);
+    }
+    reach
+}
