@@ -12,14 +12,14 @@
 //! K_I/sqrt(2π d)` at a distance d from an edge has `K_I² = 2 E* w`, and `P ≈ K sqrt(L/2d)`;
 //! κ = π E*/2. With a parabola this is the line contact of Johnson, Kendall and Roberts as Barquins
 //! has it, *J. Adhesion* 26 (1988) 1.) The Jacobian is exact: the derivatives of `m₀` and `m₁` by
-//! the limits come with them.
+//! the limits come with them. The control settles one unknown beforehand, F or `a + b`; two are left.
 //!
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear.
 
 use super::edges::{Conditions, Control, Edge};
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Vector2};
 
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
@@ -66,13 +66,12 @@ pub(super) fn settle<T: Real>(
         }
         let m = engine.moments(gap, on)?;
         let Some(system) = System::new(conditions, on, load, &m) else { return Ok(None) };
-        let Some(inverse) = system.jacobian.try_inverse() else { return Ok(None) };
-        let step = inverse * system.residual;
-        let [right, left] = [-step[0], -step[1]];
-        if !((right - left).is_finite() && step[2].is_finite()) {
+        let Some(inverse) = system.matrix.try_inverse() else { return Ok(None) };
+        let [right, left, force] = system.step(&inverse);
+        if !((right - left).is_finite() && force.is_finite()) {
             return Ok(None);
         }
-        load -= step[2] * system.scale;
+        load += force;
         let size = right.abs() + left.abs();
         let before_move = on;
         on = conditions.moved(on, right, left);
@@ -113,9 +112,10 @@ pub(super) fn settle<T: Real>(
                 }
                 let left_over = (if stalled { one } else { share * share }) * half;
                 // The noise is known from a few coefficients only.
-                let error =
-                    |i: usize| T::of(4.0) * (noise[i] + rounding[i]) + left_over * step[i].abs();
-                let errors = [error(0), error(1)];
+                let error = |i: usize, step: T| {
+                    T::of(4.0) * (noise[i] + rounding[i]) + left_over * step.abs()
+                };
+                let errors = [error(0, right), error(1, left)];
                 let force = system.force(errors);
                 // More doubt than this is no contact found.
                 if errors[0].max(errors[1]) > T::of(0.03) {
@@ -174,11 +174,16 @@ fn opens<T: Real>(engine: &dyn Engine<T>, conditions: &Conditions<T>, on: Interv
             && (!right.is_free() || opens(on.right, T::one()))
 }
 
-/// The equations, linearised: rows for a, -b and the control; columns in units of the half-width
-/// and of `scale`.
+/// The equations, linearised: rows for a and -b. Limits are in units of the half-width, forces in
+/// those of `scale`.
 struct System<T> {
-    jacobian: Matrix3<T>,
-    residual: Vector3<T>,
+    /// By a and by -b.
+    jacobian: [[T; 2]; 2],
+    residual: [T; 2],
+    /// By the two unknowns: a and -b; or -b and the load, with `a + b` known.
+    matrix: Matrix2<T>,
+    /// By how much `a + b` has to grow.
+    wider: Option<T>,
     /// A force per unit length.
     scale: T,
     stiffness: T,
@@ -190,7 +195,6 @@ impl<T: Real> System<T> {
         let trend = m.trend?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
-        let share = |scale: T| one / scale;
         let pull = |edge: &Edge<T>| match *edge {
             Edge::Adhesive(work) => (conditions.kappa * work * half_width).sqrt(),
             _ => zero,
@@ -200,69 +204,70 @@ impl<T: Real> System<T> {
         if !(scale > zero && scale.is_finite()) {
             return None;
         }
-        let mut jacobian = Matrix3::zeros();
-        let mut residual = Vector3::zeros();
         // Derivatives by centre and half-width, each times the half-width.
-        let (scale_share, width_share) = (share(scale), share(half_width));
-        let weight = stiffness * scale_share;
+        let (by_scale, by_width) = (one / scale, one / half_width);
+        let weight = stiffness * by_scale;
         let by_half_width = weight * half_width;
-        for (row, sign, edge, pull) in
-            [(0, one, &conditions.edges[1], pull_a), (1, -one, &conditions.edges[0], pull_b)]
-        {
-            match edge.limit() {
-                Some(limit) => {
-                    let x = if row == 0 { on.right } else { on.left };
-                    jacobian[(row, row)] = one;
-                    residual[row] = (x - limit) * width_share;
-                }
-                None => {
-                    let carried = m.first + sign * m.mean;
-                    residual[row] = (load + pull + pull) * scale_share - weight * carried;
-                    let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
-                    let width = -weight * carried + pull * scale_share
-                        - by_half_width * (trend.by_2 + sign * trend.by_1);
-                    jacobian[(row, 0)] = half * (centre + width);
-                    jacobian[(row, 1)] = half * (centre - width);
-                    jacobian[(row, 2)] = one;
-                }
+        let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match edge.limit() {
+            Some(limit) => ((x - limit) * by_width, [zero, one], zero),
+            None => {
+                let carried = m.first + sign * m.mean;
+                let residual = (load + pull + pull) * by_scale - weight * carried;
+                let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
+                let width = -weight * carried + pull * by_scale
+                    - by_half_width * (trend.by_2 + sign * trend.by_1);
+                let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
+                (residual, [away, own], one)
             }
-        }
-        match conditions.control {
-            Control::Load(wanted) => {
-                jacobian[(2, 2)] = one;
-                residual[2] = (load - wanted) * scale_share;
-            }
+        };
+        let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
+        let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
+        let (jacobian, residual) = ([[aa, ab], [ba, bb]], [at_a, at_b]);
+        let (matrix, wider) = match conditions.control {
+            Control::Load(_) => (Matrix2::new(aa, ab, ba, bb), None),
             Control::HalfWidth(wanted) => {
-                jacobian[(2, 0)] = half;
-                jacobian[(2, 1)] = -half;
-                residual[2] = (half_width - wanted) * width_share;
+                let wider = (wanted - half_width) * by_width;
+                (Matrix2::new(aa + ab, force_a, ba + bb, force_b), Some(wider + wider))
             }
+        };
+        Some(Self { jacobian, residual, matrix, wider, scale, stiffness })
+    }
+
+    /// The steps of a and of -b, in half-widths, and that of the load.
+    fn step(&self, inverse: &Matrix2<T>) -> [T; 3] {
+        let wider = self.wider.unwrap_or(T::zero());
+        let left = |i: usize| self.residual[i] + self.jacobian[i][0] * wider;
+        let step = -(inverse * Vector2::new(left(0), left(1)));
+        match self.wider {
+            None => [step[0], step[1], T::zero()],
+            Some(_) => [step[0] + wider, step[0], step[1] * self.scale],
         }
-        Some(Self { jacobian, residual, scale, stiffness })
     }
 
     /// Whether the contact grows with its load: where it does not, another does.
     fn is_stable(&self, conditions: &Conditions<T>) -> bool {
-        let j = |row, column| self.jacobian[(row, column)];
+        let [[aa, ab], [ba, bb]] = self.jacobian;
         match (conditions.control, conditions.edges.map(|edge| edge.limit())) {
-            (Control::Load(_), [None, None]) => j(0, 0) * j(1, 1) < j(0, 1) * j(1, 0),
-            (Control::Load(_), [Some(_), None]) => j(0, 0) < T::zero(),
-            (Control::Load(_), [None, Some(_)]) => j(1, 1) > T::zero(),
+            (Control::Load(_), [None, None]) => aa * bb < ab * ba,
+            (Control::Load(_), [Some(_), None]) => aa < T::zero(),
+            (Control::Load(_), [None, Some(_)]) => bb > T::zero(),
             _ => true,
         }
     }
 
     /// The load that moves the limits by so much of the half-width.
     fn force(&self, errors: [T; 2]) -> T {
-        let row = |i: usize| {
-            self.jacobian[(i, 0)].abs() * errors[0] + self.jacobian[(i, 1)].abs() * errors[1]
-        };
-        row(0).max(row(1)) * self.scale
+        let row = |[a, b]: [T; 2]| a.abs() * errors[0] + b.abs() * errors[1];
+        row(self.jacobian[0]).max(row(self.jacobian[1])) * self.scale
     }
 
     /// What the error of the moments leaves open of `a` and of `-b`, in half-widths.
-    fn error(&self, inverse: &Matrix3<T>, m: &Moments<T>) -> [T; 2] {
+    fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
         let error = self.stiffness * m.error / self.scale;
-        [0, 1].map(|i| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs()))
+        let row = |i: usize| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs());
+        match self.wider {
+            None => [row(0), row(1)],
+            Some(_) => [row(0); 2],
+        }
     }
 }
