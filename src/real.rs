@@ -26,6 +26,17 @@ pub trait Real: RealField + Copy {
 
 impl<T: RealField + Copy> Real for T {}
 
+/// `a b + c`, with one rounding where the processor has an instruction for it. (Without one, the exact
+/// result would take a hundred times as long.)
+#[inline(always)]
+pub(crate) fn fma<T: Real>(a: T, b: T, c: T) -> T {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+        a.mul_add(b, c)
+    } else {
+        a * b + c
+    }
+}
+
 /// A sum that carries its rounding error along (Neumaier's variant of Kahan's sum).
 ///
 /// The terms next to the pole of a Cauchy integral are large and of alternating sign;

@@ -4,10 +4,11 @@
 //! is as good as at them. So nothing is inverted. The parameter of each target is read off the
 //! cubic `k(x)` through the two known points around it (`dk/dx = 1/X'` is known there too), and
 //! where the curve then turns out to be is where the node is. On a range that the curve crosses
-//! evenly this takes one evaluation a node, all of them in one batch. Where nothing is known but the
-//! far ends of a piece, the first point is found by a few steps of Newton's rule. A target that is
-//! missed by more than a tenth of the distance to its neighbours is searched for with the user's
-//! strategy, which is stopped as soon as it is near: it meets a zero there.
+//! evenly this takes one evaluation a node, all of them in one batch. A target that is missed by
+//! more than a tenth of the distance to its neighbours is approached by a few steps of Newton's
+//! rule, as is the first where nothing is known but the far ends of a piece. Where they do not
+//! get there it is searched for with the user's strategy, which is stopped as soon as it is near:
+//! it meets a zero there.
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, turning_point};
@@ -15,12 +16,12 @@ use crate::search::{Bracket, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
 /// The most targets at a time.
-const MOST: usize = 24;
+const MOST: usize = 32;
 
 /// By how much of the distance to the next target a node may miss its own, and for a sketch.
 const NEAR: [f64; 2] = [0.1, 0.45];
 
-/// Steps of Newton's rule to the first target, before it is left to the user's strategy.
+/// Steps of Newton's rule to a target, before it is left to the user's strategy.
 const STEPS: usize = 4;
 
 /// A known point of a curve.
@@ -103,18 +104,17 @@ impl<T: Real> Trace<T> {
 
 /// Samples a body near the targets, which rise and lie on one piece of it. Afterwards the trace has
 /// one knot for each, rising too.
-pub(crate) fn aim<T: Real>(
+pub(crate) fn aim<const N: usize, T: Real>(
     gap: &Gap<'_, T>,
     body: Body,
-    targets: &[T],
+    targets: &[T; N],
     rough: bool,
     trace: &mut Trace<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
-    let n = targets.len();
-    let (index, piece) = gap.piece_at(body, targets[n / 2], Side::Left);
+    let (index, piece) = gap.piece_at(body, targets[N / 2], Side::Left);
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
-        (trace.direct, trace.piece, trace.knots.len) = (true, None, n);
+        (trace.direct, trace.piece, trace.knots.len) = (true, None, N);
         for (i, &x) in targets.iter().enumerate() {
             let slope = if i == 0 { slope } else { piece.curve.slope_at(x).unwrap_or(slope) };
             if !slope.is_finite() {
@@ -131,73 +131,82 @@ pub(crate) fn aim<T: Real>(
         trace.knots.set_ends(ends, 0);
     }
     let near = T::of(NEAR[usize::from(rough)]);
-    let shot = Shot { gap, body, piece, rises: piece.k[0] < piece.k[1], targets, near };
+    let room = std::array::from_fn(|i| {
+        let before = targets[i] - targets[i.max(1) - 1];
+        let after = targets[(i + 1).min(N - 1)] - targets[i];
+        near * if i == 0 {
+            after
+        } else if i + 1 == N {
+            before
+        } else {
+            before.min(after)
+        }
+    });
+    let shot = Shot { gap, body, piece, rises: piece.k[0] < piece.k[1], targets, room };
     shot.take(&mut trace.knots, cost).map_err(|error| turns(piece, error))
 }
 
 /// What is aimed at.
-struct Shot<'s, T: Real> {
+struct Shot<'s, const N: usize, T: Real> {
     gap: &'s Gap<'s, T>,
     body: Body,
     piece: Piece<'s, T>,
     rises: bool,
-    targets: &'s [T],
-    /// By how much of the distance between them a target may be missed.
-    near: T,
+    targets: &'s [T; N],
+    /// By how much each may be missed.
+    room: [T; N],
 }
 
-impl<T: Real> Shot<'_, T> {
+impl<const N: usize, T: Real> Shot<'_, N, T> {
     /// Puts knots near the targets in place of those that are known.
     fn take(&self, known: &mut Knots<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
-        let (targets, n) = (self.targets, self.targets.len());
-        let ends = known.ends();
+        let (targets, ends) = (self.targets, known.ends());
         // A range much longer than that of the targets says little of where they are: with one found,
         // the others are aimed at from there.
-        let [first, last] = [targets[0], targets[n - 1]];
+        let [first, last] = [targets[0], targets[N - 1]];
+        let [leftmost, rightmost] = [known.row[1], known.row[known.len]];
         let far = last - first < T::of(0.25) * (ends[1].x - ends[0].x);
         let beside = first <= ends[0].x || last >= ends[1].x;
         if known.len == 0 && far && !beside {
-            let found = self.first(n / 2, known, cost)?;
+            let found = self.find(N / 2, ends, cost)?;
             known.set_ends(ends, 1);
             known.row[1] = found;
+        } else if known.len > 0 && first > rightmost.x && !beside {
+            let found = self.find(N - 1, [rightmost, ends[1]], cost)?;
+            known.set_ends(ends, 2);
+            (known.row[1], known.row[2]) = (rightmost, found);
+        } else if known.len > 0 && last < leftmost.x && !beside {
+            let found = self.find(0, [ends[0], leftmost], cost)?;
+            known.set_ends(ends, 2);
+            (known.row[1], known.row[2]) = (found, leftmost);
         }
-        let mut knots = Knots::new();
-        knots.set_ends(ends, n);
-        let all_near = self.batch(known, &mut knots, cost)?;
-        if !all_near {
-            self.search_missed(known, &mut knots, cost)?;
+        let mut knots = [ends[0]; N];
+        if !self.batch(known, &mut knots, cost)? {
+            self.find_missed(known, &mut knots, cost)?;
         }
-        known.set_ends(ends, n);
-        known.row[1..=n].copy_from_slice(knots.inner());
+        known.set_ends(ends, N);
+        known.row[1..=N].copy_from_slice(&knots);
         Ok(())
     }
 
-    /// By how much a target may be missed.
-    fn tolerance(&self, i: usize) -> T {
-        let targets = self.targets;
-        let before = if i > 0 { Some(targets[i] - targets[i - 1]) } else { None };
-        let after = targets.get(i + 1).map(|&next| next - targets[i]);
-        let distance = match (before, after) {
-            (Some(before), Some(after)) => before.min(after),
-            (before, after) => before.or(after).unwrap_or_else(T::zero),
-        };
-        self.near * distance
+    fn is_near(&self, i: usize, knot: &Knot<T>) -> bool {
+        (knot.x - self.targets[i]).abs() <= self.room[i]
     }
 
     /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
     fn batch(
         &self,
         known: &Knots<T>,
-        knots: &mut Knots<T>,
+        knots: &mut [Knot<T>; N],
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
         let zero = T::zero();
         let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
-        let (mut asked, mut k) = ([0; MOST], [zero; MOST]);
+        let (mut asked, mut k) = ([0; N], [zero; N]);
         let (row, len) = (&known.row[..known.len + 2], known.len);
         let (mut count, mut right) = (0, 1);
-        let mut way = Way::new(&row[0], &row[1]);
         let mut from = 0;
+        let mut way = Way::new(&row[0], &row[1]);
         for (i, &target) in self.targets.iter().enumerate() {
             while right <= len && row[right].x <= target {
                 right += 1;
@@ -206,9 +215,8 @@ impl<T: Real> Shot<'_, T> {
             let [one, other] = [&row[left], &row[right]];
             let [from_left, to_right] = [target - one.x, other.x - target];
             let nearer = if from_left < to_right { one } else { other };
-            let near = (nearer.x - target).abs() <= self.tolerance(i);
-            if near && nearer.slope.is_finite() {
-                knots.row[i + 1] = *nearer;
+            if self.is_near(i, nearer) && nearer.slope.is_finite() {
+                knots[i] = *nearer;
                 continue;
             }
             // Just outside what is known, its last two points say more than a far end.
@@ -225,85 +233,35 @@ impl<T: Real> Shot<'_, T> {
             (asked[count], k[count]) = (i, way.parameter(target, one, other));
             count += 1;
         }
-        let mut points = [nowhere; MOST];
+        let mut points = [nowhere; N];
         self.piece.curve.at_many(&k[..count], &mut points[..count]);
         cost.evaluations += count;
         let (mut all_near, mut sound) = (true, true);
         for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {
             let knot = Knot::new(k, point);
             sound &= self.is_sound(&knot);
-            all_near &= (knot.x - self.targets[i]).abs() <= self.tolerance(i);
-            knots.row[i + 1] = knot;
+            all_near &= self.is_near(i, &knot);
+            knots[i] = knot;
         }
         if !sound {
-            knots.inner().iter().try_for_each(|knot| self.check(knot))?;
+            knots.iter().try_for_each(|knot| self.check(knot))?;
         }
         Ok(all_near)
     }
 
-    /// Finds a point near a target by Newton's rule from the ends of the piece; where a few steps are not
-    /// enough, with the user's strategy.
-    fn first(
-        &self,
-        i: usize,
-        known: &Knots<T>,
-        cost: &mut Cost,
-    ) -> Result<Knot<T>, ContactError<T>> {
-        let (target, near) = (self.targets[i], self.tolerance(i));
-        let [left, right] = known.ends();
-        let mut k = Way::new(&left, &right).parameter(target, &left, &right);
-        for _ in 0..STEPS {
-            cost.evaluations += 1;
-            let knot = Knot::new(k, self.piece.curve.at(k));
-            self.check(&knot)?;
-            if (knot.x - target).abs() <= near {
-                return Ok(knot);
-            }
-            k = knot.k + (target - knot.x) / knot.dx;
-            if !is_between(k, left.k, right.k) {
-                break;
-            }
-        }
-        self.search(i, known, None, cost)
-    }
-
     /// Finds points near the targets that were missed.
-    fn search_missed(
+    fn find_missed(
         &self,
         known: &Knots<T>,
-        knots: &mut Knots<T>,
+        knots: &mut [Knot<T>; N],
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        let [left, right] = known.ends();
         for (i, &target) in self.targets.iter().enumerate() {
-            if (knots.row[i + 1].x - target).abs() <= self.tolerance(i) {
+            if self.is_near(i, &knots[i]) {
                 continue;
             }
-            let found = self.search(i, known, Some(knots), cost)?;
-            // A strategy that stops early leaves nodes that are good for nothing.
-            let missed = found.x - target;
-            let noise = T::of(1e3) * T::epsilon() * left.x.abs().max(right.x.abs());
-            if missed.abs() > T::of(5.0) * self.tolerance(i) + noise {
-                let source = SearchError::Missed { x: found.k, residual: missed };
-                return Err(ContactError::Inversion { body: self.body, x: target, source });
-            }
-            knots.row[i + 1] = found;
-        }
-        Ok(())
-    }
-
-    /// Finds a point near one target with the user's strategy, between the points at hand.
-    fn search(
-        &self,
-        i: usize,
-        known: &Knots<T>,
-        fresh: Option<&Knots<T>>,
-        cost: &mut Cost,
-    ) -> Result<Knot<T>, ContactError<T>> {
-        let (target, near, body) = (self.targets[i], self.tolerance(i), self.body);
-        let [mut left, mut right] = known.ends();
-        for knots in [Some(known), fresh].into_iter().flatten() {
-            for &knot in knots.inner() {
+            let [mut left, mut right] = known.ends();
+            for &knot in known.inner().iter().chain(knots.iter()) {
                 if knot.x <= target && knot.x >= left.x {
                     left = knot;
                 }
@@ -311,7 +269,61 @@ impl<T: Real> Shot<'_, T> {
                     right = knot;
                 }
             }
+            let found = self.find(i, [left, right], cost)?;
+            // A strategy that stops early leaves nodes that are good for nothing.
+            let missed = found.x - target;
+            let [from, to] = self.piece.x();
+            let noise = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
+            if missed.abs() > T::of(5.0) * self.room[i] + noise {
+                let source = SearchError::Missed { x: found.k, residual: missed };
+                return Err(ContactError::Inversion { body: self.body, x: target, source });
+            }
+            knots[i] = found;
         }
+        Ok(())
+    }
+
+    /// Finds a point near one target between two known points, by Newton's rule; where a few steps are
+    /// not enough, with the user's strategy.
+    fn find(
+        &self,
+        i: usize,
+        between: [Knot<T>; 2],
+        cost: &mut Cost,
+    ) -> Result<Knot<T>, ContactError<T>> {
+        let [left, right] = between;
+        let target = self.targets[i];
+        let [from_left, to_right] = [target - left.x, right.x - target];
+        let beside = from_left.min(to_right) < T::of(0.25) * from_left.max(to_right);
+        let mut k = if beside {
+            newton(left, right, target)
+        } else {
+            Way::new(&left, &right).parameter(target, &left, &right)
+        };
+        for _ in 0..STEPS {
+            if !is_between(k, left.k, right.k) {
+                break;
+            }
+            cost.evaluations += 1;
+            let knot = Knot::new(k, self.piece.curve.at(k));
+            self.check(&knot)?;
+            if self.is_near(i, &knot) {
+                return Ok(knot);
+            }
+            k = knot.k + (target - knot.x) / knot.dx;
+        }
+        self.search(i, between, cost)
+    }
+
+    /// Finds a point near one target with the user's strategy.
+    #[cold]
+    fn search(
+        &self,
+        i: usize,
+        [left, right]: [Knot<T>; 2],
+        cost: &mut Cost,
+    ) -> Result<Knot<T>, ContactError<T>> {
+        let (target, body) = (self.targets[i], self.body);
         let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
         if lo.k >= hi.k {
             // The two known points are one and the same.
@@ -328,8 +340,7 @@ impl<T: Real> Shot<'_, T> {
                 return (T::of(f64::NAN), knot.dx);
             }
             best = Some(knot);
-            let missed = knot.x - target;
-            (if missed.abs() <= near { T::zero() } else { missed }, knot.dx)
+            (if self.is_near(i, &knot) { T::zero() } else { knot.x - target }, knot.dx)
         };
         match (self.gap.inversion().find_with_slope(&mut f, &bracket), failed) {
             (_, Some(error)) => Err(error),
@@ -349,7 +360,6 @@ impl<T: Real> Shot<'_, T> {
         }
     }
 
-    /// Whether a point can be used: the curve runs on, and has a slope.
     #[inline(always)]
     fn is_sound(&self, knot: &Knot<T>) -> bool {
         let onward = if self.rises { knot.dx } else { -knot.dx };
@@ -396,17 +406,17 @@ fn is_between<T: Real>(k: T, one: T, other: T) -> bool {
 
 /// The parameter as a function of x by two knots: the cubic `k(x)` through both with their slopes, or
 /// where that is not monotone, the slope at the nearer one.
-struct Way<T> {
-    left: Knot<T>,
-    right: Knot<T>,
+struct Way<'k, T> {
+    left: &'k Knot<T>,
+    right: &'k Knot<T>,
     /// The reciprocal of the distance.
     share: T,
     /// The coefficients of the cubic in the share of the way, without the constant.
     cubic: Option<[T; 3]>,
 }
 
-impl<T: Real> Way<T> {
-    fn new(left: &Knot<T>, right: &Knot<T>) -> Self {
+impl<'k, T: Real> Way<'k, T> {
+    fn new(left: &'k Knot<T>, right: &'k Knot<T>) -> Self {
         let width = right.x - left.x;
         let rise = right.k - left.k;
         let (at_left, at_right) = (width / left.dx, width / right.dx);
@@ -416,7 +426,7 @@ impl<T: Real> Way<T> {
             let (twice, sum) = (rise + rise, at_left + at_right);
             [at_left, rise + twice - at_left - sum, sum - twice]
         });
-        Self { left: *left, right: *right, share: T::one() / width, cubic }
+        Self { left, right, share: T::one() / width, cubic }
     }
 
     /// The parameter at x, which is between two other knots, or the same.
@@ -428,14 +438,15 @@ impl<T: Real> Way<T> {
                 self.left.k + along * (first + along * (second + along * third))
             }
             None => {
-                let nearer = if along < T::of(0.5) { &self.left } else { &self.right };
+                let nearer = if along < T::of(0.5) { self.left } else { self.right };
                 nearer.k + (x - nearer.x) / nearer.dx
             }
         };
         if is_between(k, one.k, other.k) {
             return k;
         }
-        one.k + (x - one.x) / (other.x - one.x) * (other.k - one.k)
+        let share = (x - one.x) / (other.x - one.x);
+        if share.is_finite() { one.k + share * (other.k - one.k) } else { one.k }
     }
 }
 

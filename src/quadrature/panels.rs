@@ -84,8 +84,8 @@ impl<T: Real> AtWork<T> {
         let mut expected = T::one();
         for n in (2..=MOST).step_by(2) {
             expected *= fall;
-            // What four coefficients leave is asked to be smaller, and must not be noise.
-            let left = if n < 8 { expected * T::of(20.0) } else { expected * fall };
+            // Coefficients may fall more slowly than the first of them. Four do not show the noise.
+            let left = expected * if n < 8 { T::of(20.0) } else { T::of(20.0) * fall };
             let enough = n >= 8 || self.cover.tolerance >= T::of(400.0) * T::epsilon();
             if enough && SIZES.contains(&n) && left <= self.cover.tolerance {
                 return n;
@@ -142,7 +142,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.cover.extend(gap, sampled)?;
         let m = integrals::moments(&self.cover.panels, on, false);
         // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
-        let poor = m.error > self.cover.tolerance * m.size;
+        let poor = m.error > T::of(4.0) * self.cover.tolerance * m.size;
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
         if poor && reach > T::of(1.25) * on.half_width() {
             self.forget();
@@ -206,7 +206,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let of_series = kappa * self.conjugate.error(&self.cover.panels, x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
-        let of_edges = T::of(9.0) * strength / (T::pi() * on.edge_root(x));
+        let of_edges = T::of(6.0) * strength / (T::pi() * on.edge_root(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
         Ok(Estimate { value: value[0], error })
     }

@@ -4,13 +4,14 @@
 //! the compiler, which turns them into vector instructions.
 
 use crate::Real;
+use crate::real::fma;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// The numbers of nodes in use.
-pub(super) const SIZES: [usize; 4] = [4, 8, 12, 24];
+pub(super) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
 /// The largest of them.
-pub(super) const MOST: usize = 24;
+pub(super) const MOST: usize = 32;
 
 /// Coefficients or values, as many as the panel has nodes.
 pub(super) type Row<T> = [T; MOST];
@@ -67,7 +68,9 @@ impl Table {
             4 => 0,
             8 => 1,
             12 => 2,
-            _ => 3,
+            16 => 3,
+            24 => 4,
+            _ => 5,
         }]
     }
 
@@ -77,7 +80,9 @@ impl Table {
             4 => self.transform::<4, T>(values),
             8 => self.transform::<8, T>(values),
             12 => self.transform::<12, T>(values),
-            _ => self.transform::<24, T>(values),
+            16 => self.transform::<16, T>(values),
+            24 => self.transform::<24, T>(values),
+            _ => self.transform::<MOST, T>(values),
         }
     }
 
@@ -85,7 +90,7 @@ impl Table {
         let mut row = [T::zero(); MOST];
         for j in 0..N {
             for k in 0..N {
-                row[k] += values[j] * T::of(self.transform[j][k]);
+                row[k] = fma(values[j], T::of(self.transform[j][k]), row[k]);
             }
         }
         row
@@ -103,14 +108,14 @@ pub(super) fn evaluate<const W: usize, T: Real>(
     let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
     for &a in coefficients[1..].iter().rev() {
         for i in 0..W {
-            let b = twice[i] * b1[i] + (a - b2[i]);
-            let d = twice[i] * d1[i] + (b1[i] + b1[i] - d2[i]);
+            let b = fma(twice[i], b1[i], a - b2[i]);
+            let d = fma(twice[i], d1[i], b1[i] + b1[i] - d2[i]);
             (b2[i], b1[i]) = (b1[i], b);
             (d2[i], d1[i]) = (d1[i], d);
         }
     }
-    let value = std::array::from_fn(|i| s[i] * b1[i] + (coefficients[0] - b2[i]));
-    let slope = std::array::from_fn(|i| s[i] * d1[i] + (b1[i] - d2[i]));
+    let value = std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]));
+    let slope = std::array::from_fn(|i| fma(s[i], d1[i], b1[i] - d2[i]));
     (value, slope)
 }
 
@@ -118,7 +123,7 @@ pub(super) fn evaluate<const W: usize, T: Real>(
 #[inline(always)]
 pub(super) fn values<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
     let [b1, b2] = recurrence(&coefficients[1..], s);
-    std::array::from_fn(|i| s[i] * b1[i] + (coefficients[0] - b2[i]))
+    std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]))
 }
 
 /// `Σ c_k U_k` at W points, U_k being the Chebyshev polynomials of the second kind.
@@ -134,7 +139,7 @@ fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W
     let (mut b1, mut b2) = ([T::zero(); W], [T::zero(); W]);
     for &a in coefficients.iter().rev() {
         for i in 0..W {
-            let b = twice[i] * b1[i] + (a - b2[i]);
+            let b = fma(twice[i], b1[i], a - b2[i]);
             (b2[i], b1[i]) = (b1[i], b);
         }
     }
@@ -153,6 +158,8 @@ pub(super) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<
         4 => expanded::<4, T>(coefficients, left, right),
         8 => expanded::<8, T>(coefficients, left, right),
         12 => expanded::<12, T>(coefficients, left, right),
+        16 => expanded::<16, T>(coefficients, left, right),
+        24 => expanded::<24, T>(coefficients, left, right),
         _ => expanded::<MOST, T>(coefficients, left, right),
     }
 }

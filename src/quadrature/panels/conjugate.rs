@@ -30,10 +30,11 @@
 //! edges: R keeps its relative accuracy up to a free edge.
 
 use super::angles::{HalfAngle, Sines};
-use super::chebyshev::{MOST, Row, second_kind, size_for, values};
+use super::chebyshev::{MOST, Row, second_kind, size_for, value_at, values};
 use super::far::Far;
 use super::integrals::GROWTH;
 use super::panel::{Panel, largest, within};
+use crate::real::fma;
 use crate::{Interval, Real};
 
 /// Points treated together.
@@ -120,14 +121,11 @@ impl<T: Real> Conjugate<T> {
     pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, size: T, tolerance: T) {
         self.on = on;
         let panels = within(panels, on);
-        self.is_far = !self.continued(panels, on);
-        if panels.len() == 1 {
-            return;
-        }
         let tail = panels.iter().fold(T::zero(), |max, panel| max.max(panel.tail));
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
+        self.is_far = !self.continued(panels, on);
         if self.is_far {
             self.far.set(panels, on);
         }
@@ -142,18 +140,25 @@ impl<T: Real> Conjugate<T> {
         let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
         let mut left = [zero; MOST + 2];
         left[0] = T::pi();
-        let mut before = ([zero; MOST], 0);
+        let mut before = ([zero; MOST], 0, zero);
         for (i, panel) in panels.iter().enumerate() {
             let (series, terms) = panel.over(on);
             let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-            if panels.len() > 1 && bulk > allowed {
+            if panels.len() > 1 && !(bulk <= allowed) {
                 return false;
             }
             if i > 0 {
                 let joint = Joint::new(panel, on, panel.x[0]);
-                let difference = std::array::from_fn(|k| series[k] - before.0[k]);
-                let terms = terms.max(before.1);
-                self.changes.push(Change { joint, series: difference, terms });
+                let (last, last_terms, last_tail) = before;
+                let mut series: Row<T> = std::array::from_fn(|k| series[k] - last[k]);
+                let terms = terms.max(last_terms);
+                // Noise at a joint that does not jump would be a spike.
+                let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
+                let jump = value_at(&series[..terms], z / (on.right - on.left));
+                if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + last_tail) {
+                    series[0] -= jump;
+                }
+                self.changes.push(Change { joint, series, terms });
             }
             let mut right = [zero; MOST + 2];
             if i + 1 < panels.len() {
@@ -165,9 +170,11 @@ impl<T: Real> Conjugate<T> {
                 4 => add_smooth::<4, T>(&mut self.smooth, &series, &stretch),
                 8 => add_smooth::<8, T>(&mut self.smooth, &series, &stretch),
                 12 => add_smooth::<12, T>(&mut self.smooth, &series, &stretch),
+                16 => add_smooth::<16, T>(&mut self.smooth, &series, &stretch),
+                24 => add_smooth::<24, T>(&mut self.smooth, &series, &stretch),
                 _ => add_smooth::<MOST, T>(&mut self.smooth, &series, &stretch),
             }
-            (before, left) = ((series, terms), right);
+            (before, left) = ((series, terms, panel.tail), right);
         }
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
@@ -218,7 +225,7 @@ impl<T: Real> Conjugate<T> {
                 sum += panel.tail * sine * length / away;
             }
         }
-        T::of(12.0) * (sum + here)
+        T::of(6.0) * (sum + here)
     }
 }
 
@@ -228,7 +235,7 @@ fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, int
     for m in 1..N {
         let integral = integrals[m - 1] * T::of(if m == 1 { 1.0 } else { 2.0 });
         for l in 0..N - m {
-            smooth[l] += integral * series[m + l];
+            smooth[l] = fma(integral, series[m + l], smooth[l]);
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{MOST, Table, value_at};
+use super::chebyshev::{MOST, Table, size_for, value_at};
 use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Trace, aim};
+use crate::real::fma;
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
 /// How often a stretch between two joints may be split.
@@ -98,16 +99,19 @@ impl<T: Real> Cover<T> {
             return self.sample(gap, on);
         };
         // More than a sliver at a time, but beside a joint perhaps not much.
-        let (range, half) = (gap.range(), T::of(0.5));
-        let (first, last) = (self.panels[0].x, self.panels[self.panels.len() - 1].x);
-        let [before, more] = [first, last].map(|x| half * (x[1] - x[0]));
+        let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
+        let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
+        let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
+        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
         if on.right > have.right {
-            let far = (have.right + more).min(half * on.right + half * range[1]);
+            self.first = enough(&last);
+            let far = (have.right + more(&last)).min(half * on.right + half * range[1]);
             self.sample(gap, Interval { left: have.right, right: on.right.max(far) })?;
         }
         if on.left < have.left {
+            self.first = enough(&first);
             let count = self.panels.len();
-            let far = (have.left - before).max(half * on.left + half * range[0]);
+            let far = (have.left - more(&first)).max(half * on.left + half * range[0]);
             self.sample(gap, Interval { left: on.left.min(far), right: have.left })?;
             self.panels.rotate_left(count);
         }
@@ -199,7 +203,11 @@ impl<T: Real> Cover<T> {
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
             let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
             let (tail, next, split) = match verdict {
-                Verdict::Good(tail) | Verdict::Noise(tail) => (tail, None, false),
+                Verdict::Good(tail) => (tail, None, false),
+                Verdict::Noise(level) => {
+                    panel.drop_noise(level);
+                    (level, None, false)
+                }
                 Verdict::Take(next, tail) => (tail, Some(next), true),
                 Verdict::Split(tail) => (tail, None, true),
             };
@@ -228,6 +236,8 @@ impl<T: Real> Cover<T> {
             4 => self.with_nodes::<4>(gap, x),
             8 => self.with_nodes::<8>(gap, x),
             12 => self.with_nodes::<12>(gap, x),
+            16 => self.with_nodes::<16>(gap, x),
+            24 => self.with_nodes::<24>(gap, x),
             _ => self.with_nodes::<MOST>(gap, x),
         }
     }
@@ -339,7 +349,7 @@ fn at_nodes<const N: usize, T: Real>(
     for j in 0..N {
         for i in 0..N {
             let distance = at[i] - x[j];
-            sum[i] = sum[i] * distance + (known[j] - known[i]) * weight[j] * product[i];
+            sum[i] = fma(sum[i], distance, (known[j] - known[i]) * (weight[j] * product[i]));
             product[i] *= distance;
         }
     }

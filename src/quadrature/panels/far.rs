@@ -13,7 +13,7 @@ use crate::real::Sum;
 use crate::{Interval, Real};
 
 /// How far beyond its panel, in half-lengths, a polynomial may be used.
-const REACHES: [f64; 5] = [1.6, 3.0, 8.0, 13.0, 18.0];
+const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
 
 /// The panels of a contact.
 pub(super) struct Far<T> {
@@ -146,10 +146,11 @@ impl<T: Real> Part<T> {
 /// that it has on the panel.
 fn reach<T: Real>(series: &[T], farthest: T) -> T {
     let largest = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-    let mut reach = T::of(REACHES[0]);
+    let mut reach = T::one();
     for further in REACHES {
-        let further = T::of(further).min(farthest);
-        let growth = further + further;
+        let further = T::of(further).min(farthest).max(T::one());
+        // T_k grows like a power of this.
+        let growth = further + (further * further - T::one()).sqrt();
         let size = series[1..].iter().rev().fold(T::zero(), |sum, a| (sum + a.abs()) * growth);
         if size > T::of(40.0) * largest.max(series[0].abs()) {
             break;

@@ -81,6 +81,8 @@ fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
         4 => derivative::<4, T>(&series),
         8 => derivative::<8, T>(&series),
         12 => derivative::<12, T>(&series),
+        16 => derivative::<16, T>(&series),
+        24 => derivative::<24, T>(&series),
         _ => derivative::<MOST, T>(&series),
     };
     let by_x = T::one() / on.half_width();
@@ -105,7 +107,7 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
     for (i, panel) in panels.iter().enumerate() {
         let (series, counting) = panel.over(on);
         let bulk = series[..counting].iter().fold(zero, |sum, a| sum + a.abs());
-        if bulk > allowed {
+        if !(bulk <= allowed) {
             return false;
         }
         let [mut from, mut to] = panel.at_ends();
@@ -126,10 +128,12 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
             4 => stretch_of::<4, T>(sums, &series, &stretch, on),
             8 => stretch_of::<8, T>(sums, &series, &stretch, on),
             12 => stretch_of::<12, T>(sums, &series, &stretch, on),
+            16 => stretch_of::<16, T>(sums, &series, &stretch, on),
+            24 => stretch_of::<24, T>(sums, &series, &stretch, on),
             _ => stretch_of::<MOST, T>(sums, &series, &stretch, on),
         }
         sums.size += half * (from.abs() + to.abs()) * stretch[0];
-        sums.error += (panel.tail + T::of(4.0) * T::epsilon() * bulk) * stretch[0];
+        sums.error += (panel.tail + T::epsilon() * bulk) * stretch[0];
         left = right;
     }
     sums.scale(T::frac_1_pi());

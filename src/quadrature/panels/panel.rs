@@ -26,6 +26,14 @@ impl<T: Real> Panel<T> {
         Self { x, n, series, counting, tail: T::zero() }
     }
 
+    /// Leaves out the coefficients that are no more than noise of this level: they say nothing of the
+    /// slope, and add up at the ends of the panel.
+    pub fn drop_noise(&mut self, level: T) {
+        let counts = |a: &T| a.abs() > T::of(4.0) * level;
+        let last = self.coefficients().iter().rposition(counts);
+        self.counting = last.map_or(2, |last| (last + 1).max(2));
+    }
+
     /// The place of `x` in the panel, from -1 to 1; exact at both ends.
     pub fn local(&self, x: T) -> T {
         ((x - self.x[0]) - (self.x[1] - x)) / (self.x[1] - self.x[0])
@@ -137,10 +145,10 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let plateau = third(2);
     let faint = plateau <= rounded / T::epsilon().cbrt();
     if n >= 12 && faint && plateau >= T::of(0.42) * third(1) {
-        return Verdict::Noise(T::of(1.5) * plateau);
+        return Verdict::Noise(plateau);
     }
-    if faint && n < MOST {
-        return Verdict::Take(if n < 8 { 8 } else { MOST }, last);
+    if faint && n < 24 {
+        return Verdict::Take(if n < 8 { 8 } else { 24 }, last);
     }
     let mut expected = error * doubt;
     let mut have = n;
