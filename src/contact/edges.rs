@@ -72,19 +72,20 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The interval with its limits moved by steps in units of the half-width. The half-width
-    /// moves as its square would, by no more than a factor of 33 down or 4 up.
-    pub fn moved(&self, on: Interval<T>, right: T, left: T) -> Interval<T> {
+    /// The interval with its limits moved by steps in units of the half-width, given the load as a
+    /// share of what the interval would carry. The half-width moves as its square would, by no more
+    /// than a factor of 33 down or 4 up.
+    pub fn moved(&self, on: Interval<T>, [right, left]: [T; 2], share: T) -> Interval<T> {
         let (one, half) = (T::one(), T::of(0.5));
         let half_width = on.half_width();
         let wider = half * (right - left);
-        let square = one + wider + wider;
-        let wider = if square < T::zero() {
-            // No round body asks for so much less, but a wedge does, whose load goes with the
-            // half-width itself.
-            wider.max(T::of(-0.97))
+        let wider = if wider < T::of(-0.3) && share > T::zero() && share < one {
+            // Far off, the power of the half-width that the load goes with is read off the step: 2
+            // for a round body, 1 for a wedge.
+            let power = (one - share) / -wider;
+            (share.powf(one / power) - one).max(T::of(-0.97))
         } else {
-            let square = square.max(T::of(1e-3));
+            let square = (one + wider + wider).max(T::of(1e-3));
             ((square - one) / (one + square.sqrt())).min(T::of(3.0))
         };
         let along = (half * (right + left)).max(-one).min(one);

@@ -14,7 +14,8 @@
 //! has it, *J. Adhesion* 26 (1988) 1.) The Jacobian is exact: the derivatives of `m₀` and `m₁` by
 //! the limits come with them. The control settles one unknown beforehand, F or `a + b`; two are left.
 //!
-//! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear.
+//! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
+//! long one as in the power of L that the load is seen to go with.
 
 use super::edges::{Conditions, Control, Edge};
 use crate::quadrature::{Engine, Moments};
@@ -74,7 +75,7 @@ pub(super) fn settle<T: Real>(
         load += force;
         let size = right.abs() + left.abs();
         let before_move = on;
-        on = conditions.moved(on, right, left);
+        on = conditions.moved(on, [right, left], load / (conditions.kappa * half_width * m.first));
         let back = |from: T, to: T, end: T, beyond: bool| {
             // Half the way, since the slope may be infinite at the very end of a body.
             if beyond { half * from + half * end } else { to }

@@ -167,27 +167,15 @@ impl<T: Real> Engine<T> for AtWork<T> {
         out: &mut [T],
         _cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        let on = self.conjugate.on;
-        let scale = pressing.kappa / (T::pi() * T::pi());
-        let (half, least) = (T::of(0.5), T::of(0.1));
-        let [free, bound] = self.strengths(pressing);
-        for (x, out) in x.chunks(LANES).zip(out.chunks_mut(LANES)) {
-            let mut lanes = [x[0]; LANES];
-            lanes[..x.len()].copy_from_slice(x);
-            let edges = Edges::of(on, &lanes);
-            let regular = self.conjugate.at(&lanes, &edges);
-            let pressures: [T; LANES] = std::array::from_fn(|i| {
-                let (left, right) = (edges.left[i], edges.right[i]);
-                let by_root = half / edges.root[i];
-                let pressure = scale * regular[i] + (bound[0] * left + bound[1] * right) * by_root;
-                // What rounding has left of a strength that should be zero stands for the load
-                // that the rounded limits have too much or too little. Close to the edge it is the
-                // limit that counts.
-                let left_over = (free[0] * left + free[1] * right) * by_root;
-                let counts = left_over.abs() < least * pressure.abs();
-                pressure + if counts { left_over } else { T::zero() }
-            });
-            out.copy_from_slice(&pressures[..out.len()]);
+        let (whole, rest) = x.as_chunks::<LANES>();
+        let (out, rest_out) = out.as_chunks_mut::<LANES>();
+        for (x, out) in whole.iter().zip(out) {
+            *out = self.in_lanes(pressing, x);
+        }
+        if let [first, ..] = rest {
+            let mut lanes = [*first; LANES];
+            lanes[..rest.len()].copy_from_slice(rest);
+            rest_out.copy_from_slice(&self.in_lanes(pressing, &lanes)[..rest.len()]);
         }
         Ok(())
     }
@@ -239,6 +227,28 @@ impl<T: Real> Engine<T> for AtWork<T> {
 }
 
 impl<T: Real> AtWork<T> {
+    /// The pressure at some points strictly inside the contact.
+    #[inline(always)]
+    fn in_lanes(&self, pressing: &Pressing<T>, x: &[T; LANES]) -> [T; LANES] {
+        let on = self.conjugate.on;
+        let scale = pressing.kappa / (T::pi() * T::pi());
+        let (half, least) = (T::of(0.5), T::of(0.1));
+        let [free, bound] = self.strengths(pressing);
+        let edges = Edges::of(on, x);
+        let regular = self.conjugate.at(x, &edges);
+        std::array::from_fn(|i| {
+            let (left, right) = (edges.left[i], edges.right[i]);
+            let by_root = half / edges.root[i];
+            let pressure = scale * regular[i] + (bound[0] * left + bound[1] * right) * by_root;
+            // What rounding has left of a strength that should be zero stands for the load
+            // that the rounded limits have too much or too little. Close to the edge it is the
+            // limit that counts.
+            let left_over = (free[0] * left + free[1] * right) * by_root;
+            let counts = left_over.abs() < least * pressure.abs();
+            pressure + if counts { left_over } else { T::zero() }
+        })
+    }
+
     /// K_a and K_b: what is left of them at free edges, and what they are at the others.
     fn strengths(&self, pressing: &Pressing<T>) -> [[T; 2]; 2] {
         let zero = T::zero();

@@ -144,7 +144,7 @@ impl<T: Real> Conjugate<T> {
         for (i, panel) in panels.iter().enumerate() {
             let (series, terms) = panel.over(on);
             let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-            if panels.len() > 1 && !(bulk <= allowed) {
+            if panels.len() > 1 && (bulk > allowed || !bulk.is_finite()) {
                 return false;
             }
             if i > 0 {

@@ -107,7 +107,7 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
     for (i, panel) in panels.iter().enumerate() {
         let (series, counting) = panel.over(on);
         let bulk = series[..counting].iter().fold(zero, |sum, a| sum + a.abs());
-        if !(bulk <= allowed) {
+        if bulk > allowed || !bulk.is_finite() {
             return false;
         }
         let [mut from, mut to] = panel.at_ends();

@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{MOST, Row, SIZES, expand, size_for, value_at};
+use super::chebyshev::{Row, SIZES, expand, size_for, value_at};
 use crate::{Interval, Real};
 
 /// The slope of the gap over an interval without joints, as a Chebyshev series.
