@@ -32,7 +32,7 @@
 use super::angles::{HalfAngle, Sines};
 use super::chebyshev::{MOST, Row, second_kind, size_for, value_at, values};
 use super::far::Far;
-use super::integrals::GROWTH;
+use super::integrals::may_continue;
 use super::panel::{Panel, largest, within};
 use crate::real::fma;
 use crate::{Interval, Real};
@@ -134,7 +134,7 @@ impl<T: Real> Conjugate<T> {
     /// The series, continued over the contact; `false` if one of several grows too much on the way.
     fn continued(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
         let zero = T::zero();
-        let allowed = T::of(GROWTH) * largest(panels, on);
+        let largest = largest(panels, on);
         (self.smooth, self.terms) = ([zero; MOST], 1);
         self.changes.clear();
         let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
@@ -144,7 +144,7 @@ impl<T: Real> Conjugate<T> {
         for (i, panel) in panels.iter().enumerate() {
             let (series, terms) = panel.over(on);
             let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-            if panels.len() > 1 && (bulk > allowed || !bulk.is_finite()) {
+            if panels.len() > 1 && !may_continue(bulk, largest) {
                 return false;
             }
             if i > 0 {
@@ -279,11 +279,16 @@ impl<T: Real> Joint<T> {
         let n = right.map(|right| self.roots[0] * right);
         let quotient: [T; W] =
             std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * share / distance[i]);
+        let comparable = |i: usize| m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]);
+        // Mostly all of them are plain.
+        if (0..W).fold(true, |all, i| all & comparable(i) & !distance[i].is_zero()) {
+            return std::array::from_fn(|i| change[i] * quotient[i].ln());
+        }
         std::array::from_fn(|i| {
             if distance[i].is_zero() {
                 return change[i] / distance[i];
             }
-            if m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]) {
+            if comparable(i) {
                 return change[i] * quotient[i].ln();
             }
             // 2 artanh, of which the logarithm would lose the digits.

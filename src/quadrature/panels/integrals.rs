@@ -7,13 +7,16 @@
 
 use super::angles::{Arc, Gauss, HalfAngle, Sines};
 use super::chebyshev::{MOST, Row, evaluate, size_for};
-use super::panel::{Panel, largest, within};
+use super::panel::{Panel, within};
 use crate::quadrature::{Moments, Trend};
 use crate::real::Sum;
 use crate::{Interval, Real};
 
-/// How much larger than the slopes in the contact the coefficients of a continued series may be.
-pub(super) const GROWTH: f64 = 16.0;
+/// Whether series may be continued over a contact, where the absolute values of their coefficients then
+/// add up to `bulk` at most, and the slopes at the ends of the panels are up to `largest`.
+pub(super) fn may_continue<T: Real>(bulk: T, largest: T) -> bool {
+    bulk <= T::of(16.0) * largest
+}
 
 /// `∫ g cosⁱθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
@@ -100,16 +103,13 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
     let (zero, half) = (T::zero(), T::of(0.5));
     let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
     let count = size_for(most) + 1;
-    let allowed = T::of(GROWTH) * largest(panels, on);
+    let (mut most_bulk, mut largest) = (zero, zero);
     let mut left = [zero; MOST + 2];
     left[0] = T::pi();
     let mut slope_before = zero;
     for (i, panel) in panels.iter().enumerate() {
         let (series, counting) = panel.over(on);
         let bulk = series[..counting].iter().fold(zero, |sum, a| sum + a.abs());
-        if bulk > allowed || !bulk.is_finite() {
-            return false;
-        }
         let [mut from, mut to] = panel.at_ends();
         if i == 0 {
             from = panel.value(on.left);
@@ -123,6 +123,8 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
             to = panel.value(on.right);
         }
         slope_before = to;
+        largest = largest.max(from.abs()).max(to.abs());
+        most_bulk = most_bulk.max(if bulk.is_finite() { bulk } else { T::one() / zero });
         let stretch = std::array::from_fn(|k| left[k] - right[k]);
         match size_for(counting) {
             4 => stretch_of::<4, T>(sums, &series, &stretch, on),
@@ -137,7 +139,7 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
         left = right;
     }
     sums.scale(T::frac_1_pi());
-    true
+    may_continue(most_bulk, largest)
 }
 
 /// What the series adds on a stretch, given the integrals of cos kθ over it.
