@@ -51,7 +51,7 @@
 //! use linecontact::reference::{ClosedForm, UnequalRadii, body};
 //! use linecontact::{Contact, Flat, Load};
 //!
-//! let (kappa, load) = (1.7, 0.05);
+//! let (kappa, load): (f64, f64) = (1.7, 0.05);
 //! let form = UnequalRadii::under_load(1.0, 0.2, load, kappa)?;
 //! let body = body(&form, -1.0, 1.0)?;
 //! let contact = Contact::new(&Flat, &body)?.kappa(kappa);

@@ -1,12 +1,12 @@
 //! A flat with sharp edges.
 
-use super::{ClosedForm, ReferenceError, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Edge, Interval, Real};
 
 /// A flat punch with sharp edges at x = ±H, upright or with the slope m (Johnson, §2.8; Barber,
 /// *Contact Mechanics*, 2018, chapter 6).
 ///
-/// It rests on both edges where F ≥ κ abs(m) H; otherwise, where m > 0, on the left one alone:
+/// It rests on both edges where F > κ abs(m) H; otherwise, where m > 0, on the left one alone:
 ///
 /// ```text
 /// P = (F - κ m x)/(π sqrt(H² - x²))
@@ -16,8 +16,9 @@ use crate::{Edge, Interval, Real};
 pub struct FlatPunch<T> {
     half_width: T,
     slope: T,
-    /// Of the contact.
     limits: Interval<T>,
+    /// L, which the limits do not give to all digits.
+    contact: T,
     /// Where it rests on both edges, the load in excess of κ abs(m) H.
     excess: Option<T>,
 }
@@ -38,17 +39,24 @@ impl<T: Real> FlatPunch<T> {
         positive("the load", load)?;
         positive("κ", kappa)?;
         let excess = load - kappa * slope.abs() * half_width;
-        let mut limits = super::centred(half_width);
-        if excess >= T::zero() {
-            return Ok(Self { half_width, slope, limits, excess: Some(excess) });
+        let mut limits = centred(half_width);
+        if excess > T::zero() {
+            return Ok(Self {
+                half_width,
+                slope,
+                limits,
+                contact: half_width,
+                excess: Some(excess),
+            });
         }
-        let width = T::of(2.0) * (load / kappa / slope.abs());
+        let contact = load / kappa / slope.abs();
+        let width = contact + contact;
         if slope > T::zero() {
-            limits.right = limits.left + width;
+            limits.right = half_width.min(limits.left + width);
         } else {
-            limits.left = limits.right - width;
+            limits.left = (-half_width).max(limits.right - width);
         }
-        Ok(Self { half_width, slope, limits, excess: None })
+        Ok(Self { half_width, slope, limits, contact, excess: None })
     }
 }
 
@@ -58,7 +66,7 @@ impl<T: Real> ClosedForm<T> for FlatPunch<T> {
     }
 
     fn load(&self, kappa: T) -> T {
-        kappa * self.slope.abs() * self.limits.half_width() + self.excess.unwrap_or(T::zero())
+        kappa * self.slope.abs() * self.contact + self.excess.unwrap_or(T::zero())
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
@@ -72,11 +80,11 @@ impl<T: Real> ClosedForm<T> for FlatPunch<T> {
             distances.reverse();
         }
         let [from, to] = distances;
-        let steep = kappa * self.slope.abs() / T::pi();
-        let Some(excess) = self.excess else {
-            return steep * (to / from).sqrt();
-        };
-        excess / (T::pi() * from.sqrt() * to.sqrt()) + steep * (to / from).sqrt()
+        let steep = kappa * self.slope.abs();
+        match self.excess {
+            None => steep * (to / from).sqrt() / T::pi(),
+            Some(excess) => (excess + steep * to) / (T::pi() * from.sqrt() * to.sqrt()),
+        }
     }
 
     fn height(&self, x: T) -> T {
