@@ -33,7 +33,7 @@
 //! with all integrals over the contact; in the second, which is the first by parts, a jump of `g`
 //! counts as it is. A slope made of straight lines is a sum of `Λ` and of its integral
 //! `∫_t^a Λ dt' = (x - t) Λ + φ w`. If the body is symmetric, a contact that grows adds the pressures
-//! of flat punches, `dF/(π sqrt(l² - x²))` each, so that (Barber, chapter 6)
+//! of flat punches, `dF/(π sqrt(l² - x²))` each, so that (Barber)
 //!
 //! ```text
 //! P(x) = 1/π ∫ F'(l)/sqrt(l² - x²) dl,   abs(x) < l < L,       F(l) = 2 κ l/π ∫ g(l sin φ) sin φ dφ

@@ -84,7 +84,8 @@ fn forms<T: Real>() -> Vec<Form<T>> {
 /// An integral over the contact in θ, from panels that end at the edges, the joints and the pole:
 /// by the rule of Takahasi and Mori (tanh-sinh) on each.
 fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
-    let mut angles: Vec<f64> = ends.iter().map(|&x| limits.angle(x)).collect();
+    let angle = |x: f64| 2.0 * (limits.right - x).sqrt().atan2((x - limits.left).sqrt());
+    let mut angles: Vec<f64> = ends.iter().map(|&x| angle(x)).collect();
     angles.extend([0.0, PI]);
     angles.sort_by(f64::total_cmp);
     let width = limits.right - limits.left;
@@ -126,7 +127,8 @@ fn residuals(form: &dyn ClosedForm<f64>) -> [f64; 2] {
         joints.push(0.0);
     }
     // P sin θ/L of the place as it is rounded.
-    let strength = |s: f64| form.pressure(s, KAPPA) * limits.edge_root(s);
+    let strength =
+        |s: f64| form.pressure(s, KAPPA) * (s - limits.left).sqrt() * (limits.right - s).sqrt();
     let load = integral(limits, &joints, strength);
     let size = integral(limits, &joints, |s| strength(s).abs());
     let mut worst = 0.0f64;
@@ -428,6 +430,7 @@ fn parameters_that_make_no_sense_are_refused() {
         refused(Exponential::new(wrong, 1.0, 0.5), "length");
         refused(Cosine::new(1.0, wrong, 0.5), "wavelength");
         refused(Jkr::under_load(1.0, wrong, 0.5, 1.0), "work");
+        refused(Jkr::new(1.0, wrong, 0.5), "work");
     }
     for wrong in [0.99, f64::NAN, 1001.0] {
         refused(PowerLaw::new(1.0, wrong, 1.0), "exponent");

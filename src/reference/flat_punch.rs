@@ -3,8 +3,7 @@
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Edge, Interval, Real};
 
-/// A flat punch with sharp edges at x = ±H, upright or with the slope m (Johnson, §2.8; Barber,
-/// *Contact Mechanics*, 2018, chapter 6).
+/// A flat punch with sharp edges at x = ±H, upright or with the slope m (Johnson, §2.8).
 ///
 /// It rests on both edges where F > κ abs(m) H; otherwise, where m > 0, on the left one alone:
 ///

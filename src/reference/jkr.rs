@@ -5,8 +5,7 @@ use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Edge, Interval, Real};
 
 /// The line contact of Johnson, Kendall and Roberts: the parabola `x²/(2R)` with the work of
-/// adhesion w, energy per area (Barquins, *J. Adhesion* 26, 1988, 1; Barber, *Contact Mechanics*,
-/// 2018, chapter 12).
+/// adhesion w, energy per area (Barquins, *J. Adhesion* 26, 1988, 1).
 ///
 /// ```text
 /// F = κ L²/(2R) - 2 sqrt(κ w L),   P = κ/(π R) sqrt(L² - x²) - 2 sqrt(κ w L)/(π sqrt(L² - x²))
@@ -25,11 +24,10 @@ impl<T: Real> Jkr<T> {
     /// With the radius of curvature R, the work of adhesion w and the half-width L.
     ///
     /// # Errors
-    /// [`ReferenceError::Parameter`] if the work is negative or not finite, or one of the others is
-    /// not positive and finite.
+    /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn new(radius: T, work: T, half_width: T) -> Result<Self, ReferenceError<T>> {
         positive("the radius", radius)?;
-        check("the work of adhesion", work, work >= T::zero(), "finite and not negative")?;
+        positive("the work of adhesion", work)?;
         positive("the half-width", half_width)?;
         Ok(Self { radius, work, half_width })
     }

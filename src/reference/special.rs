@@ -151,8 +151,7 @@ mod tests {
 
     #[test]
     fn elliptic_integrals_have_their_known_values() {
-        // K, E and Π at k² = 1/2 (lemniscate; Abramowitz and Stegun, tables 17.1 and 17.9 by
-        // 17.7.14 to more digits).
+        // K and E of the lemniscate, k² = 1/2.
         let half = 0.5f64.sqrt();
         close(elliptic(half, 1.0, 1.0, 1.0), 1.854_074_677_301_371_9);
         close(elliptic(half, 1.0, 1.0, 0.5), 1.350_643_881_047_675_5);
