@@ -91,13 +91,14 @@ pub use unequal_radii::UnequalRadii;
 pub use wedge::Wedge;
 
 use crate::{Edge, Interval, Real};
+use std::fmt::Debug;
 use thiserror::Error;
 
 /// A contact of a body on a flat that is known in closed form.
 ///
 /// `x` and heights are lengths in one unit. `kappa` is κ = π E\*/2, a pressure; where the contact
 /// was made for a load, it is the κ that was given with it.
-pub trait ClosedForm<T: Real>: Send + Sync {
+pub trait ClosedForm<T: Real>: Debug + Send + Sync {
     /// The contact `[-b, a]`.
     fn limits(&self) -> Interval<T>;
 

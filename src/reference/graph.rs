@@ -4,6 +4,7 @@ use super::ClosedForm;
 use crate::{CurvePoint, ParametricProfile, Piecewise, PiecewiseError, Real};
 
 /// A smooth part of the body of a closed form: the graph of its height, with `k = x`.
+#[derive(Clone, Copy, Debug)]
 pub struct Graph<'f, T> {
     form: &'f dyn ClosedForm<T>,
     ends: [T; 2],
