@@ -14,8 +14,9 @@
 //! | [`Hyperbola`] | wedge with a rounded tip | limits to load |
 //! | [`Exponential`] | `eˣ - 1 - x` | limits to load |
 //! | [`Cosine`] | `1 - cos x`, one crest alone | limits to load |
+//! | [`Westergaard`] | `1 - cos x`, all crests at once: not one contact, apart from the others | both ways |
 //!
-//! Each is one contact: a struct made from the body's parameters and the half-width of the contact
+//! Each but the last is one contact: a struct made from the body's parameters and the half-width of the contact
 //! (`new`) or the load on it (`under_load`). It answers through [`ClosedForm`]. What was published
 //! elsewhere names its source; the rest follows from the two representations below, both of which
 //! are classical (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and
@@ -76,6 +77,7 @@ mod rounded_punch;
 mod special;
 mod unequal_radii;
 mod wedge;
+mod westergaard;
 
 pub use biquadratic::Biquadratic;
 pub use conics::{Ellipse, Hyperbola};
@@ -89,6 +91,7 @@ pub use power_law::PowerLaw;
 pub use rounded_punch::RoundedPunch;
 pub use unequal_radii::UnequalRadii;
 pub use wedge::Wedge;
+pub use westergaard::Westergaard;
 
 use crate::{Edge, Interval, Real};
 use std::fmt::Debug;

@@ -5,8 +5,8 @@ use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Interval, Real};
 
 /// One crest of a wavy surface by itself, `A (1 - cos q x)` with q = 2π/λ and the amplitude A, as
-/// long as its neighbours do not touch: their pressures are not in it, as they are in Westergaard's
-/// solution for all crests at once (Johnson, §13.2).
+/// long as its neighbours do not touch: their pressures are not in it, as they are in
+/// [`Westergaard`](super::Westergaard).
 ///
 /// With z = q L and the Bessel functions J₀, J₁
 ///
