@@ -32,6 +32,7 @@
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
 //! - [`contact`]: the scene, its edges, and the search for its limits.
+//! - [`reference`](mod@reference): closed forms to test against.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back. [`Solver`]: solving again and again.
 //!
 //! # Example
@@ -58,6 +59,7 @@ mod interval;
 pub mod profile;
 pub mod quadrature;
 mod real;
+pub mod reference;
 pub mod search;
 mod solution;
 mod solver;

@@ -1,0 +1,83 @@
+//! A parabola with a term of fourth degree.
+
+use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use crate::{Interval, Real};
+
+/// The body `x²/(2R) + B x⁴`, from `F'(l) = κ (l/R + 6 B l³)` (Johnson, §5.3, for each of the two
+/// terms).
+///
+/// ```text
+/// F = κ (L²/(2R) + 3/2 B L⁴),   P = κ/π sqrt(L² - x²) (1/R + 2 B (L² + 2 x²))
+/// ```
+///
+/// B may be negative as long as the load still grows with the contact, `1/R + 6 B L² > 0`: so the
+/// pressure is positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Biquadratic<T> {
+    radius: T,
+    quartic: T,
+    half_width: T,
+}
+
+impl<T: Real> Biquadratic<T> {
+    /// With the radius of curvature R, the coefficient B, a length to the power -3, and the
+    /// half-width L.
+    ///
+    /// # Errors
+    /// [`ReferenceError::Parameter`] if R or L is not positive and finite, B is not finite, or L is
+    /// too large for a negative B.
+    pub fn new(radius: T, quartic: T, half_width: T) -> Result<Self, ReferenceError<T>> {
+        positive("the radius", radius)?;
+        check("the coefficient of x⁴", quartic, true, "finite")?;
+        positive("the half-width", half_width)?;
+        let grows = T::one() + T::of(6.0) * quartic * radius * half_width * half_width > T::zero();
+        check("the half-width", half_width, grows, "so small that 1/R + 6 B L² > 0")?;
+        Ok(Self { radius, quartic, half_width })
+    }
+
+    /// With the radius of curvature R, the coefficient B and the load F.
+    ///
+    /// # Errors
+    /// [`ReferenceError::Parameter`] if R or F is not positive and finite, B is not finite, or the
+    /// body cannot carry so much.
+    pub fn under_load(radius: T, quartic: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
+        positive("the radius", radius)?;
+        check("the coefficient of x⁴", quartic, true, "finite")?;
+        positive("the load", load)?;
+        positive("κ", kappa)?;
+        // v + v² 6 B R · (F R/κ) = 1 for v = κ L²/(2 F R).
+        let (one, two) = (T::one(), T::of(2.0));
+        let share = load / kappa * radius;
+        let root = one + T::of(24.0) * quartic * radius * share;
+        check("the load", load, root > T::zero(), "no more than -κ/(24 B R²)")?;
+        Self::new(radius, quartic, two * (share / (one + root.sqrt())).sqrt())
+    }
+}
+
+impl<T: Real> ClosedForm<T> for Biquadratic<T> {
+    fn limits(&self) -> Interval<T> {
+        centred(self.half_width)
+    }
+
+    fn load(&self, kappa: T) -> T {
+        let square = self.half_width * self.half_width;
+        T::of(0.5) * kappa * square * (self.radius.recip() + T::of(3.0) * self.quartic * square)
+    }
+
+    fn pressure(&self, x: T, kappa: T) -> T {
+        let (limits, two) = (self.limits(), T::of(2.0));
+        if outside(limits, x) {
+            return T::zero();
+        }
+        let square = self.half_width * self.half_width + two * x * x;
+        kappa / T::pi() * limits.edge_root(x) * (self.radius.recip() + two * self.quartic * square)
+    }
+
+    fn height(&self, x: T) -> T {
+        x * x * (T::of(0.5) / self.radius + self.quartic * x * x)
+    }
+
+    fn slope(&self, x: T) -> T {
+        x * (self.radius.recip() + T::of(4.0) * self.quartic * x * x)
+    }
+}
