@@ -95,7 +95,8 @@ pub fn summary(rows: &[Row]) -> String {
     });
     let mut text = String::from(
         "Fewest evaluations of the curves for limits and pressure within an error: the winner, its\n\
-         evaluations, and how many times as many the next one needs.\n",
+         evaluations, and how many times as many the next one needs. Each quadrature with the default\n\
+         searches, on a ladder of its settings.\n",
     );
     for (i, scene) in scenes.iter().enumerate() {
         text += &format!("\n{scene}\n");
