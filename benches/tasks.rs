@@ -272,7 +272,7 @@ fn judge_all(path: &str) {
     for line in found.lines() {
         judge(line).unwrap_or_else(|| eprintln!("not a result: {:.60}", line));
     }
-    for task in TASKS.iter().filter(|task| found.contains(&format!("\t{}\t", task.name))) {
+    for task in TASKS.iter().filter(|task| ["T2", "T3a", "T4", "T5"].contains(&task.name)) {
         for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
             let (name, own) = (task.name, measure(task, tolerance));
             let ([error, limits], calls, us) =
