@@ -3,15 +3,21 @@
 //! `cargo bench --bench tasks` prints one line of tab-separated values per task and tolerance.
 //! Arguments: tolerances (default 1e-3 1e-6 1e-9 1e-12) and names of tasks (default all).
 //!
+//! `cargo bench --bench tasks -- judge FILE` reads what other programs have found
+//! (`benches/rivals`), and prints their errors by the same measure, before its own.
+//!
 //! T1, T2, T3a and T3b (κ = 1 and π/2), T5: the paper's Examples 1 to 4; T4: a circle on a flat.
 //! Every search starts at [-0.3, 0.3]. Error: the largest `|P - P_ref|` over the largest `|P_ref|`.
+
+#[path = "shared/timing.rs"]
+mod timing;
 
 use linecontact::{Contact, ContactError, CurvePoint, Edge, Flat, Interval, Load};
 use linecontact::{Panels, ParametricProfile, Piecewise, Solution};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::time::Instant;
+use timing::time;
 
 type Body = Box<dyn ParametricProfile<f64>>;
 type Result<T> = std::result::Result<T, ContactError<f64>>;
@@ -29,8 +35,7 @@ fn scene<'a>(task: &Task, bodies: &'a [Body; 2], panels: &'a Panels) -> Result<C
 /// The contact, and `x` and `P(x)` at the points.
 fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> {
     let on = solution.interval();
-    let (c, half) = (on.centre(), on.half_width());
-    points.x = std::array::from_fn(|i| c + half * (-1.0 + 2.0 * (i + 1) as f64 / 102.0));
+    points.x = places(on);
     solution.pressure()?.at_many(&points.x, &mut points.p)?;
     Ok([on.left, on.right])
 }
@@ -63,6 +68,12 @@ fn warm(task: &Task, bodies: &[Body; 2], tolerance: f64) -> Result<f64> {
 struct Points {
     x: [f64; 101],
     p: [f64; 101],
+}
+
+/// 101 equidistant places.
+fn places(on: Interval<f64>) -> [f64; 101] {
+    let (c, half) = (on.centre(), on.half_width());
+    std::array::from_fn(|i| c + half * (-1.0 + 2.0 * (i + 1) as f64 / 102.0))
 }
 
 impl Points {
@@ -226,41 +237,57 @@ impl Task {
     }
 }
 
-/// µs of a call: the least of three medians over five batches of about 20 ms each.
-fn time(mut call: impl FnMut()) -> f64 {
-    let mut batch = |calls: usize| {
-        let start = Instant::now();
-        (0..calls).for_each(|_| call());
-        start.elapsed().as_secs_f64() * 1e6 / calls as f64
-    };
-    batch(50);
-    let calls = (20e3 / batch(50)).max(1.0) as usize;
-    let mut median = || {
-        let mut each = [(); 5].map(|()| batch(calls));
-        each.sort_by(f64::total_cmp);
-        each[2]
-    };
-    median().min(median()).min(median())
-}
-
-fn measure(task: &Task, tolerance: f64) -> Result<()> {
+/// Errors of the pressure and of the limits, evaluations of the curves, µs cold.
+fn measure(task: &Task, tolerance: f64) -> Result<([f64; 2], usize, f64)> {
     let (counted, bodies) = (bodies::<true>(task.name), bodies::<false>(task.name));
     let (mut points, before) = (Points::new(), CALLS.load(Relaxed));
     let contact = cold(task, &counted, tolerance, &mut points)?;
     let calls = CALLS.load(Relaxed) - before;
-    let [error, limits] = task.errors(contact, &points);
+    let errors = task.errors(contact, &points);
     let us = time(|| {
         let _ = black_box(cold(task, black_box(&bodies), black_box(tolerance), &mut points));
         black_box(&mut points);
     });
-    let warm = warm(task, &bodies, tolerance)?;
-    print!("{}\t", task.name);
-    println!("{tolerance:e}\t{error:.1e}\t{limits:.1e}\t{calls}\t{us:.4}\t{warm:.4}");
-    Ok(())
+    Ok((errors, calls, us))
+}
+
+/// A line of what another program has found: its name, task, setting, -b, a, evaluations, µs, and
+/// the pressures at 101 equidistant points of its contact.
+fn judge(line: &str) -> Option<()> {
+    let columns: Vec<&str> = line.split('\t').collect();
+    let [name, of, setting, left, right, evaluations, us, pressures] = columns[..] else {
+        return None;
+    };
+    let task = TASKS.iter().find(|task| task.name == of)?;
+    let on = Interval { left: left.parse().ok()?, right: right.parse().ok()? };
+    let p: [f64; 101] = numbers(pressures).try_into().ok()?;
+    let [error, limits] = task.errors([on.left, on.right], &Points { x: places(on), p });
+    println!("{of}\t{name}\t{setting}\t{error:.1e}\t{limits:.1e}\t{evaluations}\t{us}");
+    Some(())
+}
+
+fn judge_all(path: &str) {
+    let found = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    println!("task\tprogram\tsetting\terror\tlimit_error\tevaluations\tmicroseconds");
+    for line in found.lines() {
+        judge(line).unwrap_or_else(|| eprintln!("not a result: {:.60}", line));
+    }
+    for task in TASKS.iter().filter(|task| ["T2", "T3a", "T4", "T5"].contains(&task.name)) {
+        for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
+            let (name, own) = (task.name, measure(task, tolerance));
+            let ([error, limits], calls, us) =
+                own.unwrap_or_else(|error| panic!("{name}: {error}"));
+            print!("{name}\tlinecontact\ttol={tolerance:e}\t");
+            println!("{error:.1e}\t{limits:.1e}\t{calls}\t{us:.3}");
+        }
+    }
 }
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(word) = arguments.iter().position(|argument| argument == "judge") {
+        return judge_all(arguments.get(word + 1).expect("judge FILE"));
+    }
     let mut tolerances: Vec<f64> = arguments.iter().filter_map(|a| a.parse().ok()).collect();
     if tolerances.is_empty() {
         tolerances = vec![1e-3, 1e-6, 1e-9, 1e-12];
@@ -269,8 +296,15 @@ fn main() {
     let all = !TASKS.iter().any(|task| named(task.name));
     println!("task\ttol\terror\tlimit_error\tevaluations\tcold_us\twarm_us");
     for task in TASKS.iter().filter(|task| all || named(task.name)) {
+        let (name, bodies) = (task.name, bodies::<false>(task.name));
         for &tolerance in &tolerances {
-            measure(task, tolerance).unwrap_or_else(|error| eprintln!("{}: {error}", task.name));
+            match (measure(task, tolerance), warm(task, &bodies, tolerance)) {
+                (Ok(([error, limits], calls, us)), Ok(warm)) => {
+                    print!("{name}\t{tolerance:e}\t{error:.1e}\t{limits:.1e}\t");
+                    println!("{calls}\t{us:.4}\t{warm:.4}");
+                }
+                (Err(error), _) | (_, Err(error)) => eprintln!("{name}: {error}"),
+            }
         }
     }
 }

@@ -1,0 +1,130 @@
+//! Speed against error: what each method takes, in evaluations of the curves and in time, for
+//! limits and pressures that are known to 15 digits.
+//!
+//! ```sh
+//! cargo run --release --example speed_vs_error              # two minutes at most
+//! cargo run --release --example speed_vs_error -- --check   # counts and errors against the table kept
+//! cargo run --release --example speed_vs_error -- --update  # keeps those of this run
+//! ```
+//!
+//! Thirteen contacts, each by the panels on a ladder of tolerances, by the paper's rule on a
+//! ladder of N (its ET = 0, 1, 2 with its powers of the segment width; the right powers, up to ET
+//! = 4; and ET = 2 with the paper's Eq. (6) for the limits, one segment inside), and with each
+//! search in each of its two places (`methods.rs`).
+//!
+//! `Midpoint` leaves the search for free edges to adaptive integrals of full accuracy, which take
+//! most of the evaluations at small N; the column `for_limits` tells them apart.
+//!
+//! A solve starts from the bodies and ends with the pressure at 101 equidistant points: for this
+//! the samples of the slope, the evaluations of the curves and the time are taken. Errors are
+//! relative: of a, of b, and the largest of P, inside (at those 101 points if P has a closed form,
+//! else at the points of the reference file that are no closer to an edge) and at a millionth of
+//! the half-width from an edge, where rounding of x alone makes some 1e-10.
+//!
+//! Everything goes to `target/speed_vs_error`: `measured.tsv`, and a diagram for each contact and
+//! each kind of work. What does not depend on the machine is kept in
+//! `tests/data/speed_vs_error.tsv`, and compared by `--check`.
+
+#[path = "../../tests/common/mod.rs"]
+mod common;
+mod diagrams;
+mod measure;
+mod methods;
+mod scenes;
+mod summary;
+mod table;
+
+use methods::DEFAULT;
+use std::error::Error;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+use table::Row;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let argument = std::env::args().nth(1);
+    let timed = argument.is_none();
+    let rows = rows(timed);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let kept = root.join("tests/data/speed_vs_error.tsv");
+    match argument.as_deref() {
+        Some("--check") => {
+            let wrong = table::differences(&fs::read_to_string(&kept)?, &rows);
+            wrong.iter().for_each(|difference| println!("{difference}"));
+            if !wrong.is_empty() {
+                let advice = "if that is meant, keep them with --update";
+                return Err(format!("{} lines differ; {advice}", wrong.len()).into());
+            }
+            println!("{} lines of counts and errors as kept", rows.len());
+        }
+        Some("--update") => fs::write(&kept, text(&rows, table::HEADING, Row::line))?,
+        Some(other) => return Err(format!("{other}: give --check, --update or nothing").into()),
+        None => {
+            let folder = root.join("target/speed_vs_error");
+            fs::create_dir_all(&folder)?;
+            let heading = format!("{}\tmicroseconds", table::HEADING);
+            fs::write(folder.join("measured.tsv"), text(&rows, &heading, Row::timed_line))?;
+            let count = diagrams::draw(&rows, &folder)?;
+            print!("{}", summary::summary(&rows));
+            println!("\n{}Times are those of {}.", sources(), machine());
+            println!("measured.tsv and {count} diagrams are in target/speed_vs_error");
+        }
+    }
+    check_default(&rows);
+    Ok(())
+}
+
+/// Solves everything every way.
+fn rows(timed: bool) -> Vec<Row> {
+    let (scenes, start, mut rows) = (scenes::all(), Instant::now(), Vec::new());
+    for (i, scene) in scenes.iter().enumerate() {
+        let ways = methods::all(scene);
+        let count = ways.len();
+        for (j, way) in ways.into_iter().enumerate() {
+            let (number, of, seconds) = (i + 1, scenes.len(), start.elapsed().as_secs());
+            eprint!("\r\x1b[K{seconds:3} s  {number}/{of} {}  {}/{count}", scene.name, j + 1);
+            let _ = std::io::stderr().flush();
+            let outcome = measure::outcome(scene, &way).ok();
+            let micros = if timed { measure::micros(scene, &way).ok() } else { None };
+            rows.push(Row::new(scene, way, outcome, micros));
+        }
+    }
+    eprintln!("\r\x1b[K{} solves in {} s", rows.len(), start.elapsed().as_secs());
+    rows
+}
+
+/// The default engine at its default tolerance is as good as the data allow; a search of one limit
+/// at a time may stop a few units in the last place earlier.
+fn check_default(rows: &[Row]) {
+    for scene in scenes::all() {
+        for row in rows.iter().filter(|row| row.scene == scene.name && row.setting == "tol=full") {
+            let allowed = scene.allowed * if row.limits == DEFAULT { 1.0 } else { 10.0 };
+            let error = row.outcome.map(|outcome| outcome.error());
+            assert!(error.is_some_and(|error| error <= allowed), "{}", row.line());
+        }
+    }
+}
+
+/// Where the pressures compared with are from.
+fn sources() -> String {
+    let scenes = scenes::all();
+    let of = |source: &str| {
+        let named = scenes.iter().filter(|scene| scene.source == source).map(|scene| scene.name);
+        named.collect::<Vec<_>>().join(", ")
+    };
+    let [closed, file] = [scenes::CLOSED_FORM, scenes::FILE].map(|source| (source, of(source)));
+    format!("P compared: {}: {}; {}: {}.\n", closed.0, closed.1, file.0, file.1)
+}
+
+fn text(rows: &[Row], heading: &str, line: impl Fn(&Row) -> String) -> String {
+    let lines: Vec<String> = rows.iter().map(line).collect();
+    format!("{heading}\n{}\n", lines.join("\n"))
+}
+
+/// The processor, as far as the system tells.
+fn machine() -> String {
+    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let named = info.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));
+    format!("{} ({})", named.unwrap_or("an unnamed processor"), std::env::consts::ARCH)
+}

@@ -1,0 +1,85 @@
+//! The table of counts and errors: written, and compared with the one kept in `tests/data`.
+
+use crate::measure::Outcome;
+use crate::methods::Way;
+use crate::scenes::Scene;
+
+/// A line of the table.
+pub struct Row {
+    pub scene: &'static str,
+    pub method: &'static str,
+    pub setting: String,
+    pub inversion: &'static str,
+    pub limits: &'static str,
+    /// `None` where the solve ended in an error.
+    pub outcome: Option<Outcome>,
+    pub micros: Option<f64>,
+}
+
+pub const HEADING: &str = "scene\tmethod\tsetting\tinversion\tlimits\tsamples\tevaluations\t\
+    for_limits\terror_a\terror_b\terror_P\terror_P_edge";
+
+/// Counts are the same wherever sin, cos and pow are; elsewhere a search may end a step sooner
+/// or later.
+const SAME_LIBRARY: bool =
+    cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"));
+const SLACK: f64 = if SAME_LIBRARY { 0.0 } else { 0.1 };
+/// An error of a few units in the last place may be another few elsewhere.
+const ERROR_FACTOR: f64 = 10.0;
+const ERROR_FLOOR: f64 = 2e-15;
+
+impl Row {
+    pub fn new(scene: &Scene, way: Way, outcome: Option<Outcome>, micros: Option<f64>) -> Self {
+        let Way { method, setting, inversion, limits, .. } = way;
+        Self { scene: scene.name, method, setting, inversion, limits, outcome, micros }
+    }
+
+    /// Without the time, errors to one digit.
+    pub fn line(&self) -> String {
+        let Self { scene, method, setting, inversion, limits, .. } = self;
+        let results = self.outcome.map_or("-\t-\t-\t-\t-\t-\t-".to_owned(), |outcome| {
+            let Outcome { cost, for_limits, limits: [a, b], pressure: [inside, edge] } = outcome;
+            let counts = format!("{}\t{}\t{for_limits}", cost.samples, cost.evaluations);
+            format!("{counts}\t{a:.0e}\t{b:.0e}\t{inside:.0e}\t{edge:.0e}")
+        });
+        format!("{scene}\t{method}\t{setting}\t{inversion}\t{limits}\t{results}")
+    }
+
+    pub fn timed_line(&self) -> String {
+        self.line() + &self.micros.map_or("\t-".to_owned(), |micros| format!("\t{micros:.4}"))
+    }
+}
+
+/// What is wrong with the lines as compared with those kept.
+pub fn differences(kept: &str, rows: &[Row]) -> Vec<String> {
+    let mut wrong = Vec::new();
+    let kept: Vec<&str> = kept.lines().skip(1).collect();
+    if kept.len() != rows.len() {
+        wrong.push(format!("{} lines, {} are kept", rows.len(), kept.len()));
+    }
+    for (kept, row) in kept.into_iter().zip(rows) {
+        let line = row.line();
+        if !agree(kept, &line) {
+            wrong.push(format!("kept  {kept}\nfound {line}"));
+        }
+    }
+    wrong
+}
+
+fn agree(kept: &str, found: &str) -> bool {
+    let [kept, found] = [kept, found].map(|line| line.split('\t').collect::<Vec<_>>());
+    let columns = kept.len() == found.len() && kept.len() == HEADING.split('\t').count();
+    columns
+        && kept.into_iter().zip(found).enumerate().all(|(i, (kept, found))| {
+            let numbers = (kept.parse::<f64>(), found.parse::<f64>());
+            match (i, numbers) {
+                (5..=7, (Ok(kept), Ok(found))) => (found - kept).abs() <= SLACK * kept,
+                // Only more is a fault.
+                (8.., (Ok(kept), Ok(found))) => {
+                    found <= (ERROR_FACTOR * kept).max(ERROR_FLOOR)
+                        || kept.is_nan() && found.is_nan()
+                }
+                _ => kept == found,
+            }
+        })
+}
