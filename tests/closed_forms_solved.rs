@@ -65,7 +65,6 @@ fn off(got: Interval<f64>, form: &dyn ClosedForm<f64>) -> f64 {
 }
 
 #[test]
-#[ignore = "bug: the load of a given half-width is that of a contact not quite so wide: -2.7e-8 here"]
 fn a_half_width_gives_the_load_of_a_nearly_full_circle() {
     let half_width = 1.0 - 0.5f64.powi(20);
     let form = Ellipse::circle(1.0, half_width).unwrap();

@@ -209,6 +209,11 @@ pub(super) fn contact_of<T: Real>(
     Settled { on, load, error, force }: Settled<T>,
 ) -> Result<Found<T>, ContactError<T>> {
     let m = engine.moments(&contact.gap, on)?;
+    let load = match conditions.control {
+        Control::Load(_) => load,
+        // What the last step has made of it is linear only.
+        Control::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(load),
+    };
     Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
 }
 

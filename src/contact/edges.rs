@@ -1,7 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Pressing};
+use crate::quadrature::{Engine, Moments, Pressing};
 use crate::{ContactError, Interval, Real};
 
 /// What becomes of one edge of the contact.
@@ -57,6 +57,29 @@ impl<T: Real> Conditions<T> {
             Control::Load(load) => load,
             Control::HalfWidth(_) => T::zero(),
         }
+    }
+
+    /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`.
+    pub fn pull(&self, half_width: T) -> [T; 2] {
+        self.edges.map(|edge| match edge {
+            Edge::Adhesive(work) => (self.kappa * work * half_width).sqrt(),
+            _ => T::zero(),
+        })
+    }
+
+    /// The load under which the edges that are not fixed are as they should be, on an average;
+    /// `None` if both are fixed.
+    pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
+        let half_width = on.half_width();
+        let (mut sum, mut count) = (T::zero(), 0);
+        let signs = [-T::one(), T::one()];
+        for ((edge, pull), sign) in self.edges.iter().zip(self.pull(half_width)).zip(signs) {
+            if edge.limit().is_none() {
+                sum += self.kappa * half_width * (m.first + sign * m.mean) - pull - pull;
+                count += 1;
+            }
+        }
+        (count > 0).then(|| sum / T::count(count))
     }
 
     /// The interval, with those limits that are given.

@@ -196,11 +196,7 @@ impl<T: Real> System<T> {
         let trend = m.trend?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
-        let pull = |edge: &Edge<T>| match *edge {
-            Edge::Adhesive(work) => (conditions.kappa * work * half_width).sqrt(),
-            _ => zero,
-        };
-        let [pull_b, pull_a] = [pull(&conditions.edges[0]), pull(&conditions.edges[1])];
+        let [pull_b, pull_a] = conditions.pull(half_width);
         let scale = load.abs() + stiffness * m.size + pull_a + pull_b;
         if !(scale > zero && scale.is_finite()) {
             return None;
