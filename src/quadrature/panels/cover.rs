@@ -9,6 +9,9 @@ use crate::{Body, ContactError, Interval, ProfileError, Real};
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
 
+/// How often a stretch is halved beside a root or the like: what is left is no part of any integral.
+const MOST_LEVELS: usize = 110;
+
 /// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
@@ -141,7 +144,8 @@ impl<T: Real> Cover<T> {
         while let Some(trial) = next.take().or_else(|| self.waiting.pop()) {
             let [left, right] = trial.panel.x;
             let middle = T::of(0.5) * left + T::of(0.5) * right;
-            if trial.split && splits < MOST_SPLITS && is_long(trial.panel.x) {
+            let may = splits < MOST_SPLITS && trial.level < MOST_LEVELS && is_long(trial.panel.x);
+            if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
                 let mut one = self.trial(gap, [left, middle], level)?;
