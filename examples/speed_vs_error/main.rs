@@ -37,7 +37,7 @@ mod table;
 use methods::DEFAULT;
 use std::error::Error;
 use std::fs;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 use table::Row;
@@ -83,14 +83,19 @@ fn rows(timed: bool) -> Vec<Row> {
         let count = ways.len();
         for (j, way) in ways.into_iter().enumerate() {
             let (number, of, seconds) = (i + 1, scenes.len(), start.elapsed().as_secs());
-            eprint!("\r\x1b[K{seconds:3} s  {number}/{of} {}  {}/{count}", scene.name, j + 1);
-            let _ = std::io::stderr().flush();
+            // A line that changes on a terminal; in a log one for each scene.
+            if std::io::stderr().is_terminal() {
+                eprint!("\r\x1b[K{seconds:3} s  {number}/{of} {}  {}/{count}", scene.name, j + 1);
+                let _ = std::io::stderr().flush();
+            } else if j == 0 {
+                eprintln!("{seconds:3} s  {number}/{of} {}", scene.name);
+            }
             let outcome = measure::outcome(scene, &way).ok();
             let micros = if timed { measure::micros(scene, &way).ok() } else { None };
             rows.push(Row::new(scene, way, outcome, micros));
         }
     }
-    eprintln!("\r\x1b[K{} solves in {} s", rows.len(), start.elapsed().as_secs());
+    eprintln!("\n{} solves in {} s", rows.len(), start.elapsed().as_secs());
     rows
 }
 
