@@ -99,47 +99,72 @@ impl<T: Real> Cover<T> {
     /// Covers an interval, sampling only what is missing.
     pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         let Some(have) = self.interval() else {
-            return self.sample(gap, on);
+            return self.sample(gap, on, 0, None);
         };
         // More than a sliver at a time, but beside a joint perhaps not much.
         let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
         let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
+        // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
+        // joint is between them.
         if on.right > have.right {
             self.first = enough(&last);
             let far = (have.right + more(&last)).min(half * on.right + half * range[1]);
-            self.sample(gap, Interval { left: have.right, right: on.right.max(far) })?;
+            let right = on.right.max(far);
+            let apart = gap.joint_after(last.x[0]) == Some(have.right);
+            let known = self.panels.len() - usize::from(!apart);
+            self.sample(gap, Interval { left: have.right, right }, known, None)?;
         }
         if on.left < have.left {
             self.first = enough(&first);
-            let count = self.panels.len();
             let far = (have.left - more(&first)).max(half * on.left + half * range[0]);
-            self.sample(gap, Interval { left: on.left.min(far), right: have.left })?;
-            self.panels.rotate_left(count);
+            let left = on.left.min(far);
+            let apart = gap.joint_before(first.x[1]) == Some(have.left);
+            let neighbour = (!apart).then(|| self.panels.remove(0));
+            let known = self.panels.len();
+            self.sample(gap, Interval { left, right: have.left }, known, neighbour)?;
+            self.panels.rotate_left(known);
         }
         Ok(())
     }
 
-    /// Samples an interval; its panels are put last.
-    fn sample(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        let mut left = on.left;
+    /// Samples an interval; its panels are put last. They should meet those from number `known` on, and
+    /// the neighbour on the right, which is put after them.
+    fn sample(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        known: usize,
+        neighbour: Option<Panel<T>>,
+    ) -> Result<(), ContactError<T>> {
+        let (mut left, mut known) = (on.left, known);
         loop {
             let joint = gap.joint_after(left).filter(|&joint| joint < on.right);
             let right = joint.unwrap_or(on.right);
-            self.resolve(gap, left, right)?;
+            let neighbour = neighbour.filter(|_| joint.is_none());
+            self.resolve(gap, [left, right], known, neighbour)?;
             if joint.is_none() {
                 return Ok(());
             }
-            left = right;
+            (left, known) = (right, self.panels.len());
         }
     }
 
     /// Samples a stretch without joints.
-    fn resolve(&mut self, gap: &Gap<'_, T>, left: T, right: T) -> Result<(), ContactError<T>> {
+    fn resolve(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+        begin: usize,
+        neighbour: Option<Panel<T>>,
+    ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
-        let begin = self.panels.len();
-        let mut next = Some(self.trial(gap, [left, right], 0)?);
+        let mut next = Some(self.trial(gap, x, 0)?);
+        if let Some(panel) = neighbour {
+            let allowed = self.tolerance * self.size;
+            self.waiting.push(Trial { panel, split: false, allowed, level: 0 });
+        }
         let mut splits = 0;
         while let Some(trial) = next.take().or_else(|| self.waiting.pop()) {
             let [left, right] = trial.panel.x;
