@@ -6,7 +6,8 @@ mod common;
 
 use approx::assert_relative_eq;
 use common::{graph, join, parabola, reference};
-use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Interval, Load, Piecewise, Solution};
+use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Interval, Load};
+use linecontact::{ParametricProfile, Piecewise, Solution};
 use std::f64::consts::PI;
 
 fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, most: usize) {
@@ -291,4 +292,32 @@ fn a_circle_whose_height_is_all_rounding() {
 #[test]
 fn a_circle_whose_height_is_all_rounding_in_single_precision() {
     touch_lightly::<f32>(&[1e-3, 7.5e-4, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6], 1e-5);
+}
+
+/// The contact first sampled ends beside the kink, beyond its last node; the kink shows only against
+/// what is sampled next to it.
+#[test]
+fn a_kink_at_the_seam_to_what_is_sampled_later() {
+    for (steep, at) in [0.5, 5.0, 500.0].into_iter().flat_map(|s| [(s, 0.7525), (s, 0.7475)]) {
+        let point = move |x: f64| {
+            let beyond = (x - at).max(0.0);
+            let y = 0.5 * (x * x + steep * beyond * beyond);
+            CurvePoint { x, y, dx: 1.0, dy: x + steep * beyond }
+        };
+        let whole = Curve::new([-4.0, 4.0], point);
+        let parts = [Curve::new([-4.0, at], point), Curve::new([at, 4.0], point)];
+        let parts = Piecewise::new(parts.into()).unwrap();
+        for start in [0.3, 2.0] {
+            let solve = |body: &dyn ParametricProfile<f64>| {
+                let contact = Contact::new(&Flat, body).unwrap();
+                let contact = contact.start(Interval { left: -start, right: start });
+                let solution = contact.solve(Load::PerLength(0.3)).unwrap();
+                (solution.interval(), solution.limits_error().unwrap())
+            };
+            let ((got, error), (want, _)) = (solve(&whole), solve(&parts));
+            let off = (got.left - want.left).abs().max((got.right - want.right).abs());
+            let off = off / want.half_width();
+            assert!(off <= error + 1e-14, "{steep} {at} {start}: off {off:e}, said {error:e}");
+        }
+    }
 }
