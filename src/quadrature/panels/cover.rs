@@ -225,7 +225,11 @@ impl<T: Real> Cover<T> {
             panel.tail = tail;
             match next {
                 Some(next) if !self.rough => n = next,
-                _ if self.rough => return Ok(Trial { panel, split: false, allowed, level }),
+                _ if self.rough => {
+                    // A short panel may be continued a long way.
+                    panel.drop_noise(T::epsilon() * bodies);
+                    return Ok(Trial { panel, split: false, allowed, level });
+                }
                 _ => {
                     if !split {
                         self.check_slopes()?;
