@@ -86,6 +86,18 @@ impl Table {
         }
     }
 
+    /// The larger of the last two coefficients, after that of the two before.
+    pub fn last_pairs<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
+        let mut last = [T::zero(); 4];
+        for (row, &value) in self.transform.iter().zip(values) {
+            for k in 0..4 {
+                last[k] = fma(value, T::of(row[N - 4 + k]), last[k]);
+            }
+        }
+        let [a, b, c, d] = last.map(|a| a.abs());
+        [a.max(b), c.max(d)]
+    }
+
     fn transform<const N: usize, T: Real>(&self, values: &Row<T>) -> Row<T> {
         let mut row = [T::zero(); MOST];
         for j in 0..N {

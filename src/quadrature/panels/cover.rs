@@ -1,6 +1,6 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{MOST, Table, size_for, value_at};
+use super::chebyshev::{MOST, SIZES, Table, size_for, value_at};
 use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Trace, aim};
 use crate::real::fma;
@@ -24,6 +24,9 @@ struct Seen<T> {
     bodies: T,
     /// What the rounding of x makes of the slope where the bodies bend sharply.
     noise: T,
+    /// What the series of the bodies leave open where their points are not at the nodes. What the two
+    /// have in common does not show in the series of the gap.
+    off: T,
 }
 
 /// A panel that may have to be split.
@@ -223,7 +226,7 @@ impl<T: Real> Cover<T> {
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut n = if self.rough { 4 } else { self.first };
         loop {
-            let (mut panel, Seen { slope, bodies, noise }) = self.panel(gap, x, n)?;
+            let (mut panel, Seen { slope, bodies, noise, off }) = self.panel(gap, x, n)?;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -232,7 +235,11 @@ impl<T: Real> Cover<T> {
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
             let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
             let (tail, next, split) = match verdict {
-                Verdict::Good(tail) => (tail, None, false),
+                Verdict::Good(tail) if off > allowed => {
+                    let more = SIZES.into_iter().find(|&more| more > n);
+                    (tail.max(off), more, true)
+                }
+                Verdict::Good(tail) => (tail.max(off), None, false),
                 Verdict::Noise(level) => {
                     panel.drop_noise(level);
                     (level, None, false)
@@ -243,7 +250,11 @@ impl<T: Real> Cover<T> {
             panel.tail = tail;
             match next {
                 Some(next) if !self.rough => n = next,
-                _ if self.rough => return Ok(Trial { panel, split: false, allowed, level }),
+                _ if self.rough => {
+                    // A short panel may be continued a long way.
+                    panel.drop_noise(T::epsilon() * bodies);
+                    return Ok(Trial { panel, split: false, allowed, level });
+                }
                 _ => {
                     if !split {
                         self.check_slopes()?;
@@ -291,7 +302,9 @@ impl<T: Real> Cover<T> {
         let wanted = offsets.map(|offset| reach + offset);
         let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
         let mut slopes = [zero; MOST];
-        let mut seen = Seen { slope: zero, bodies: zero, noise: zero };
+        let off = [(&lower, 0), (&upper, 1)]
+            .map(|(slopes, i)| left_open(&nodes, &self.traces[i], reach, slopes, table));
+        let mut seen = Seen { slope: zero, bodies: zero, noise: zero, off: off[0].max(off[1]) };
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
             seen.slope = seen.slope.max(slopes[i].abs());
@@ -385,4 +398,31 @@ fn at_nodes<const N: usize, T: Real>(
     // Points too close to be told apart: a panel of a few units in the last place.
     let apart = sum.iter().fold(true, |all, sum| all & sum.is_finite());
     std::array::from_fn(|i| if apart { known[i] + sum[i] } else { known[i] })
+}
+
+/// What the slopes of a body at the nodes leave open: the first coefficient that its series goes
+/// without, in the share by which its points are off the nodes.
+fn left_open<const N: usize, T: Real>(
+    nodes: &[T; N],
+    trace: &Trace<T>,
+    reach: T,
+    slopes: &[T; N],
+    table: &Table,
+) -> T {
+    if trace.direct {
+        return T::zero();
+    }
+    // `T_N` rises by N/sin θ at its zeros.
+    let knots = &trace.knots()[..N];
+    let off = (0..N).fold(T::zero(), |max, i| {
+        let sine = T::of((1.0 - table.z[i] * table.z[i]).sqrt());
+        max.max((knots[i].x - nodes[i]).abs() / sine)
+    });
+    let off = (off * T::count(N) / reach).min(T::one());
+    let [before, last] = table.last_pairs::<N, T>(slopes);
+    let largest = slopes.iter().fold(T::zero(), |max, slope| max.max(slope.abs()));
+    if last <= T::of(8.0) * T::epsilon() * largest {
+        return T::zero();
+    }
+    off * last * (last / before).min(T::one())
 }
