@@ -321,3 +321,32 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
         }
     }
 }
+
+/// A shape that both bodies have is no part of the gap, and where they have parameters of their own it
+/// must still be resolved.
+#[test]
+fn a_shape_common_to_both_bodies() {
+    let solve = |common: f64| {
+        let wave = move |x: f64| [-common / 1.094 * (1.094 * x).cos(), common * (1.094 * x).sin()];
+        let upper = Curve::new([-2.296, 2.27], move |k: f64| {
+            let (x, dx) = (k.sinh(), k.cosh());
+            let rise = 5.05 * (-0.1398 * x).exp() + 2.564 * (x + 0.6673).powi(2) + 0.694 * x;
+            let slope = -0.706 * (-0.1398 * x).exp() + 5.128 * (x + 0.6673) + 0.694;
+            CurvePoint { x, y: rise + wave(x)[0], dx, dy: (slope + wave(x)[1]) * dx }
+        });
+        let lower = Curve::new([-4.9, 4.7], move |x: f64| {
+            let (rise, slope) = (-0.256 * (x + 0.4004).powi(2), -0.512 * (x + 0.4004));
+            CurvePoint { x, y: rise + wave(x)[0], dx: 1.0, dy: slope + wave(x)[1] }
+        });
+        let contact = Contact::new(&lower, &upper).unwrap();
+        let solution = contact.solve(Load::PerLength(0.4519)).unwrap();
+        (solution.interval(), solution.limits_error().unwrap())
+    };
+    let (plain, _) = solve(0.0);
+    for common in [0.152, 1.0, 30.0] {
+        let (got, error) = solve(common);
+        let off = (got.left - plain.left).abs().max((got.right - plain.right).abs());
+        let off = off / plain.half_width();
+        assert!(off <= error, "{common}: off {off:e}, said {error:e}");
+    }
+}

@@ -303,7 +303,7 @@ impl<T: Real> Cover<T> {
         let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
         let mut slopes = [zero; MOST];
         let off = [(&lower, 0), (&upper, 1)]
-            .map(|(slopes, i)| left_open(&nodes, &self.traces[i], reach, slopes, table));
+            .map(|(slopes, i)| left_open(&nodes, &self.traces[i], reach, slopes, self.rough));
         let mut seen = Seen { slope: zero, bodies: zero, noise: zero, off: off[0].max(off[1]) };
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
@@ -407,9 +407,10 @@ fn left_open<const N: usize, T: Real>(
     trace: &Trace<T>,
     reach: T,
     slopes: &[T; N],
-    table: &Table,
+    rough: bool,
 ) -> T {
-    if trace.direct {
+    let table = Table::of(N);
+    if trace.direct || rough {
         return T::zero();
     }
     // `T_N` rises by N/sin θ at its zeros.
