@@ -26,12 +26,16 @@ const MOST_PANELS: usize = 20_000;
 pub(crate) struct Integrals<'p, T: Real> {
     pub pressure: Pressure<'p, T>,
     joints: Vec<T>,
+    /// Whether `P w` vanishes at a and at -b.
+    free: [bool; 2],
 }
 
 impl<'p, T: Real> Integrals<'p, T> {
     pub fn new(solution: &'p Solution<'_, T>) -> Result<Self, ContactError<T>> {
-        let joints = solution.gap().joints(solution.interval()).collect();
-        Ok(Self { pressure: solution.pressure()?, joints })
+        let on = solution.interval();
+        let joints = solution.gap().joints(on).collect();
+        let free = solution.found().free;
+        Ok(Self { pressure: solution.pressure()?, joints, free })
     }
 
     /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
@@ -57,16 +61,16 @@ impl<'p, T: Real> Integrals<'p, T> {
                 self.panel(&view, [from, middle], &kernel)?,
                 self.panel(&view, [middle, to], &kernel)?,
             ];
+            let noise = self.noise(view.place(middle, self.free).0);
             let mut agreed = true;
             let mut refined = [T::zero(); N];
             for i in 0..N {
                 refined[i] = halves[0].sum[i] + halves[1].sum[i];
                 size[i] += halves[0].size[i] + halves[1].size[i] - panel.size[i];
-                agreed &= (refined[i] - panel.sum[i]).abs() <= tolerance * size[i];
+                let allowed = tolerance * size[i] + noise * panel.size[i];
+                agreed &= (refined[i] - panel.sum[i]).abs() <= allowed;
             }
-            // Closer to a joint the angle itself is rounding; towards x itself it never is.
-            let narrow = to - from <= T::of(16384.0) * T::epsilon() * from.abs().max(to.abs());
-            if agreed || narrow {
+            if agreed {
                 add(&mut total, &refined);
                 continue;
             }
@@ -79,6 +83,19 @@ impl<'p, T: Real> Integrals<'p, T> {
         Ok(total)
     }
 
+    /// What the rounding of s makes of the pressure beside a joint, where it may go like a logarithm: no
+    /// halving mends that.
+    fn noise(&self, s: T) -> T {
+        let Interval { left, right } = self.pressure.interval();
+        let mut distance = right - left;
+        let next = self.joints.partition_point(|&joint| joint < s);
+        for joint in &self.joints[next.saturating_sub(1)..self.joints.len().min(next + 1)] {
+            distance = distance.min((s - *joint).abs());
+        }
+        let rounding = T::of(8.0) * T::epsilon() * s.abs();
+        if distance > rounding { rounding / distance } else { T::one() }
+    }
+
     fn panel<const N: usize>(
         &self,
         view: &View<T>,
@@ -87,7 +104,8 @@ impl<'p, T: Real> Integrals<'p, T> {
     ) -> Result<Panel<T, N>, ContactError<T>> {
         let half = T::of(0.5) * (ends[1] - ends[0]);
         let rule = Gauss::sixteen();
-        let (mut s, mut distance) = ([T::zero(); NODES], [T::zero(); NODES]);
+        let zero = [T::zero(); NODES];
+        let (mut s, mut distance, mut share) = (zero, zero, zero);
         for i in 0..NODES {
             // From the nearer end, since either may be at x.
             let node = T::of(rule.nodes[i]);
@@ -96,7 +114,7 @@ impl<'p, T: Real> Integrals<'p, T> {
             } else {
                 ends[1] - half * (T::one() - node)
             };
-            (s[i], distance[i]) = view.place(turn);
+            (s[i], distance[i], share[i]) = view.place(turn, self.free);
         }
         let mut pressure = [T::zero(); NODES];
         self.pressure.values(&s, &mut pressure)?;
@@ -106,7 +124,7 @@ impl<'p, T: Real> Integrals<'p, T> {
             if !pressure[i].is_finite() {
                 continue;
             }
-            let terms = kernel(distance[i], pressure[i] * view.on.edge_root(s[i]));
+            let terms = kernel(distance[i], share[i] * pressure[i] * view.on.edge_root(s[i]));
             let weight = T::of(rule.weights[i]) * half;
             for (k, term) in terms.into_iter().enumerate() {
                 panel.sum[k] += weight * term;
@@ -140,6 +158,9 @@ struct View<T> {
     theta: T,
     /// How far outside the contact x is.
     beyond: T,
+    /// How far inside, and x itself.
+    inward: T,
+    x: T,
 }
 
 impl<T: Real> View<T> {
@@ -147,7 +168,7 @@ impl<T: Real> View<T> {
         let right = x > on.centre();
         let inward = if right { on.right - x } else { x - on.left };
         let beyond = (-inward).max(T::zero());
-        let mut view = Self { on, right, theta: T::zero(), beyond };
+        let mut view = Self { on, right, theta: T::zero(), beyond, inward, x };
         if inward > T::zero() {
             view.theta = view.angle(x);
         }
@@ -178,8 +199,9 @@ impl<T: Real> View<T> {
         ends
     }
 
-    /// A point s strictly inside the contact, and `x - s`.
-    fn place(&self, turn: T) -> (T, T) {
+    /// A point s strictly inside the contact, `x - s`, and by how much the distance of s from the
+    /// nearer edge, if free, was rounded: `P w` goes with it there.
+    fn place(&self, turn: T, free: [bool; 2]) -> (T, T, T) {
         let half = T::of(0.5);
         let Interval { left, right } = self.on;
         let width = right - left;
@@ -187,10 +209,24 @@ impl<T: Real> View<T> {
         let rounding = T::epsilon() * left.abs().max(right.abs());
         let near = half_angle < T::frac_pi_4();
         let inward = width * if near { half_angle.sin() } else { half_angle.cos() }.powi(2);
-        let s = if near == self.right { right - inward } else { left + inward };
-        let s = s.max(left + rounding).min(right - rounding);
         let along = width * (self.theta + half * turn).sin() * (half * turn).sin();
         let distance = self.beyond + along;
-        (s, if self.right { distance } else { -distance })
+        let distance = if self.right { distance } else { -distance };
+        let at_right = near == self.right;
+        // From whichever of x and the edge is nearer.
+        let s = if along.abs() < half * self.inward {
+            self.x - distance
+        } else if at_right {
+            right - inward
+        } else {
+            left + inward
+        };
+        let s = s.max(left + rounding).min(right - rounding);
+        let share = match (at_right, free) {
+            (true, [true, _]) => inward / (right - s),
+            (false, [_, true]) => inward / (s - left),
+            _ => T::one(),
+        };
+        (s, distance, share)
     }
 }

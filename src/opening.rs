@@ -34,9 +34,8 @@ impl<T: Real> Solution<'_, T> {
         let [from, to] = self.gap().range();
         let at_edge = sampler.height(self.gap(), edge.max(from).min(to))?;
         let bodies = sampler.height(self.gap(), x)? - at_edge;
-        let [pushed] = Integrals::new(self)?.over(edge, |distance, strength| {
-            [strength * (outward / distance.abs()).ln_1p()]
-        })?;
+        let [pushed] = Integrals::new(self)?
+            .over(edge, |distance, strength| [strength * (outward / distance.abs()).ln_1p()])?;
         Ok(bodies - pushed / self.scale())
     }
 

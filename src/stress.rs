@@ -19,8 +19,8 @@
 //!
 //! **Accuracy.** None of the A is a difference of large numbers, and the panels that they are
 //! integrated on shrink towards x as far as y asks for. So the stress is good to some units in the
-//! last place of the pressure however small y is, next to a kink of the slope to about 1e-12 of it;
-//! σ_y and, without friction, σ_x keep their relative accuracy everywhere. A value takes some tens of
+//! last place of the pressure however small y is, next to a kink of the slope to about 1e-12 of it; at a distance d from a free edge, below and beside it,
+//! what rounding leaves open of the limits adds `sqrt(L/d)` units. A value takes some tens of
 //! microseconds.
 //!
 //! ```
@@ -105,6 +105,8 @@ pub struct Subsurface<'p, T: Real> {
     friction: T,
     /// K_a and K_b, zero where the limits were sought by that.
     strengths: [T; 2],
+    /// Mean pressure.
+    mean: T,
 }
 
 /// A largest stress and its place.
@@ -126,8 +128,8 @@ impl<T: Real> Solution<'_, T> {
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
         let found = self.found();
         let at = |i: usize| if found.free[i] { T::zero() } else { found.strengths[i] };
-        let (strengths, friction) = ([at(0), at(1)], T::zero());
-        Ok(Subsurface { integrals: Integrals::new(self)?, friction, strengths })
+        let (strengths, friction, mean) = ([at(0), at(1)], T::zero(), self.mean_pressure());
+        Ok(Subsurface { integrals: Integrals::new(self)?, friction, strengths, mean })
     }
 }
 

@@ -73,7 +73,8 @@ impl<T: Real> Sampler<T> {
             let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
             // What the inversion has left, and what it may have left at an end.
             let missed = x - point.x;
-            *height = point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
+            *height =
+                point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
             if !height.is_finite() {
                 let source = ProfileError::NotFinite { quantity: "Y", k, value: *height };
                 return Err(ContactError::Profile { body, source });

@@ -5,15 +5,15 @@ use crate::{ContactError, Interval, Real};
 
 /// Abscissae and depths of the first look.
 const COLUMNS: usize = 33;
-const ROWS: usize = 24;
+const ROWS: usize = 32;
 
 /// The depths looked at, in half-widths.
-const SHALLOWEST: f64 = 1e-3;
+const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
 
 impl<T: Real> Subsurface<'_, T> {
     /// The largest shear stress in the plane, as far as a grid of 33 abscissae, from half a half-width
-    /// beyond either edge, and 24 depths from a thousandth of the half-width to four of them shows
+    /// beyond either edge, and 32 depths from a millionth of the half-width to four of them shows
     /// which maximum is the largest. Its value has nearly all digits, its place half of them.
     ///
     /// At the least depth it stands for a maximum on the surface itself, where friction of more than
@@ -39,10 +39,9 @@ impl<T: Real> Subsurface<'_, T> {
         value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
     ) -> Result<StressPeak<T>, ContactError<T>> {
         let on = self.interval();
-        let size = self.strengths[0].abs().max(self.strengths[1].abs());
         let Interval { left, right } = on;
         for (x, strength) in [(right, self.strengths[0]), (left, self.strengths[1])] {
-            if strength.abs() > T::of(64.0) * T::epsilon() * size {
+            if strength.abs() > T::of(64.0) * T::epsilon() * self.mean.abs() {
                 return Err(ContactError::Singular { x });
             }
         }
