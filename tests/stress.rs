@@ -115,7 +115,8 @@ fn compare(
         let got = field.at(at, half_width * y).unwrap();
         // An error of the limits is magnified next to an edge, as it is in the pressure.
         let magnified = (x.abs() - 1.0).hypot(y).sqrt().min(1.0);
-        let error = magnified * largest_difference(&got, &want) / scale.max(want.max_shear());
+        let error = magnified * largest_difference(&got, &want)
+            / scale.max(want.sigma_x.abs()).max(want.sigma_y.abs());
         if error > worst {
             (worst, place) = (error, (x, y));
         }
