@@ -83,7 +83,7 @@ fn draw(
         vec![line(x.iter().map(share).collect::<Result<_, ContactError<_>>>()?, BLUE).into()];
 
     let across: Vec<f64> = (-75..=75).map(|i| REACH * f64::from(i) / 75.0).collect();
-    let up: Vec<f64> = (0..=75).map(|i| 0.005 - REACH * f64::from(75 - i) / 75.0 - 0.01).collect();
+    let up: Vec<f64> = (0..=75).rev().map(|i| -0.005 - 2.495 * f64::from(i) / 75.0).collect();
     let row = |&y: &f64| {
         let shear = |&x: &f64| Ok(below.at(L * x, -L * y)?.max_shear() / p0);
         across.iter().map(shear).collect::<Result<Vec<f64>, ContactError<f64>>>()
@@ -91,17 +91,20 @@ fn draw(
     let grid = up.iter().map(row).collect::<Result<Vec<_>, _>>()?;
     let levels: Vec<f64> = (1..=14).map(|i| 0.02 * f64::from(i)).collect();
     let contours = ContourPlot::new().with_grid(grid, across, up).with_levels(&levels);
-    let field: Vec<Plot> = vec![contours.with_filled().with_legend("shear/p₀").into()];
+    let field: Vec<Plot> = vec![contours.with_line_color(BLUE).with_line_width(1.2).into()];
 
     let framed = |plots: &[Plot], title: &str, y: &str| {
         let layout = Layout::auto_from_plots(plots).with_title(title).with_y_label(y);
         layout.with_x_axis_min(-REACH).with_x_axis_max(REACH).with_box_axes()
     };
     let layouts = vec![
-        framed(&gap, "Gap between the bodies", "gap R/L²").with_y_axis_min(0.0),
+        framed(&gap, "Gap between the bodies", "gap R/L²")
+            .with_y_axis_min(0.0)
+            .with_legend_position(LegendPosition::InsideTopCenter),
         framed(&pressure, "Pressure", "P/p₀").with_y_axis_min(0.0),
         framed(&field, "Largest shear stress, 0.02 p₀ from line to line", "−depth/L")
-            .with_x_label("x/L"),
+            .with_x_label("x/L")
+            .with_y_axis_min(-REACH),
     ];
     let figure = Figure::new(3, 1).with_plots(vec![gap, pressure, field]).with_layouts(layouts);
     let figure = figure.with_cell_size(640.0, 260.0).with_row_height(2, 420.0).with_shared_x_all();

@@ -33,7 +33,9 @@
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
 //! - [`contact`]: the scene, its edges, and the search for its limits.
 //! - [`reference`](mod@reference): closed forms to test against.
-//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back. [`Solver`]: solving again and again.
+//! - [`stress`]: the stress below the surface of either body.
+//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
+//!   the contact and a check of the equation on request. [`Solver`]: solving again and again.
 //!
 //! # Example
 //! ```

@@ -5,7 +5,8 @@ use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
 use linecontact::stress::{Stress, Subsurface};
-use linecontact::{Contact, ContactError, Edge, Flat, Load};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load};
+use linecontact::{ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -377,4 +378,55 @@ fn in_single_precision() {
     let shear = solution.subsurface().unwrap().max_shear().unwrap();
     assert!((shear.value / peak - 0.3002831).abs() < 1e-5, "{shear:?}");
     assert!((shear.depth / 0.1 - 0.7861514).abs() < 1e-2, "{shear:?}");
+}
+
+#[test]
+fn at_either_end_of_the_numbers() {
+    for (reach, half_width) in [(1.0, 7e-151), (4e150, 9e149)] {
+        let form = Hertz::new(1.0, half_width).unwrap();
+        let body = body(&form, -reach, reach).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+        let peak = solution.peak().unwrap().pressure;
+        let shear = solution.subsurface().unwrap().max_shear().unwrap();
+        assert!((shear.value / peak - 0.3002831).abs() < 1e-7, "{shear:?}");
+        assert!((shear.depth / half_width - 0.7861514).abs() < 1e-6, "{shear:?}");
+    }
+}
+
+/// Next to a joint of a body far from x = 0 the places themselves are rounded.
+#[test]
+fn beside_a_joint_anywhere() {
+    for (shift, allowed) in [(0.0, 1e-11), (0.37, 1e-11), (1e6, 1e-6)] {
+        let tip = |k: f64| 0.1 * (k - shift).abs();
+        let side = |from: f64, to: f64, slope: f64| {
+            Curve::new([shift + from, shift + to], move |k: f64| CurvePoint {
+                x: k,
+                y: tip(k),
+                dx: 1.0,
+                dy: slope,
+            })
+        };
+        let body = Piecewise::new(vec![
+            Box::new(side(-1.0, 0.0, -0.1)) as Box<dyn ParametricProfile<f64>>,
+            Box::new(side(0.0, 1.0, 0.1)),
+        ])
+        .unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(0.2)).unwrap();
+        let field = solution.subsurface().unwrap().friction(0.3).unwrap();
+        let mut worst = 0.0f64;
+        for (x, y) in [(0.0, 1e-9), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
+            // What x has become by rounding.
+            let at = shift + 0.2 * x;
+            let z = Complex((at - shift) / 0.2, y);
+            let inverse = Complex(1.0, 0.0) / z;
+            let scale = 2.0 * 0.1 / PI;
+            let want = of_potential(inverse.asin() * scale, inverse / z.root() * -scale, y, 0.3);
+            let got = field.at(at, 0.2 * y).unwrap();
+            worst = worst.max(largest_difference(&got, &want) / want.sigma_y.abs());
+        }
+        println!("joint at {shift}: {worst:.1e}");
+        assert!(worst < allowed, "{shift}: {worst}");
+    }
 }
