@@ -92,7 +92,7 @@ impl<'p, T: Real> Integrals<'p, T> {
         for joint in &self.joints[next.saturating_sub(1)..self.joints.len().min(next + 1)] {
             distance = distance.min((s - *joint).abs());
         }
-        let rounding = T::of(8.0) * T::epsilon() * s.abs();
+        let rounding = T::of(0.25) * T::epsilon() * s.abs();
         if distance > rounding { rounding / distance } else { T::one() }
     }
 

@@ -19,7 +19,8 @@
 //!
 //! **Accuracy.** None of the A is a difference of large numbers, and the panels that they are
 //! integrated on shrink towards x as far as y asks for. So the stress is good to some units in the
-//! last place of the pressure however small y is, next to a kink of the slope to about 1e-12 of it; at a distance d from a free edge, below and beside it,
+//! last place of the pressure however small y is, next to a kink of the slope to about 1e-11 of it,
+//! and where the slope jumps at x no better than the rounding of x as a share of y; at a distance d from a free edge, below and beside it,
 //! what rounding leaves open of the limits adds `sqrt(L/d)` units. A value takes some tens of
 //! microseconds.
 //!

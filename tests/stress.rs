@@ -244,9 +244,9 @@ fn a_cut_carries_the_load() {
     let on = field.interval();
     for depth in [0.2, 1.0, 3.0].map(|depth| depth * on.half_width()) {
         // The trapezoidal rule in t, x = c + sinh t.
-        let step = 0.02;
+        let step = 0.04;
         let (mut normal, mut shear) = (0.0, 0.0);
-        for i in -1500..=1500 {
+        for i in -750..=750 {
             let t = step * f64::from(i);
             let stress = field.at(on.centre() + depth * t.sinh(), depth).unwrap();
             normal += step * depth * t.cosh() * stress.sigma_y;
@@ -382,7 +382,7 @@ fn in_single_precision() {
 
 #[test]
 fn at_either_end_of_the_numbers() {
-    for (reach, half_width) in [(1.0, 7e-151), (4e150, 9e149)] {
+    for (reach, half_width) in [(1.0f64, 7e-151f64), (4e150, 9e149)] {
         let form = Hertz::new(1.0, half_width).unwrap();
         let body = body(&form, -reach, reach).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
@@ -397,7 +397,7 @@ fn at_either_end_of_the_numbers() {
 /// Next to a joint of a body far from x = 0 the places themselves are rounded.
 #[test]
 fn beside_a_joint_anywhere() {
-    for (shift, allowed) in [(0.0, 1e-11), (0.37, 1e-11), (1e6, 1e-6)] {
+    for shift in [0.0f64, 0.37, -20.0, 1e6] {
         let tip = |k: f64| 0.1 * (k - shift).abs();
         let side = |from: f64, to: f64, slope: f64| {
             Curve::new([shift + from, shift + to], move |k: f64| CurvePoint {
@@ -416,17 +416,19 @@ fn beside_a_joint_anywhere() {
         let solution = contact.solve(Load::ToHalfWidth(0.2)).unwrap();
         let field = solution.subsurface().unwrap().friction(0.3).unwrap();
         let mut worst = 0.0f64;
-        for (x, y) in [(0.0, 1e-9), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
+        for (x, y) in [(0.0f64, 1e-9f64), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
             // What x has become by rounding.
-            let at = shift + 0.2 * x;
+            let at: f64 = shift + 0.2 * x;
             let z = Complex((at - shift) / 0.2, y);
             let inverse = Complex(1.0, 0.0) / z;
             let scale = 2.0 * 0.1 / PI;
             let want = of_potential(inverse.asin() * scale, inverse / z.root() * -scale, y, 0.3);
             let got = field.at(at, 0.2 * y).unwrap();
-            worst = worst.max(largest_difference(&got, &want) / want.sigma_y.abs());
+            let error = largest_difference(&got, &want) / want.sigma_y.abs();
+            let rounding = 4.0 * f64::EPSILON * shift.abs() / (0.2 * y.hypot(x));
+            worst = worst.max(error / (2e-11 + rounding));
         }
-        println!("joint at {shift}: {worst:.1e}");
-        assert!(worst < allowed, "{shift}: {worst}");
+        println!("joint at {shift}: {worst:.2} of what rounding allows");
+        assert!(worst < 1.0, "{shift}: {worst}");
     }
 }
