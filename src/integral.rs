@@ -83,8 +83,8 @@ impl<'p, T: Real> Integrals<'p, T> {
         Ok(total)
     }
 
-    /// What the rounding of s makes of the pressure beside a joint, where it may go like a logarithm: no
-    /// halving mends that.
+    /// What the rounding of s makes of the pressure beside a joint, where it may go like a
+    /// logarithm: no halving mends that.
     fn noise(&self, s: T) -> T {
         let Interval { left, right } = self.pressure.interval();
         let mut distance = right - left;

@@ -15,14 +15,14 @@
 //! **Either body.** Without friction both bodies have the same stress at the same depth. With it the
 //! traction on the other body is opposite: where the upper body slides towards positive x over the
 //! lower one, the lower has μ, and the upper -μ. That such a traction leaves the pressure as it is
-//! holds for like bodies, or where μ is small (Johnson, §7.2 and §8.1).
+//! holds for like bodies, or where μ is small (Johnson, §7.2).
 //!
 //! **Accuracy.** None of the A is a difference of large numbers, and the panels that they are
 //! integrated on shrink towards x as far as y asks for. So the stress is good to some units in the
-//! last place of the pressure however small y is, next to a kink of the slope to about 1e-11 of it,
-//! and where the slope jumps at x no better than the rounding of x as a share of y; at a distance d from a free edge, below and beside it,
-//! what rounding leaves open of the limits adds `sqrt(L/d)` units. A value takes some tens of
-//! microseconds.
+//! last place of the pressure however small y is, with three exceptions. Where the slope of a body has
+//! a kink it is good to about 1e-11 of the pressure. Below a jump of the slope it is no better than the
+//! rounding of x as a share of y. At a distance d from a free edge, what rounding leaves open of the
+//! limits adds `sqrt(L/d)` units. A value takes some tens of microseconds.
 //!
 //! ```
 //! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};

@@ -167,6 +167,8 @@ fn the_gap_of_hertz() {
         assert_eq!(solution.gap_slope(edge).unwrap(), 0.0);
     }
     assert!(matches!(solution.gap_at(0.1), Err(ContactError::Misplaced { .. })));
+    let told = [solution.gap_at(0.1), solution.residual(0.4)].map(|e| e.unwrap_err().to_string());
+    assert!(told[0].contains("outside the contact") && told[1].contains("inside the contact"));
     assert!(matches!(solution.gap_slope(0.1), Err(ContactError::Misplaced { .. })));
     for x in [3.1, f64::NAN] {
         assert!(matches!(solution.gap_at(x), Err(ContactError::OutsideBodies { .. })));

@@ -432,3 +432,21 @@ fn beside_a_joint_anywhere() {
         assert!(worst < 1.0, "{shift}: {worst}");
     }
 }
+
+/// On the surface of Hertz's contact the largest shear is μ p₀ everywhere.
+#[test]
+fn strong_friction_brings_the_largest_shear_to_the_surface() {
+    let form = Hertz::new(1.0, 0.1).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let field = solution.subsurface().unwrap().friction(0.6).unwrap();
+    for x in [-0.09f64, -0.05, 0.0, 0.03, 0.08] {
+        let shear: f64 = field.at(x, 1e-14).unwrap().max_shear();
+        assert!((shear / peak - 0.6).abs() < 1e-11, "{x}: {shear}");
+    }
+    let largest = field.max_shear().unwrap();
+    println!("{} at {}, {}", largest.value / peak, largest.x / 0.1, largest.depth / 0.1);
+    assert!(largest.value > 0.5999 * peak && largest.value < 0.61 * peak);
+}

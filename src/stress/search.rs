@@ -16,8 +16,8 @@ impl<T: Real> Subsurface<'_, T> {
     /// beyond either edge, and 32 depths from a millionth of the half-width to four of them shows
     /// which maximum is the largest. Its value has nearly all digits, its place half of them.
     ///
-    /// At the least depth it stands for a maximum on the surface itself, where friction of more than
-    /// about 0.3 puts it.
+    /// At the least depth it stands for a maximum on the surface itself, where strong friction puts
+    /// it.
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the stress is infinite, at an edge where the pressure is; those
