@@ -13,7 +13,7 @@ pub use edges::{Edge, EdgePressure};
 pub(crate) use peak::peak;
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Moments, Panels, Quadrature};
+use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{Solution, Worker};
 use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
@@ -84,6 +84,8 @@ pub(crate) struct Found<T> {
     pub error: Option<T>,
     /// The load that such an error stands for, where it is known.
     pub force: Option<T>,
+    /// How the edge integrals change with the limits, where that is known.
+    pub trend: Option<Trend<T>>,
 }
 
 impl<T: Real> Found<T> {
@@ -101,7 +103,7 @@ impl<T: Real> Found<T> {
         let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
         let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
         let free = [free_a, free_b];
-        Self { interval, load, strengths, free, adhesive, error, force: None }
+        Self { interval, load, strengths, free, adhesive, error, force: None, trend: m.trend }
     }
 }
 

@@ -246,6 +246,56 @@ pub enum ContactError<T: Real> {
         /// The peak pressure there; infinite where an edge is sharp or a slope jumps.
         found: T,
     },
+    /// A point is not below the surface, or not finite.
+    #[error("no stress at x = {x:?}, depth {depth:?}: both must be finite, the depth positive")]
+    AboveSurface {
+        /// Abscissa.
+        x: T,
+        /// Depth below the surface.
+        depth: T,
+    },
+    /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
+    #[error("Poisson's ratio is {ratio:?}: it must be from 0 to 1/2")]
+    PoissonRatio {
+        /// As given.
+        ratio: T,
+    },
+    /// The coefficient of friction is not finite.
+    #[error("the coefficient of friction is {coefficient:?}: it must be finite")]
+    Friction {
+        /// As given.
+        coefficient: T,
+    },
+    /// A point is not inside the contact, or not outside it, as it has to be.
+    #[error(
+        "x = {x:?} must lie {}side the contact from {:?} to {:?}",
+        if *inside { "in" } else { "out" }, interval.left, interval.right
+    )]
+    Misplaced {
+        /// Where.
+        x: T,
+        /// Whether it had to be strictly inside.
+        inside: bool,
+        /// The contact.
+        interval: Interval<T>,
+    },
+    /// The load does not change the contact in a way that is known.
+    #[error("the derivatives by the load are not known: {why}")]
+    NoRate {
+        /// What stands in the way.
+        why: &'static str,
+    },
+    /// An integral over the pressure has not converged.
+    #[error(
+        "an integral over the pressure for x = {x:?} has not converged in {panels} panels: the \
+         pressure is too rough; set a looser tolerance or a finer quadrature"
+    )]
+    Integral {
+        /// The abscissa that it was for.
+        x: T,
+        /// Panels tried.
+        panels: usize,
+    },
     /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
     /// segments.
     #[error(

@@ -33,7 +33,9 @@
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
 //! - [`contact`]: the scene, its edges, and the search for its limits.
 //! - [`reference`](mod@reference): closed forms to test against.
-//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back. [`Solver`]: solving again and again.
+//! - [`stress`]: the stress below the surface of either body.
+//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
+//!   the contact and a check of the equation on request. [`Solver`]: solving again and again.
 //!
 //! # Example
 //! ```
@@ -55,14 +57,18 @@ mod certificate;
 pub mod contact;
 mod error;
 pub mod gap;
+mod integral;
 mod interval;
+mod opening;
 pub mod profile;
 pub mod quadrature;
+mod quantities;
 mod real;
 pub mod reference;
 pub mod search;
 mod solution;
 mod solver;
+pub mod stress;
 
 pub use contact::{Contact, Edge, EdgePressure, Load};
 pub use error::{Body, ContactError};
@@ -71,6 +77,7 @@ pub use interval::Interval;
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use profile::{Piece, ProfileError};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
+pub use quantities::LoadRates;
 pub use real::Real;
 pub use solution::{Peak, Pressure, Solution};
 pub use solver::Solver;

@@ -25,6 +25,7 @@ mod moments;
 mod panels;
 
 pub use midpoint::{Exponents, Midpoint};
+pub(crate) use panels::Gauss;
 pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};

@@ -142,6 +142,18 @@ impl<'s, T: Real> Solution<'s, T> {
         Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, cost })
     }
 
+    pub(crate) fn gap(&self) -> &'s Gap<'s, T> {
+        self.gap
+    }
+
+    pub(crate) fn scale(&self) -> T {
+        self.kappa
+    }
+
+    pub(crate) fn found(&self) -> &Found<T> {
+        &self.found
+    }
+
     fn pressing(&self) -> Pressing<T> {
         let Found { load, free, .. } = self.found;
         Pressing { kappa: self.kappa, load, free }
@@ -245,6 +257,15 @@ impl<T: Real> Pressure<'_, T> {
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         Ok(estimate)
+    }
+
+    /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
+    pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut Cost::default())
+    }
+
+    pub(crate) fn interval(&self) -> Interval<T> {
+        self.on
     }
 
     /// What making ready has cost.

@@ -61,6 +61,28 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
+    /// The height of the gap `Y₂ - Y₁` between the bodies at `x` before they are loaded.
+    pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+        let range = gap.range();
+        if !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
+        }
+        let mut heights = [T::zero(); 2];
+        for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
+            let (index, piece) = gap.piece_at(body, x, Side::Left);
+            let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+            // What the inversion has left, and what it may have left at an end.
+            let missed = x - point.x;
+            *height =
+                point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
+            if !height.is_finite() {
+                let source = ProfileError::NotFinite { quantity: "Y", k, value: *height };
+                return Err(ContactError::Profile { body, source });
+            }
+        }
+        Ok(heights[1] - heights[0])
+    }
+
     fn body_slope(
         &mut self,
         gap: &Gap<'_, T>,

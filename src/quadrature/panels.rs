@@ -21,6 +21,8 @@ mod far;
 mod integrals;
 mod panel;
 
+pub(crate) use angles::Gauss;
+
 use super::{Engine, Estimate, Moments, Pressing, Quadrature};
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};

@@ -116,7 +116,7 @@ impl<T: Real> Arc<T> {
 pub(super) const MOST_NODES: usize = 64;
 
 /// A Gauss-Legendre rule on [-1, 1].
-pub(super) struct Gauss {
+pub(crate) struct Gauss {
     pub n: usize,
     pub nodes: [f64; MOST_NODES],
     pub weights: [f64; MOST_NODES],
@@ -138,6 +138,11 @@ impl Gauss {
     /// The rule for a sketch.
     pub fn coarsest() -> &'static Self {
         &RULES[0]
+    }
+
+    /// The rule of 16 nodes.
+    pub fn sixteen() -> &'static Self {
+        &RULES[1]
     }
 
     /// The rule for whatever is close.

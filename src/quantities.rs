@@ -1,0 +1,147 @@
+//! What follows from a solved contact besides its pressure: computed when asked for.
+
+use crate::integral::Integrals;
+use crate::{ContactError, Interval, Real, Solution};
+
+/// The exact derivatives of a contact by its load per unit length F, all else being the same.
+///
+/// With both limits changing or not, the derivative of the pressure solves the equation of a flat
+/// punch, `PV∫ P_F(s)/(x - s) ds = 0`, under a unit load:
+///
+/// ```text
+/// ∂P/∂F = 1/(π sqrt((x + b)(a - x)))
+/// ```
+///
+/// (Johnson, *Contact Mechanics*, 1985, Eq. 2.64). The limits follow from `K_a = 0`, `K_b = 0`, that
+/// is `F = κ L (m₁ ± m₀)` (see [`quadrature`](crate::quadrature)), at each edge that is free:
+///
+/// ```text
+/// dF/da = κ ( m₀/2 + L/π ∫ g'(x) (1 + cos θ) dθ),   dF/db = κ (-m₀/2 + L/π ∫ g'(x) (1 - cos θ) dθ)
+/// ```
+///
+/// with θ from 0 to π.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadRates<T> {
+    /// da/dF, length² per force; zero at a fixed edge.
+    pub a: T,
+    /// db/dF.
+    pub b: T,
+    on: Interval<T>,
+}
+
+impl<T: Real> LoadRates<T> {
+    /// ∂P/∂F at a fixed `x`, one over a length; zero outside the contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Singular`] at the edges, where it is infinite; [`ContactError::Misplaced`] for
+    /// NaN.
+    pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
+        let Interval { left, right } = self.on;
+        if self.on.contains(x) {
+            Ok(T::frac_1_pi() / self.on.edge_root(x))
+        } else if x == left || x == right {
+            Err(ContactError::Singular { x })
+        } else if x < left || x > right {
+            Ok(T::zero())
+        } else {
+            Err(ContactError::Misplaced { x, inside: true, interval: self.on })
+        }
+    }
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// Mean pressure `F/(a + b)`.
+    pub fn mean_pressure(&self) -> T {
+        self.load() / (T::of(2.0) * self.interval().half_width())
+    }
+
+    /// Moment of the pressure about x = 0, `∫ x P dx`: force. Its error is rounding of F times the
+    /// largest x of the contact; beside a kink of the slope up to 1e-12 of F L.
+    ///
+    /// # Errors
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`].
+    pub fn moment(&self) -> Result<T, ContactError<T>> {
+        let centre = self.interval().centre();
+        let [moment] = Integrals::new(self)?.over(centre, |d, strength| [-d * strength])?;
+        Ok(centre * self.load() + moment)
+    }
+
+    /// Centre of pressure, `∫ x P dx/F`: where the load acts.
+    ///
+    /// # Errors
+    /// Those of [`moment`](Self::moment); [`ContactError::Load`] where F is zero.
+    pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
+        let load = self.load();
+        if load.is_zero() {
+            return Err(ContactError::Load { load });
+        }
+        Ok(self.moment()? / load)
+    }
+
+    /// The derivatives of pressure and limits by the load.
+    ///
+    /// # Errors
+    /// [`ContactError::NoRate`] with adhesion, with edges by the paper's Eq. (6), and with a
+    /// quadrature that does not know the derivatives of its integrals ([`Midpoint`](crate::Midpoint))
+    /// unless both limits are given.
+    pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
+        let found = self.found();
+        let on = found.interval;
+        let refuse = |why| Err(ContactError::NoRate { why });
+        if found.adhesive {
+            return refuse("an adhesive edge moves with a singular pressure");
+        }
+        if found.free == [false; 2] {
+            return if found.error.is_none() {
+                Ok(LoadRates { a: T::zero(), b: T::zero(), on })
+            } else {
+                refuse("the limits were sought by Eq. (6), not by free edges")
+            };
+        }
+        let Some(trend) = found.trend else {
+            return refuse("the quadrature has no derivatives of its integrals; use Panels");
+        };
+        let (kappa, half_width) = (self.scale(), on.half_width());
+        let mean = if found.free == [true; 2] {
+            T::zero()
+        } else {
+            let [at_a, at_b] = found.strengths;
+            T::frac_pi_2() * (at_b - at_a) / kappa
+        };
+        let rate = |free: bool, sign: T| {
+            let slope = half_width * (trend.by_0 + sign * trend.by_1);
+            let stiffness = kappa * (T::of(0.5) * sign * mean + slope);
+            if free { T::one() / stiffness } else { T::zero() }
+        };
+        let [free_a, free_b] = found.free;
+        Ok(LoadRates { a: rate(free_a, T::one()), b: rate(free_b, -T::one()), on })
+    }
+
+    /// `PV∫ P(s)/(x - s) ds - κ g(x)` at a place strictly inside the contact: by how much the
+    /// pressure fails the integral equation, the paper's Eq. (3). A pressure.
+    ///
+    /// The integral is taken from values of P alone, by a quadrature that has nothing in common
+    /// with those that gave them, and g from the curves themselves. At a joint g is that of its left
+    /// side; where a slope jumps there the integral is infinite.
+    ///
+    /// # Errors
+    /// [`ContactError::Misplaced`] for an x not strictly inside; those of
+    /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
+    pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
+        let interval = self.interval();
+        if !interval.contains(x) {
+            return Err(ContactError::Misplaced { x, inside: true, interval });
+        }
+        let integrals = Integrals::new(self)?;
+        let mut at_x = [T::zero()];
+        integrals.pressure.values(&[x], &mut at_x)?;
+        if !at_x[0].is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        let at_x = at_x[0] * interval.edge_root(x);
+        // PV∫ ds/((x - s) w(s)) is zero.
+        let [sum] = integrals.over(x, |distance, strength| [(strength - at_x) / distance])?;
+        let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;
+        Ok(sum - self.scale() * slope)
+    }
+}

@@ -1,0 +1,452 @@
+//! Stress below the surface against closed forms, equilibrium and the pressure on the surface.
+#![allow(missing_docs)]
+
+use linecontact::reference::{
+    Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
+};
+use linecontact::stress::{Stress, Subsurface};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load};
+use linecontact::{ParametricProfile, Piecewise};
+use std::f64::consts::PI;
+use std::ops::{Add, Div, Mul, Sub};
+
+const KAPPA: f64 = 1.7;
+
+/// Just enough of complex numbers for the potentials.
+#[derive(Clone, Copy, Debug)]
+struct Complex(f64, f64);
+
+impl Complex {
+    fn sqrt(self) -> Self {
+        let r = self.0.hypot(self.1);
+        let re = ((r + self.0.abs()) / 2.0).sqrt();
+        let im = self.1.abs() / (2.0 * re);
+        let (re, im) = if self.0 >= 0.0 { (re, im) } else { (im, re) };
+        Self(re, im.copysign(self.1))
+    }
+    fn ln(self) -> Self {
+        Self(self.0.hypot(self.1).ln(), self.1.atan2(self.0))
+    }
+    /// `sqrt(z - 1) sqrt(z + 1)`
+    fn root(self) -> Self {
+        Self(self.0 - 1.0, self.1).sqrt() * Self(self.0 + 1.0, self.1).sqrt()
+    }
+    fn asin(self) -> Self {
+        let log = (Self(-self.1, self.0) + (Self(1.0, 0.0) - self * self).sqrt()).ln();
+        Self(log.1, -log.0)
+    }
+}
+impl Add for Complex {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self(self.0 + o.0, self.1 + o.1)
+    }
+}
+impl Sub for Complex {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Self(self.0 - o.0, self.1 - o.1)
+    }
+}
+impl Mul for Complex {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        Self(self.0 * o.0 - self.1 * o.1, self.0 * o.1 + self.1 * o.0)
+    }
+}
+impl Mul<f64> for Complex {
+    type Output = Self;
+    fn mul(self, o: f64) -> Self {
+        Self(self.0 * o, self.1 * o)
+    }
+}
+impl Div for Complex {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        self * Self(o.0, -o.1) * (1.0 / (o.0 * o.0 + o.1 * o.1))
+    }
+}
+
+/// The stress from `W = ∫ P ds/(ζ - s)` and `W'` at depth y.
+fn of_potential(w: Complex, dw: Complex, y: f64, mu: f64) -> Stress<f64> {
+    let [sum, difference, shear] = [2.0 / PI * w.1, -2.0 * y / PI * dw.0, -y / PI * dw.1];
+    // A traction alone: its σ_y is μ times τ_xy, its τ_xy μ times σ_x of the pressure.
+    let sigma_x = (sum - difference) / 2.0;
+    let along = -2.0 * mu / PI * w.0 - mu * shear;
+    Stress {
+        sigma_x: sigma_x + along,
+        sigma_y: (sum + difference) / 2.0 + mu * shear,
+        tau_xy: shear + mu * sigma_x,
+    }
+}
+
+fn largest_difference(a: &Stress<f64>, b: &Stress<f64>) -> f64 {
+    let parts =
+        [a.sigma_x - b.sigma_x, a.sigma_y - b.sigma_y, a.tau_xy - b.tau_xy].map(|d: f64| d.abs());
+    parts.into_iter().fold(0.0, f64::max)
+}
+
+/// Places x in half-widths and depths.
+fn places() -> impl Iterator<Item = (f64, f64)> {
+    let x = [-3.0, -1.1, -1.0, -0.93, -0.5, -1e-3, 0.0, 0.2, 0.77, 0.999, 1.0, 1.001, 1.7, 40.0];
+    let depth = [1e-12, 1e-6, 1e-3, 0.03, 0.3, 0.7861514, 1.5, 20.0];
+    x.into_iter().flat_map(move |x| depth.map(|y| (x, y)))
+}
+
+fn compare(
+    name: &str,
+    field: &Subsurface<'_, f64>,
+    scale: f64,
+    mu: f64,
+    allowed: f64,
+    potential: impl Fn(Complex) -> [Complex; 2],
+) {
+    let on = field.interval();
+    let half_width = on.half_width();
+    let (mut worst, mut place) = (0.0, (0.0, 0.0));
+    for (x, y) in places() {
+        let [w, dw] = potential(Complex(x, y));
+        let want = of_potential(w, dw, y, mu);
+        // The forms are centred; at an edge its rounding would count.
+        let at = match x {
+            -1.0 => on.left,
+            1.0 => on.right,
+            _ => half_width * x,
+        };
+        let got = field.at(at, half_width * y).unwrap();
+        // An error of the limits is magnified next to an edge, as it is in the pressure.
+        let magnified = (x.abs() - 1.0).hypot(y).sqrt().min(1.0);
+        let error = magnified * largest_difference(&got, &want)
+            / scale.max(want.sigma_x.abs()).max(want.sigma_y.abs());
+        if error > worst {
+            (worst, place) = (error, (x, y));
+        }
+    }
+    println!("{name:24} μ = {mu:4}: largest error {worst:.1e} at {place:?}");
+    assert!(worst < allowed, "{name}: {worst} at {place:?}");
+}
+
+#[test]
+fn hertz_everywhere() {
+    let form = Hertz::new(2.0, 0.3).unwrap();
+    let peak = form.pressure(0.0, KAPPA);
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Load::ToHalfWidth(0.3)).unwrap();
+    for mu in [0.0, 0.25, -1.0] {
+        let field = solution.subsurface().unwrap().friction(mu).unwrap();
+        compare("Hertz", &field, peak, mu, 2e-14, |z| {
+            let root = z.root();
+            // 1/(z + root), which does not cancel.
+            let u = Complex(1.0, 0.0) / (z + root);
+            [u * (PI * peak), u * (-PI * peak) / root]
+        });
+    }
+    // On the axis, Johnson, Eqs. 4.46; and the same field by Eqs. 4.49 with their m and n.
+    let field = solution.subsurface().unwrap();
+    let (mut on_axis, mut off_axis) = (0.0f64, 0.0f64);
+    for i in 1..=60 {
+        let y = 0.3 * 10f64.powf(-8.0 + f64::from(i) / 6.0);
+        let root = 0.3f64.hypot(y);
+        let got = field.at(0.0, y).unwrap();
+        let sigma_x = -peak / 0.3 * ((0.09 + 2.0 * y * y) / root - 2.0 * y);
+        let sigma_y = -peak * 0.3 / root;
+        on_axis = on_axis.max((got.sigma_y / sigma_y - 1.0).abs());
+        on_axis = on_axis.max((got.sigma_x - sigma_x).abs() / peak / (1.0 + y / 0.3));
+        assert!(got.tau_xy.abs() < 1e-14 * peak);
+        let x = 0.21;
+        let s = 0.09 - x * x + y * y;
+        let r = (s * s + 4.0 * x * x * y * y).sqrt();
+        let m = ((r + s) / 2.0).sqrt();
+        let n = x * y / m;
+        let share = (y * y + n * n) / (m * m + n * n);
+        let want = Stress {
+            sigma_x: -peak / 0.3 * (m * (1.0 + share) - 2.0 * y),
+            sigma_y: -peak / 0.3 * m * (1.0 - share),
+            tau_xy: -peak / 0.3 * n * (m * m - y * y) / (m * m + n * n),
+        };
+        let got = field.at(x, y).unwrap();
+        off_axis = off_axis.max(largest_difference(&got, &want) / peak / (1.0 + y / 0.3));
+    }
+    println!("Johnson 4.46 {on_axis:.1e}, 4.49 {off_axis:.1e}");
+    assert!(on_axis < 2e-14 && off_axis < 2e-14);
+}
+
+#[test]
+fn a_series_of_two_terms() {
+    let form = Biquadratic::new(1.0, 5.0, 0.4).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    // κ (x + 20 x³) = c₁ cos θ + c₃ cos 3θ.
+    let cubic = KAPPA * 20.0 * 0.4f64.powi(3) / 4.0;
+    let (c1, c3) = (KAPPA * 0.4 + 3.0 * cubic, cubic);
+    for mu in [0.0, 0.3] {
+        let field = solution.subsurface().unwrap().friction(mu).unwrap();
+        compare("parabola and x⁴", &field, solution.peak().unwrap().pressure, mu, 2e-14, |z| {
+            let root = z.root();
+            let u = Complex(1.0, 0.0) / (z + root);
+            let cube = u * u * u;
+            [u * c1 + cube * c3, (u * -c1 + cube * (-3.0 * c3)) / root]
+        });
+    }
+}
+
+/// `W = 2 κ m/π arcsin(L/ζ)`.
+#[test]
+fn a_wedge_whose_pressure_is_infinite() {
+    let form = Wedge::new(0.1, 0.2).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    for mu in [0.0, 0.3] {
+        let field = solution.subsurface().unwrap().friction(mu).unwrap();
+        compare("wedge", &field, solution.mean_pressure(), mu, 1e-11, |z| {
+            let inverse = Complex(1.0, 0.0) / z;
+            let scale = 2.0 * KAPPA * 0.1 / PI;
+            [inverse.asin() * scale, inverse / z.root() * -scale]
+        });
+    }
+}
+
+#[test]
+fn a_tilted_flat_punch() {
+    let (load, slope, half_width) = (0.7, 0.1, 0.5);
+    let form = FlatPunch::under_load(half_width, slope, load, KAPPA).unwrap();
+    let body = body(&form, -0.5, 0.5).unwrap();
+    let [left, right] = form.edges();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
+    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let (alpha, beta) = (load / half_width / PI, -KAPPA * slope / PI);
+    for mu in [0.0, 0.3] {
+        let field = solution.subsurface().unwrap().friction(mu).unwrap();
+        compare("tilted flat punch", &field, solution.mean_pressure(), mu, 1e-13, |z| {
+            let root = z.root();
+            let top = Complex(alpha, 0.0) + z * beta;
+            let w = top / root - Complex(beta, 0.0);
+            let dw = Complex(beta, 0.0) / root - top * z / (root * root * root);
+            [w * PI, dw * PI]
+        });
+    }
+    let refused = solution.subsurface().unwrap().max_shear();
+    assert!(matches!(refused, Err(ContactError::Singular { .. })), "{refused:?}");
+}
+
+/// The forces through a cut at any depth are those on the surface.
+#[test]
+fn a_cut_carries_the_load() {
+    let form = UnequalRadii::under_load(1.0, 0.2, 0.05, KAPPA).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Load::PerLength(0.05)).unwrap();
+    let mu = 0.4;
+    let field = solution.subsurface().unwrap().friction(mu).unwrap();
+    let on = field.interval();
+    for depth in [0.2, 1.0, 3.0].map(|depth| depth * on.half_width()) {
+        // The trapezoidal rule in t, x = c + sinh t.
+        let step = 0.04;
+        let (mut normal, mut shear) = (0.0, 0.0);
+        for i in -750..=750 {
+            let t = step * f64::from(i);
+            let stress = field.at(on.centre() + depth * t.sinh(), depth).unwrap();
+            normal += step * depth * t.cosh() * stress.sigma_y;
+            shear += step * depth * t.cosh() * stress.tau_xy;
+        }
+        let (normal, shear) = (normal / 0.05 + 1.0, shear / (mu * 0.05) + 1.0);
+        println!("depth {depth:.3}: load {normal:.1e}, traction {shear:.1e}");
+        assert!(normal.abs() < 1e-11 && shear.abs() < 1e-11);
+    }
+}
+
+#[test]
+fn on_the_surface_it_is_the_pressure() {
+    let form = UnequalRadii::under_load(1.0, 0.2, 0.05, KAPPA).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Load::PerLength(0.05)).unwrap();
+    let pressure = solution.pressure().unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let mu = 0.4;
+    let field = solution.subsurface().unwrap().friction(mu).unwrap();
+    let on = field.interval();
+    let mut worst = 0.0f64;
+    for i in 0..40 {
+        let x = on.at_angle(PI * (f64::from(i) + 0.4) / 40.0);
+        let (stress, p) = (field.at(x, 1e-13 * on.half_width()).unwrap(), pressure.at(x).unwrap());
+        // PV∫ P ds/(x - s) = κ g.
+        let sigma_x = -p - 2.0 * mu / PI * KAPPA * form.slope(x);
+        for (got, want) in
+            [(stress.sigma_y, -p), (stress.tau_xy, -mu * p), (stress.sigma_x, sigma_x)]
+        {
+            worst = worst.max((got - want).abs() / peak);
+        }
+    }
+    println!("{worst:.1e}");
+    assert!(worst < 1e-11);
+}
+
+#[test]
+fn where_hertz_yields() {
+    let form = Hertz::new(1.0, 0.1).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let field = solution.subsurface().unwrap();
+    let shear = field.max_shear().unwrap();
+    println!("shear {} at {}, {}", shear.value / peak, shear.x / 0.1, shear.depth / 0.1);
+    // By Johnson 4.46 on the axis.
+    let sigma = |t: f64| {
+        let root = 1f64.hypot(t);
+        [-((1.0 + 2.0 * t * t) / root - 2.0 * t), -1.0 / root]
+    };
+    let best = |f: &dyn Fn(f64) -> f64| {
+        let (mut lo, mut hi) = (0.3, 1.5);
+        while hi - lo > 1e-9 {
+            let third = (hi - lo) / 3.0;
+            if f(lo + third) < f(hi - third) { lo += third } else { hi -= third }
+        }
+        [(lo + hi) / 2.0, f((lo + hi) / 2.0)]
+    };
+    let [depth, value] = best(&|t| (sigma(t)[0] - sigma(t)[1]).abs() / 2.0);
+    assert!((depth - 0.7861514).abs() < 5e-8 && (value - 0.3002831).abs() < 5e-8);
+    assert!((shear.value / peak - value).abs() < 1e-14);
+    assert!((shear.depth / 0.1 - depth).abs() < 2e-7 && shear.x.abs() < 2e-8);
+    for nu in [0.0, 0.3, 0.5] {
+        let got = field.max_von_mises(nu).unwrap();
+        let [depth, value] = best(&|t| {
+            let [x, y] = sigma(t);
+            let z = nu * (x + y);
+            (((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) / 2.0).sqrt()
+        });
+        println!("ν = {nu}: {} at {}", got.value / peak, got.depth / 0.1);
+        if nu > 0.2 {
+            assert!((got.value / peak - value).abs() < 1e-14);
+            assert!((got.depth / 0.1 - depth).abs() < 2e-7);
+        } else {
+            // Its largest value is that at the surface, p₀.
+            assert!((got.value / peak - 1.0).abs() < 3e-6 && got.depth < 2e-7);
+        }
+    }
+}
+
+#[test]
+fn invariants() {
+    let stress = Stress { sigma_x: -3.0, sigma_y: 1.0, tau_xy: 1.5 };
+    assert_eq!(stress.principal(), [1.5, -3.5]);
+    assert_eq!(stress.max_shear(), 2.5);
+    let [x, y, t, z]: [f64; 4] = [-3.0, 1.0, 1.5, -0.6];
+    assert!((stress.sigma_z(0.3).unwrap() - z).abs() < 1e-15);
+    let squares: f64 = [x - y, y - z, z - x].iter().map(|d| d * d).sum();
+    let mises = (squares / 2.0 + 3.0 * t * t).sqrt();
+    assert!((stress.von_mises(0.3).unwrap() / mises - 1.0).abs() < 1e-15);
+    for ratio in [-0.1, 0.51, f64::NAN] {
+        assert!(matches!(stress.von_mises(ratio), Err(ContactError::PoissonRatio { .. })));
+        assert!(matches!(stress.sigma_z(ratio), Err(ContactError::PoissonRatio { .. })));
+    }
+}
+
+#[test]
+fn refusals() {
+    let form = Hertz::new(1.0, 0.1).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let field = solution.subsurface().unwrap();
+    for (x, y) in [(0.0, 0.0), (0.0, -1e-9), (f64::NAN, 1.0), (0.0, f64::NAN), (f64::INFINITY, 1.0)]
+    {
+        let refused = field.at(x, y);
+        assert!(matches!(refused, Err(ContactError::AboveSurface { .. })), "{refused:?}");
+    }
+    for mu in [f64::NAN, f64::INFINITY] {
+        let refused = solution.subsurface().unwrap().friction(mu);
+        assert!(matches!(refused, Err(ContactError::Friction { .. })), "{refused:?}");
+    }
+    assert!(matches!(field.max_von_mises(0.6), Err(ContactError::PoissonRatio { .. })));
+    // Far away nothing overflows.
+    assert!(field.at(1e200, 1e-200).unwrap().max_shear() >= 0.0);
+    assert!(field.at(0.0, 1e-200).unwrap().max_shear() < 1e-12);
+}
+
+#[test]
+fn in_single_precision() {
+    let form = Hertz::new(1.0f32, 0.1).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().edges(Edge::Free, Edge::Free);
+    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let shear = solution.subsurface().unwrap().max_shear().unwrap();
+    assert!((shear.value / peak - 0.3002831).abs() < 1e-5, "{shear:?}");
+    assert!((shear.depth / 0.1 - 0.7861514).abs() < 1e-2, "{shear:?}");
+}
+
+#[test]
+fn at_either_end_of_the_numbers() {
+    for (reach, half_width) in [(1.0f64, 7e-151f64), (4e150, 9e149)] {
+        let form = Hertz::new(1.0, half_width).unwrap();
+        let body = body(&form, -reach, reach).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+        let peak = solution.peak().unwrap().pressure;
+        let shear = solution.subsurface().unwrap().max_shear().unwrap();
+        assert!((shear.value / peak - 0.3002831).abs() < 1e-7, "{shear:?}");
+        assert!((shear.depth / half_width - 0.7861514).abs() < 1e-6, "{shear:?}");
+    }
+}
+
+/// Next to a joint of a body far from x = 0 the places themselves are rounded.
+#[test]
+fn beside_a_joint_anywhere() {
+    for shift in [0.0f64, 0.37, -20.0, 1e6] {
+        let tip = |k: f64| 0.1 * (k - shift).abs();
+        let side = |from: f64, to: f64, slope: f64| {
+            Curve::new([shift + from, shift + to], move |k: f64| CurvePoint {
+                x: k,
+                y: tip(k),
+                dx: 1.0,
+                dy: slope,
+            })
+        };
+        let body = Piecewise::new(vec![
+            Box::new(side(-1.0, 0.0, -0.1)) as Box<dyn ParametricProfile<f64>>,
+            Box::new(side(0.0, 1.0, 0.1)),
+        ])
+        .unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(0.2)).unwrap();
+        let field = solution.subsurface().unwrap().friction(0.3).unwrap();
+        let mut worst = 0.0f64;
+        for (x, y) in [(0.0f64, 1e-9f64), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
+            // What x has become by rounding.
+            let at: f64 = shift + 0.2 * x;
+            let z = Complex((at - shift) / 0.2, y);
+            let inverse = Complex(1.0, 0.0) / z;
+            let scale = 2.0 * 0.1 / PI;
+            let want = of_potential(inverse.asin() * scale, inverse / z.root() * -scale, y, 0.3);
+            let got = field.at(at, 0.2 * y).unwrap();
+            let error = largest_difference(&got, &want) / want.sigma_y.abs();
+            let rounding = 4.0 * f64::EPSILON * shift.abs() / (0.2 * y.hypot(x));
+            worst = worst.max(error / (2e-11 + rounding));
+        }
+        println!("joint at {shift}: {worst:.2} of what rounding allows");
+        assert!(worst < 1.0, "{shift}: {worst}");
+    }
+}
+
+/// On the surface of Hertz's contact the largest shear is μ p₀ everywhere.
+#[test]
+fn strong_friction_brings_the_largest_shear_to_the_surface() {
+    let form = Hertz::new(1.0, 0.1).unwrap();
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let field = solution.subsurface().unwrap().friction(0.6).unwrap();
+    for x in [-0.09f64, -0.05, 0.0, 0.03, 0.08] {
+        let shear: f64 = field.at(x, 1e-14).unwrap().max_shear();
+        assert!((shear / peak - 0.6).abs() < 1e-11, "{x}: {shear}");
+    }
+    let largest = field.max_shear().unwrap();
+    println!("{} at {}, {}", largest.value / peak, largest.x / 0.1, largest.depth / 0.1);
+    assert!(largest.value > 0.5999 * peak && largest.value < 0.61 * peak);
+}
