@@ -7,7 +7,7 @@
 
 use kuva::prelude::*;
 use linecontact::stress::Subsurface;
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Solution};
+use linecontact::{Contact, ContactError, Cost, Curve, CurvePoint, Flat, Load, Solution};
 use std::error::Error;
 use std::fs;
 use std::time::Instant;
@@ -78,7 +78,7 @@ fn draw(
         after.with_legend("under load").into(),
     ];
     let pressure = solution.pressure()?;
-    let share = |&x: &f64| Ok((x, pressure.at(L * x)? / p0));
+    let share = |&x: &f64| Ok((x, pressure.estimate(L * x, &mut Cost::default())?.value / p0));
     let pressure: Vec<Plot> =
         vec![line(x.iter().map(share).collect::<Result<_, ContactError<_>>>()?, BLUE).into()];
 
