@@ -33,6 +33,7 @@
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
 //! - [`contact`]: the scene, its edges, and the search for its limits.
 //! - [`reference`](mod@reference): closed forms to test against.
+//! - [`Certificate`]: that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back. [`Solver`]: solving again and again.
 //!
 //! # Example
@@ -64,6 +65,7 @@ pub mod search;
 mod solution;
 mod solver;
 
+pub use certificate::{Certificate, Place};
 pub use contact::{Contact, Edge, EdgePressure, Load};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};

@@ -113,10 +113,10 @@ impl<T: Real> Arc<T> {
 }
 
 /// The most nodes of a Gauss rule.
-pub(super) const MOST_NODES: usize = 64;
+pub(crate) const MOST_NODES: usize = 64;
 
 /// A Gauss-Legendre rule on [-1, 1].
-pub(super) struct Gauss {
+pub(crate) struct Gauss {
     pub n: usize,
     pub nodes: [f64; MOST_NODES],
     pub weights: [f64; MOST_NODES],

@@ -45,7 +45,7 @@ fn is_long<T: Real>([left, right]: [T; 2]) -> bool {
 }
 
 /// A row of panels, from left to right without gaps.
-pub(super) struct Cover<T> {
+pub(crate) struct Cover<T> {
     pub panels: Vec<Panel<T>>,
     /// Panels still to be looked at, the leftmost last.
     waiting: Vec<Trial<T>>,
