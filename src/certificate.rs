@@ -12,8 +12,8 @@ mod series;
 use crate::contact::Found;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{Cover, Panel};
-use crate::quadrature::{Engine, Pressing};
-use crate::{ContactError, Interval, Real};
+use crate::quadrature::{Pressing, Quadrature};
+use crate::{ContactError, Interval, Panels, Real};
 use inside::Inside;
 use outside::{Outside, Side};
 
@@ -58,13 +58,11 @@ fn undecided<T: Real>(x: T, Cost { evaluations, samples }: Cost) -> ContactError
     ContactError::Undecided { x, evaluations, samples }
 }
 
-/// Looks at a contact that the engine has prepared and completed.
+/// Looks at a contact, whatever quadrature it was found with.
 pub(crate) fn certify<T: Real>(
-    engine: &dyn Engine<T>,
     gap: &Gap<'_, T>,
-    pressing: &Pressing<T>,
+    kappa: T,
     found: &Found<T>,
-    cost: Cost,
 ) -> Result<Certificate<T>, ContactError<T>> {
     let Found { interval: on, strengths, free, adhesive, ends, .. } = *found;
     let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
@@ -87,18 +85,22 @@ pub(crate) fn certify<T: Real>(
             return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
         }
     }
-    let mut more = cost;
+    let mut more = Cost::default();
     let pressure = if adhesive || rises(&cover.panels, on, share * outside.steepest()) {
         None
     } else {
-        let inside = Inside { engine, gap, pressing: *pressing, on, allowed: share * mean };
+        let mut engine = Panels::FULL.engine()?;
+        engine.prepare(gap, on)?;
+        more += engine.cost();
+        let pressing = Pressing { kappa, load: found.load, free };
+        let inside = Inside { engine: &*engine, gap, pressing, on, allowed: share * mean };
         let Place { x, value } = inside.least(&mut more)?;
         Some(Place { x, value: value / mean })
     };
 
     let bearing = |i: usize| {
         let counts = adhesive || at_corner[i];
-        if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / pressing.kappa }
+        if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
     };
     let both = [bearing(0), bearing(1)];
     // Bodies without an end, which are given by x itself, are followed for a million half-widths.

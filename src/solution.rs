@@ -95,8 +95,7 @@ impl<'s, T: Real> Solution<'s, T> {
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        let cost = self.engine.engine().complete(self.gap)?;
-        certify(self.engine.engine(), self.gap, &self.pressing(), &self.found, cost)
+        certify(self.gap, self.kappa, &self.found)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points and the joints show which

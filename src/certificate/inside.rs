@@ -23,7 +23,7 @@ const MOST_CELLS: usize = 1 << 14;
 /// Joints at which the pressure is asked for, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 512;
 
-/// A contact whose engine has been prepared and completed.
+/// A contact whose engine has been prepared.
 pub(super) struct Inside<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
     pub gap: &'c Gap<'c, T>,

@@ -211,28 +211,51 @@ impl<'o, T: Real> Side<'o, T> {
             }
             (x, reached) = (to, next);
         }
+        let mut waiting: Vec<Panel<T>> = Vec::new();
         for [left, right] in cells {
-            cover.clear(true);
-            cover.first = 8;
-            cover.extend(gap, Interval { left, right })?;
+            cover.sample_anew(gap, Interval { left, right })?;
+            let joint = if self.right { left } else { right };
+            if let Some(before) = self.edge_of(&waiting, joint) {
+                // What happens between the last node and the end of a cell shows at its neighbour.
+                let after = self.edge_of(&cover.panels, joint).unwrap_or(before);
+                let size = cover.size.max(before[0].abs());
+                let doubt = before[1] + after[1] + cover.tolerance * size;
+                let apart = (before[0] - after[0]).abs() > T::of(16.0) * doubt;
+                if apart && !gap.is_joint(joint) {
+                    let ends = waiting.iter().flat_map(|panel| panel.x);
+                    let [left, right] =
+                        ends.fold([left, right], |[from, to], x| [from.min(x), to.max(x)]);
+                    cover.sample_anew(gap, Interval { left, right })?;
+                    waiting.clear();
+                }
+            }
             if cover.cost.evaluations > most || cover.cost.samples > most {
-                return Err(undecided(left, cover.cost));
+                return Err(undecided(joint, cover.cost));
             }
-            let panels = &mut cover.panels;
+            for panel in waiting.drain(..) {
+                self.take(&panel, &mut left_out);
+            }
+            waiting.extend_from_slice(&cover.panels);
             if !self.right {
-                panels.reverse();
+                waiting.reverse();
             }
-            for panel in &*panels {
-                let length = panel.x[1] - panel.x[0];
-                left_out += length * (panel.tail + T::epsilon() * panel.series[0].abs());
-                self.take(panel, left_out);
-            }
+        }
+        for panel in waiting {
+            self.take(&panel, &mut left_out);
         }
         Ok(())
     }
 
+    /// The slope and its error at a place where a row of panels ends.
+    fn edge_of(&self, panels: &[Panel<T>], x: T) -> Option<[T; 2]> {
+        let panel = panels.iter().find(|panel| panel.x.contains(&x))?;
+        Some([panel.value(x), panel.tail])
+    }
+
     /// The next panel outward.
-    fn take(&mut self, panel: &Panel<T>, left_out: T) {
+    fn take(&mut self, panel: &Panel<T>, left_out: &mut T) {
+        let length = panel.x[1] - panel.x[0];
+        *left_out += length * (panel.tail + T::epsilon() * panel.series[0].abs());
         let series = panel.coefficients();
         let [own, other] = self.strengths;
         let growing = if self.right {
@@ -252,7 +275,7 @@ impl<'o, T: Real> Side<'o, T> {
             self.height += self.pending - drawn;
             self.pending = T::zero();
         }
-        self.cells(panel, from, to, self.allowed + left_out);
+        self.cells(panel, from, to, self.allowed + *left_out);
         self.y = to;
     }
 

@@ -121,6 +121,17 @@ impl<T: Real> Cover<T> {
         Ok(())
     }
 
+    /// Covers an interval and nothing else, with eight nodes or more between two joints.
+    pub fn sample_anew(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        self.clear(true);
+        self.first = 8;
+        self.sample(gap, on)
+    }
+
     /// Samples an interval; its panels are put last.
     fn sample(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         let mut left = on.left;
