@@ -324,8 +324,8 @@ impl<'o, T: Real> Side<'o, T> {
             let rate = &row[..NODES];
             let left_out = tail(rate);
             let size = rate.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-            let fine = left_out <= T::of(0.125) * allowed
-                || left_out <= T::of(0.1) * T::epsilon().sqrt() * size;
+            let rounding = T::of(256.0) * T::epsilon() * size;
+            let fine = left_out <= (T::of(0.125) * allowed).max(rounding);
             if !fine && level < MOST_LEVELS && middle > from && middle < to {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
                 continue;
