@@ -13,7 +13,7 @@
 
 use super::series::{above, below, integral, least, tail};
 use super::{Place, undecided};
-use crate::gap::Gap;
+use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::angles::Gauss;
 use crate::quadrature::panels::chebyshev::{MOST, Table};
 use crate::quadrature::panels::{Cover, Panel};
@@ -23,6 +23,8 @@ use crate::{ContactError, Interval, Real};
 const NODES: usize = 24;
 /// How often a panel is halved.
 const MOST_LEVELS: usize = 40;
+/// Cells on one side.
+const MOST_CELLS: usize = 1 << 16;
 /// Halvings of the half-turn towards each edge.
 const GRADES: usize = 26;
 
@@ -56,6 +58,7 @@ pub(super) struct Side<'o, T: Real> {
     height: T,
     y: T,
     pending: T,
+    cells: usize,
     /// The deepest overlap, and the least gap at which the bodies come closer again.
     pub worst: Option<Place<T>>,
     pub closest: Option<Place<T>>,
@@ -160,7 +163,7 @@ impl<'o, T: Real> Side<'o, T> {
         let zero = T::zero();
         let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);
-        Self { outside, right, strengths, allowed, height, y, pending, worst, closest }
+        Self { outside, right, strengths, allowed, height, y, pending, worst, closest, cells: 0 }
     }
 
     fn sign(&self) -> T {
@@ -233,7 +236,7 @@ impl<'o, T: Real> Side<'o, T> {
                 return Err(undecided(joint, cover.cost));
             }
             for panel in waiting.drain(..) {
-                self.take(&panel, &mut left_out);
+                self.take(&panel, &mut left_out, cover.cost)?;
             }
             waiting.extend_from_slice(&cover.panels);
             if !self.right {
@@ -241,7 +244,7 @@ impl<'o, T: Real> Side<'o, T> {
             }
         }
         for panel in waiting {
-            self.take(&panel, &mut left_out);
+            self.take(&panel, &mut left_out, cover.cost)?;
         }
         Ok(())
     }
@@ -253,7 +256,12 @@ impl<'o, T: Real> Side<'o, T> {
     }
 
     /// The next panel outward.
-    fn take(&mut self, panel: &Panel<T>, left_out: &mut T) {
+    fn take(
+        &mut self,
+        panel: &Panel<T>,
+        left_out: &mut T,
+        cost: Cost,
+    ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
         *left_out += length * (panel.tail + T::epsilon() * panel.series[0].abs());
         let series = panel.coefficients();
@@ -268,15 +276,16 @@ impl<'o, T: Real> Side<'o, T> {
         if growing && own <= T::zero() && own <= other {
             let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
             self.pending += self.sign() * sum * panel.half();
-            return;
+            return Ok(());
         }
         if self.pending != T::zero() {
             let drawn = self.drawn(self.y, from);
             self.height += self.pending - drawn;
             self.pending = T::zero();
         }
-        self.cells(panel, from, to, self.allowed + *left_out);
+        self.bound(panel, [from, to], self.allowed + *left_out, cost)?;
         self.y = to;
+        Ok(())
     }
 
     /// What the pressure takes off the height between two places.
@@ -306,25 +315,36 @@ impl<'o, T: Real> Side<'o, T> {
     }
 
     /// Bounds the gap over one panel.
-    fn cells(&mut self, panel: &Panel<T>, from: T, to: T, allowed: T) {
+    fn bound(
+        &mut self,
+        panel: &Panel<T>,
+        whole: [T; 2],
+        allowed: T,
+        cost: Cost,
+    ) -> Result<(), ContactError<T>> {
         let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
-        let mut waiting = vec![([from, to], 0)];
+        let mut waiting = vec![(whole, 0)];
         while let Some(([from, to], level)) = waiting.pop() {
             let (middle, reach) = (half * (from + to), half * (to - from));
-            let mut values = [T::zero(); MOST];
+            self.cells += 1;
+            if self.cells > MOST_CELLS {
+                return Err(undecided(self.edge() + sign * from * from, cost));
+            }
+            let (mut values, mut terms) = ([T::zero(); MOST], T::zero());
             for i in 0..NODES {
                 let y = middle + reach * T::of(table.z[i]);
                 let distance = y * y;
                 let g = panel.value(self.edge() + sign * distance);
                 let [with, without, root] = self.outside.sums(distance, self.right);
                 let opens = sign * (g * without - with) * root * T::frac_1_pi();
+                terms = terms.max((y + y) * g.abs() * reach);
                 values[i] = ((y + y) * opens + self.singular(distance)) * reach;
             }
             let row = table.coefficients(NODES, &values);
             let rate = &row[..NODES];
             let left_out = tail(rate);
             let size = rate.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-            let rounding = T::of(256.0) * T::epsilon() * size;
+            let rounding = T::of(256.0) * T::epsilon() * size.max(terms);
             let fine = left_out <= (T::of(0.125) * allowed).max(rounding);
             if !fine && level < MOST_LEVELS && middle > from && middle < to {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
@@ -347,5 +367,6 @@ impl<'o, T: Real> Side<'o, T> {
             }
             self.height = heights.iter().fold(T::zero(), |sum, &a| sum + a);
         }
+        Ok(())
     }
 }
