@@ -8,7 +8,7 @@ mod forms;
 use common::{Profile, graph, join, parabola};
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::body;
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Place};
 use std::f64::consts::PI;
 
 /// x²/2 + ε cos wx, on [-3, 3].
@@ -80,8 +80,8 @@ impl Wave {
 fn least(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> [f64; 2] {
     let mut best = [from, f64::INFINITY];
     for _ in 0..8 {
-        let step = (to - from) / 2000.0;
-        for i in 0..=2000 {
+        let step = (to - from) / 400.0;
+        for i in 0..=400 {
             let x = from + step * f64::from(i);
             if f(x) < best[1] {
                 best = [x, f(x)];
@@ -227,15 +227,62 @@ fn a_narrow_asperity_far_away() {
             println!("at {at}, {off:e}: {found:?} for {place} {value:e}");
             let near = match found {
                 Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
-                Err(ContactError::Overlap { x, gap: value }) if off > 0.0 => {
-                    linecontact::Place { x, value }
-                }
+                Err(ContactError::Overlap { x, gap: value }) if off > 0.0 => Place { x, value },
                 other => panic!("{off}: {other:?}, for {place} {value:e}"),
             };
             assert!((near.value - value).abs() < 1e-2 * value.abs(), "{near:?} {value:e}");
             assert!((near.x - place).abs() < 1e-2 * width, "{near:?} for {place}");
         }
     }
+}
+
+#[test]
+fn an_asperity_on_both_sides_of_the_margin() {
+    // x²/2 - A exp(-64 (x - 8/5)²) under C = 3/2: a Hertz contact, to 1e-10, and its gap outside.
+    let load = Load::Constant(1.5);
+    let l = (3.0 / PI).sqrt();
+    let bump = |x: f64| (-64.0 * (x - 1.6) * (x - 1.6)).exp();
+    let deepest = |height: f64| {
+        let gap = |x: f64| {
+            let t = (x / l).acosh();
+            l * l / 2.0 * (t.cosh() * t.sinh() - t) - height * (bump(x) - bump(l))
+        };
+        least(gap, 1.3, 1.9)
+    };
+    let at = margin(|height| deepest(height)[1], 0.1, 0.625);
+    for off in [-1e-2, -1e-4, -1e-6, 1e-6, 1e-4, 1e-2] {
+        let height = at * (1.0 + off);
+        let body = graph(-3.0, 3.0, move |x| {
+            let bump = height * bump(x);
+            [x * x / 2.0 - bump, x + 128.0 * (x - 1.6) * bump]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let [place, value] = deepest(height);
+        let found = contact.solve(load).unwrap().certify();
+        println!("A (1 + {off:e}): {found:?} for {place} {value:e}");
+        let near = match found {
+            Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
+            Err(ContactError::Overlap { x, gap: value }) if off > 0.0 => Place { x, value },
+            other => panic!("{off}: {other:?}, for {place} {value:e}"),
+        };
+        assert!((near.value - value).abs() < 1e-3 * value.abs() + 1e-9, "{near:?} {value:e}");
+        assert!((near.x - place).abs() < 1e-5, "{near:?} for {place}");
+    }
+}
+
+#[test]
+fn a_budget_that_is_spent() {
+    // Waves beyond the contact that no number of panels resolves.
+    let body = graph(-3.0, 3.0, |x: f64| {
+        let out = (x - 0.5).max(0.0).powi(4);
+        [x * x / 2.0, x + out * (1e9 * x).sin()]
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let error = solution.certify().map(|_| ()).unwrap_err();
+    println!("{error}");
+    let ContactError::Undecided { x, evaluations, .. } = error else { panic!("{error}") };
+    assert!(x > 0.3 && evaluations < 1_300_000);
 }
 
 #[test]
@@ -338,6 +385,14 @@ fn what_a_plain_certificate_takes() {
     let certificate = solution.certify().unwrap();
     assert_eq!((certificate.pressure, certificate.gap), (None, None));
     println!("{certificate:?}");
+    for body in [body, wavy(1.0 / 256.0, 24.0), wavy(1.0 / 1024.0, 16.0)] {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let start = std::time::Instant::now();
+        let solution = contact.solve(Load::Constant(0.7)).unwrap();
+        let solved = start.elapsed();
+        let found = solution.certify();
+        println!("{solved:?}, with the certificate {:?}: {found:?}", start.elapsed());
+    }
     assert!(certificate.cost.evaluations < 40_000, "{certificate:?}");
     // In f32 as well.
     let body =

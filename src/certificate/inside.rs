@@ -25,6 +25,13 @@ const MOST_WORK: usize = 1 << 24;
 /// Joints at which the pressure is asked for, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 512;
 
+/// Pressures at the nodes of a cell, and the series of what is smooth.
+struct Cell<T> {
+    x: [T; NODES],
+    pressure: [T; NODES],
+    series: [T; NODES],
+}
+
 /// A contact whose engine has been prepared.
 pub(super) struct Inside<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
@@ -67,7 +74,8 @@ impl<T: Real> Inside<'_, T> {
                     return Err(undecided(from, *cost));
                 }
                 let middle = T::of(0.5) * from + T::of(0.5) * to;
-                let Some((x, pressure, series)) = self.cell([from, to], cost)? else { continue };
+                let Some(cell) = self.cell([from, to], cost)? else { continue };
+                let Cell { x, pressure, series } = cell;
                 let left_out = tail(&series);
                 let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
                 let bound = below(&series) - left_out;
@@ -81,7 +89,7 @@ impl<T: Real> Inside<'_, T> {
                     let enough =
                         if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
                     let [s, value] = least(&series, enough);
-                    let x = middle + s * T::of(0.5) * (to - from);
+                    let x = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
                     if ratio.is_none_or(|ratio| value < ratio.value) {
                         ratio = Some(Place { x, value });
                     }
@@ -104,13 +112,12 @@ impl<T: Real> Inside<'_, T> {
         }
     }
 
-    /// The pressure on a cell, and the series of what is smooth; nothing if there is no room.
-    #[allow(clippy::type_complexity)]
+    /// Looks at a cell; nothing if there is no room.
     fn cell(
         &self,
         [from, to]: [T; 2],
         cost: &mut Cost,
-    ) -> Result<Option<([T; NODES], [T; NODES], [T; NODES])>, ContactError<T>> {
+    ) -> Result<Option<Cell<T>>, ContactError<T>> {
         let half = T::of(0.5);
         let (middle, reach) = (half * from + half * to, half * (to - from));
         let table = Table::of(NODES);
@@ -125,7 +132,7 @@ impl<T: Real> Inside<'_, T> {
             smooth[i] = pressure[i] * self.factor(x[i]);
         }
         let row = table.coefficients(NODES, &smooth);
-        Ok(Some((x, pressure, std::array::from_fn(|i| row[i]))))
+        Ok(Some(Cell { x, pressure, series: std::array::from_fn(|i| row[i]) }))
     }
 
     /// What makes the pressure smooth at the edges.
@@ -147,7 +154,7 @@ impl<T: Real> Inside<'_, T> {
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
         for _ in 0..12 {
-            let Some((x, pressure, _)) = self.cell([from, to], cost)? else { break };
+            let Some(Cell { x, pressure, .. }) = self.cell([from, to], cost)? else { break };
             let lower = |best: usize, i: usize| if pressure[i] < pressure[best] { i } else { best };
             let best = (0..NODES).fold(0, lower);
             meet(x[best], pressure[best]);
