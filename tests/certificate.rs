@@ -51,7 +51,7 @@ impl Wave {
     /// The coefficients c_k, k = 1, 3, ..., of the slope.
     fn c(&self, n: usize) -> f64 {
         let first = if n == 0 { self.l } else { 0.0 };
-        let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
         first - 2.0 * self.eps * self.w * sign * self.odd[n]
     }
 

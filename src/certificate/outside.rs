@@ -331,14 +331,14 @@ impl<'o, T: Real> Side<'o, T> {
                 return Err(undecided(self.edge() + sign * from * from, cost));
             }
             let (mut values, mut terms) = ([T::zero(); MOST], T::zero());
-            for i in 0..NODES {
-                let y = middle + reach * T::of(table.z[i]);
+            for (value, &z) in values[..NODES].iter_mut().zip(&table.z) {
+                let y = middle + reach * T::of(z);
                 let distance = y * y;
                 let g = panel.value(self.edge() + sign * distance);
                 let [with, without, root] = self.outside.sums(distance, self.right);
                 let opens = sign * (g * without - with) * root * T::frac_1_pi();
                 terms = terms.max((y + y) * g.abs() * reach);
-                values[i] = ((y + y) * opens + self.singular(distance)) * reach;
+                *value = ((y + y) * opens + self.singular(distance)) * reach;
             }
             let row = table.coefficients(NODES, &values);
             let rate = &row[..NODES];

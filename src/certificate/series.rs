@@ -61,9 +61,9 @@ pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
     let n = series.len();
     let at = |k: usize| series.get(k).copied().unwrap_or(T::zero());
     let mut sums = vec![T::zero(); n + 1];
-    for k in 1..=n {
+    for (k, sum) in sums.iter_mut().enumerate().skip(1) {
         let before = if k == 1 { at(0) + at(0) } else { at(k - 1) };
-        sums[k] = (before - at(k + 1)) / T::count(2 * k);
+        *sum = (before - at(k + 1)) / T::count(2 * k);
     }
     sums[0] = -value_at(&sums, -T::one());
     sums
