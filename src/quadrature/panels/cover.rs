@@ -178,7 +178,8 @@ impl<T: Real> Cover<T> {
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
-                let finer = is_long(trial.panel.x) || is_long(before.x);
+                let finer =
+                    trial.level < MOST_LEVELS && (is_long(trial.panel.x) || is_long(before.x));
                 if finer && splits < MOST_SPLITS && !self.rough {
                     self.panels.pop();
                     let again = |panel, trial: &Trial<T>| Trial { panel, split: true, ..*trial };
