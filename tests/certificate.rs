@@ -400,3 +400,14 @@ fn what_a_plain_certificate_takes() {
     let contact = Contact::new(&Flat, &body).unwrap().certified(true);
     contact.solve(Load::PerLength(0.02)).unwrap();
 }
+
+#[test]
+fn a_kink_that_nobody_declared() {
+    for (s, parts) in [(1e-3, false), (0.125, true)] {
+        let body = graph(-3.0, 3.0, move |x| [x * x / 2.0 - s * x.abs(), x - s * x.signum()]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let found = contact.solve(Load::Constant(1.5)).unwrap().certify();
+        // The lesser one is negative only closer to the kink than numbers are.
+        assert_eq!(matches!(found, Err(ContactError::Tension { .. })), parts, "{found:?}");
+    }
+}
