@@ -1,105 +1,156 @@
 //! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! Outside the contact the gap opens with the slope
-//!
-//! ```text
-//! g(x) - W(x)/κ,      W(x) = ∫ P(s)/(x - s) ds
-//! ```
-//!
-//! which is integrated outward from either edge. Both conditions are looked at on a grid, fine
-//! next to the edges: what is narrower than a five-hundredth of the way from an edge to the end of
-//! the bodies can pass unseen.
+//! All of the gap is sampled, as panels of its slope: the contact first, then the way from either
+//! edge to the ends of the bodies. The signs are those of pieces: bounds on a Chebyshev series by
+//! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
+//! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
 
-use crate::gap::{Gap, Sampler};
-use crate::quadrature::{Engine, Pressing};
-use crate::{ContactError, Interval, Real};
+mod inside;
+mod outside;
+mod series;
 
-/// Points inside, and on each side outside.
-const POINTS: usize = 512;
+use crate::contact::Found;
+use crate::gap::{Cost, Gap};
+use crate::quadrature::panels::{Cover, Panel};
+use crate::quadrature::{Pressing, Quadrature};
+use crate::{ContactError, Interval, Panels, Real};
+use inside::Inside;
+use outside::{Outside, Side};
 
-/// Looks at a contact that the engine has prepared; at its pressure only where there must be no
-/// tension.
+/// Evaluations, and samples, after which the certificate is given up.
+const MOST_EVALUATIONS: usize = 1 << 20;
+
+/// The share of the bodies' range that a cell may be long, and have no fewer than eight nodes.
+const SHARE: f64 = 1.0 / 4096.0;
+
+/// A proof that a solution is a contact.
+///
+/// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
+/// bodies, up to rounding, and to what the curves do between the points at which they are
+/// evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
+/// wherever the slope of the gap is not a polynomial of low degree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate<T> {
+    /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
+    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola; with the reciprocal of
+    /// the root of a distance at an edge that is not free. `None` where the slope of the
+    /// gap rises throughout the contact, which says that `P > 0`, and between adhesive edges.
+    pub pressure: Option<Place<T>>,
+    /// The least gap at a place outside where the bodies approach each other again, a length; `None`
+    /// where the gap grows on both sides up to the ends.
+    pub gap: Option<Place<T>>,
+    /// The longest cell, a length: what is a fifth as wide, or more, cannot have passed unseen.
+    pub spacing: T,
+    /// What it has cost.
+    pub cost: Cost,
+}
+
+/// A place and a value there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place<T> {
+    /// Where.
+    pub x: T,
+    /// The value.
+    pub value: T,
+}
+
+fn undecided<T: Real>(x: T, Cost { evaluations, samples }: Cost) -> ContactError<T> {
+    ContactError::Undecided { x, evaluations, samples }
+}
+
+/// Looks at a contact, whatever quadrature it was found with.
 pub(crate) fn certify<T: Real>(
-    engine: &dyn Engine<T>,
     gap: &Gap<'_, T>,
-    pressing: &Pressing<T>,
-    on: Interval<T>,
-    tension: bool,
-) -> Result<(), ContactError<T>> {
-    let inside = Inside::new(engine, gap, pressing, on)?;
-    let largest = inside.pressure.iter().fold(T::zero(), |max, p| max.max(p.abs()));
-    let allowed = T::epsilon().sqrt() * largest;
-    for (&x, &pressure) in inside.x.iter().zip(&inside.pressure) {
-        if pressure < -allowed && !tension {
-            return Err(ContactError::Tension { x, pressure });
+    kappa: T,
+    found: &Found<T>,
+) -> Result<Certificate<T>, ContactError<T>> {
+    let Found { interval: on, strengths, free, adhesive, ends, .. } = *found;
+    let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+    let error = T::of(16.0) * found.error.unwrap_or(T::zero());
+    let share = rounding.max(error).min(T::of(0.01));
+    let mean = T::of(0.5) * found.load.abs() / on.half_width();
+
+    let mut cover = Cover::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
+    let range = gap.range();
+    let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+    cover.extend(gap, sampled)?;
+    let outside = Outside::new(&cover.panels, on);
+
+    // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
+    let at_corner =
+        [!free[0] && !adhesive && on.right >= ends[1], !free[1] && !adhesive && on.left <= ends[0]];
+    for (i, x) in [on.right, on.left].into_iter().enumerate() {
+        let lifts = at_corner[i] && strengths[i] < -share * mean;
+        if lifts {
+            return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
         }
     }
-    for x in gap.telling_joints(on, -T::one(), POINTS) {
-        let mut pressure = [T::zero()];
-        engine.pressures(gap, pressing, &[x], &mut pressure, &mut Default::default())?;
-        if pressure[0] < -allowed && !tension {
-            return Err(ContactError::Tension { x, pressure: pressure[0] });
+    let mut more = Cost::default();
+    let pressure = if adhesive || rises(&cover.panels, on, share * outside.steepest()) {
+        None
+    } else {
+        let mut engine = Panels::FULL.engine()?;
+        engine.prepare(gap, on)?;
+        more += engine.cost();
+        let pressing = Pressing { kappa, load: found.load, free };
+        let inside = Inside { engine: &*engine, gap, pressing, on, allowed: share * mean };
+        let Place { x, value } = inside.least(&mut more)?;
+        Some(Place { x, value: value / mean })
+    };
+
+    let bearing = |i: usize| {
+        let counts = adhesive || at_corner[i];
+        if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
+    };
+    let both = [bearing(0), bearing(1)];
+    // Bodies without an end, which are given by x itself, are followed for a million half-widths.
+    let reach = T::of(1e6) * on.half_width();
+    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
+    let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
+    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let allowed = share * outside.steepest() * on.half_width();
+    let (mut worst, mut closest): (Option<Place<T>>, Option<Place<T>>) = (None, None);
+    let nearer = |one: Option<Place<T>>, other: Option<Place<T>>| match (one, other) {
+        (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
+        (one, other) => one.or(other),
+    };
+    for right in [false, true] {
+        let i = usize::from(!right);
+        let end = if right { ends[1] } else { ends[0] };
+        if at_corner[i] {
+            continue;
         }
+        let mut side = Side::new(&outside, right, [both[i], both[1 - i]], allowed);
+        side.follow(gap, end, spacing, &mut cover, MOST_EVALUATIONS)?;
+        worst = nearer(worst, side.worst);
+        closest = nearer(closest, side.closest);
     }
-    let [left, right] = gap.range();
-    inside.outward(gap, pressing.kappa, on.right, right)?;
-    inside.outward(gap, pressing.kappa, on.left, left)
+    if let Some(Place { x, value: gap }) = worst {
+        return Err(ContactError::Overlap { x, gap });
+    }
+    Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + more })
 }
 
-/// The pressure at equal angles.
-struct Inside<T> {
-    on: Interval<T>,
-    x: [T; POINTS],
-    pressure: [T; POINTS],
-}
-
-impl<T: Real> Inside<T> {
-    fn new(
-        engine: &dyn Engine<T>,
-        gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
-        on: Interval<T>,
-    ) -> Result<Self, ContactError<T>> {
-        let step = T::pi() / T::count(POINTS);
-        let x = std::array::from_fn(|i| on.at_angle(step * (T::count(i) + T::of(0.5))));
-        let mut pressure = [T::zero(); POINTS];
-        engine.pressures(gap, pressing, &x, &mut pressure, &mut Default::default())?;
-        Ok(Self { on, x, pressure })
-    }
-
-    /// `W(x)`, by the midpoint rule in the angle, which is exact but for the distance from the
-    /// edge.
-    fn pull(&self, x: T) -> T {
-        let mut sum = T::zero();
-        for (&s, &pressure) in self.x.iter().zip(&self.pressure) {
-            sum += pressure * self.on.edge_root(s) / (x - s);
+/// Whether the slope of the gap rises over the contact, up to rounding and errors that do not matter.
+fn rises<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+    let mut before: Option<[T; 2]> = None;
+    for panel in panels {
+        let part = Interval { left: panel.x[0].max(on.left), right: panel.x[1].min(on.right) };
+        if part.left >= part.right {
+            continue;
         }
-        sum * T::pi() / T::count(POINTS)
-    }
-
-    /// Integrates the slope of the gap from an edge to an end of the bodies.
-    fn outward(&self, gap: &Gap<'_, T>, kappa: T, edge: T, end: T) -> Result<(), ContactError<T>> {
-        let mut sampler = Sampler::default();
-        let half = T::of(0.5);
-        let mut height = T::zero();
-        // Next to the edge the slope of the gap is the difference of two that are the same.
-        let (mut last, mut largest): (Option<T>, _) = (None, T::zero());
-        let mut before = edge;
-        for i in 2..POINTS {
-            let share = T::count(i) / T::count(POINTS);
-            let x = edge + (end - edge) * share * share;
-            if (x - edge).abs() < T::of(1e-3) * self.on.half_width() || x == before {
-                continue;
-            }
-            let bodies = sampler.slope(gap, x)?;
-            let slope = bodies - self.pull(x) / kappa;
-            largest = largest.max(bodies.abs());
-            height += half * (x - before) * (slope + last.unwrap_or(T::zero()));
-            if height < T::of(-1e-5) * largest * self.on.half_width() {
-                return Err(ContactError::Overlap { x, gap: height });
-            }
-            (last, before) = (Some(slope), x);
+        let (series, n) = panel.over(part);
+        let size = series[..n].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let error = panel.tail + T::of(16.0) * T::epsilon() * size;
+        let jumps_down =
+            |[value, doubt]: [T; 2]| panel.value(part.left) - value < -T::of(4.0) * (error + doubt);
+        if error > allowed || before.is_some_and(jumps_down) {
+            return false;
         }
-        Ok(())
+        if !series::rises(&series[..n], error) {
+            return false;
+        }
+        before = Some([panel.value(part.right), error]);
     }
+    true
 }

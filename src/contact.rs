@@ -53,6 +53,7 @@ pub struct Contact<'a, T: Real> {
     start: Option<Interval<T>>,
     search: Option<&'a dyn LimitSearch<T>>,
     quadrature: &'a dyn Quadrature<T>,
+    certified: bool,
 }
 
 /// What presses the bodies together: a load, or as much as it takes.
@@ -86,6 +87,8 @@ pub(crate) struct Found<T> {
     pub force: Option<T>,
     /// How the edge integrals change with the limits, where that is known.
     pub trend: Option<Trend<T>>,
+    /// Where the bodies end: at corners, or with their common range.
+    pub ends: [T; 2],
 }
 
 impl<T: Real> Found<T> {
@@ -103,7 +106,9 @@ impl<T: Real> Found<T> {
         let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
         let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
         let free = [free_a, free_b];
-        Self { interval, load, strengths, free, adhesive, error, force: None, trend: m.trend }
+        let ends = [interval.left, interval.right];
+        let (force, trend) = (None, m.trend);
+        Self { interval, load, strengths, free, adhesive, error, force, trend, ends }
     }
 }
 
@@ -131,6 +136,7 @@ impl<'a, T: Real> Contact<'a, T> {
             start: None,
             search: None,
             quadrature: &PANELS,
+            certified: false,
         })
     }
 
@@ -178,6 +184,13 @@ impl<'a, T: Real> Contact<'a, T> {
         Self { quadrature, ..self }
     }
 
+    /// Whether a solution must be a contact in all of the bodies: then solving ends with
+    /// [`Solution::certify`], and its errors. Default: no, since that samples all of the bodies, which
+    /// takes far longer than the contact itself.
+    pub fn certified(self, certified: bool) -> Self {
+        Self { certified, ..self }
+    }
+
     /// Finds the limits of the contact under a load. The pressure is left for
     /// [`Solution::pressure`].
     ///
@@ -190,11 +203,12 @@ impl<'a, T: Real> Contact<'a, T> {
     /// bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`] from the search.
+    /// [`ContactError::NoPeak`] from the search; where [`certified`](Self::certified), those of
+    /// [`Solution::certify`].
     pub fn solve(&self, load: Load<T>) -> Result<Solution<'_, T>, ContactError<T>> {
         let mut engine = self.quadrature.engine()?;
         let (found, cost) = self.find(&mut *engine, None, load)?;
-        Ok(Solution::new(&self.gap, Worker::Own(engine), self.kappa, found, cost))
+        self.approved(Solution::new(&self.gap, Worker::Own(engine), self.kappa, found, cost))
     }
 
     /// A solver that solves again and again without starting afresh, for this scene and for
@@ -204,6 +218,17 @@ impl<'a, T: Real> Contact<'a, T> {
     /// [`ContactError::Segments`], [`ContactError::Tolerance`].
     pub fn solver(&self) -> Result<Solver<T>, ContactError<T>> {
         Ok(Solver::new(self.quadrature.engine()?))
+    }
+
+    /// The solution, if it need not be a contact or is one.
+    pub(crate) fn approved<'s>(
+        &self,
+        solution: Solution<'s, T>,
+    ) -> Result<Solution<'s, T>, ContactError<T>> {
+        if self.certified {
+            solution.certify()?;
+        }
+        Ok(solution)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'a, T> {
@@ -229,7 +254,7 @@ impl<'a, T: Real> Contact<'a, T> {
             check(start)?;
         }
         let mut cost = Cost::default();
-        let found = match load {
+        let mut found = match load {
             Load::PerLength(load) => self.under(engine, warm, load, &mut cost)?,
             Load::Constant(c) => self.under(engine, warm, c / T::pi(), &mut cost)?,
             Load::ToHalfWidth(half_width) => {
@@ -247,6 +272,7 @@ impl<'a, T: Real> Contact<'a, T> {
                 peak::find(self, pressure, engine, warm, &mut cost)?
             }
         };
+        found.ends = self.ends();
         engine.prepare(&self.gap, found.interval)?;
         cost += engine.cost();
         Ok((found, cost))
@@ -281,6 +307,17 @@ impl<'a, T: Real> Contact<'a, T> {
             return Err(ContactError::Load { load });
         }
         approach::find(self, conditions, engine, warm, cost)
+    }
+
+    /// Where the bodies end. A corner ends them.
+    fn ends(&self) -> [T; 2] {
+        let [left, right] = self.gap.range();
+        let corner = |edge: Edge<T>| match edge {
+            Edge::Fixed(x) | Edge::UpTo(x) if self.edge_pressure.is_none() => Some(x),
+            _ => None,
+        };
+        let [first, last] = self.edges.map(corner);
+        [first.map_or(left, |x| x.max(left)), last.map_or(right, |x| x.min(right))]
     }
 
     fn checked_edges(&self) -> Result<[Edge<T>; 2], ContactError<T>> {

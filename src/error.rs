@@ -201,6 +201,19 @@ pub enum ContactError<T: Real> {
         /// The gap there, negative.
         gap: T,
     },
+    /// The certificate has spent its budget.
+    #[error(
+        "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
+         {samples} samples: at x = {x:?} it would take more; narrow the domains, or declare joints"
+    )]
+    Undecided {
+        /// Where it has stopped.
+        x: T,
+        /// Evaluations of the curves by then.
+        evaluations: usize,
+        /// Values of the slope of the gap by then.
+        samples: usize,
+    },
     /// The tolerance of the panels is negative, one or more, or NaN.
     #[error("{tolerance:?} is no tolerance: give a number from 0 (the default) to below 1")]
     Tolerance {

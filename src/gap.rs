@@ -181,6 +181,13 @@ impl<'a, T: Real> Gap<'a, T> {
         joint.filter(|&joint| joint > self.range[0])
     }
 
+    /// Whether either profile passes from one piece to the next at `x`.
+    pub(crate) fn is_joint(&self, x: T) -> bool {
+        [Body::Lower, Body::Upper].into_iter().any(|body| {
+            self.piece_at(body, x, Side::Left).0 != self.piece_at(body, x, Side::Right).0
+        })
+    }
+
     /// The joints strictly inside an interval, rising.
     pub fn joints(&self, on: crate::Interval<T>) -> impl Iterator<Item = T> {
         let first = self.joint_after(on.left);

@@ -34,6 +34,7 @@
 //! - [`contact`]: the scene, its edges, and the search for its limits.
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
+//! - [`Certificate`]: that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
 //!   the contact and a check of the equation on request. [`Solver`]: solving again and again.
 //!
@@ -70,6 +71,7 @@ mod solution;
 mod solver;
 pub mod stress;
 
+pub use certificate::{Certificate, Place};
 pub use contact::{Contact, Edge, EdgePressure, Load};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};

@@ -22,7 +22,7 @@
 
 mod midpoint;
 mod moments;
-mod panels;
+pub(crate) mod panels;
 
 pub use midpoint::{Exponents, Midpoint};
 pub(crate) use panels::Gauss;

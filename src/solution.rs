@@ -1,6 +1,6 @@
 //! What comes back.
 
-use crate::certificate::certify;
+use crate::certificate::{Certificate, certify};
 use crate::contact::{Found, peak};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, Pressing};
@@ -10,7 +10,7 @@ use crate::{ContactError, Interval, Real};
 ///
 /// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
 /// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
-/// overlap outside: [`certify`](Self::certify) looks for both.
+/// overlap outside: [`certify`](Self::certify) proves that they do not.
 pub struct Solution<'s, T: Real> {
     gap: &'s Gap<'s, T>,
     engine: Worker<'s, T>,
@@ -83,18 +83,19 @@ impl<'s, T: Real> Solution<'s, T> {
         self.found.strengths
     }
 
-    /// Whether this is a contact, and not only a solution of the equations: no negative pressure
-    /// inside, no overlap of the bodies outside, as far as a grid of 512 points inside and as many
-    /// on either side shows. Between adhesive edges the bodies may pull at each other, and only the
-    /// outside is looked at. A body with a sharp corner ends there: end its domain there, too.
-    /// Certain beforehand where the slope of the gap rises throughout.
+    /// Proves that this is a contact, and not only a solution of the equations: no tension inside, and
+    /// no overlap on either side up to the ends of the bodies. For that the gap is sampled anew, all of
+    /// it: see [`Certificate`] for what is proved, and what it takes.
+    ///
+    /// A body ends at a sharp corner ([`Edge::Fixed`](crate::Edge::Fixed),
+    /// [`Edge::UpTo`](crate::Edge::UpTo)), however far its curve goes on. Between adhesive edges the
+    /// bodies may pull at each other, and only the outside is looked at.
     ///
     /// # Errors
-    /// [`ContactError::Tension`], [`ContactError::Overlap`]; those of sampling the gap.
-    pub fn certify(&self) -> Result<(), ContactError<T>> {
-        self.engine.engine().complete(self.gap)?;
-        let Found { interval, adhesive, .. } = self.found;
-        certify(self.engine.engine(), self.gap, &self.pressing(), interval, adhesive)
+    /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
+    /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
+    pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
+        certify(self.gap, self.kappa, &self.found)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points and the joints show which

@@ -61,9 +61,11 @@ impl<T: Real> Solver<T> {
         let last = self.last.take();
         self.engine.reset(last.is_some_and(|(number, _)| number == gap.number()));
         let (found, cost) = contact.find(&mut *self.engine, last.map(|(_, on)| on), load)?;
-        self.last = Some((gap.number(), found.interval));
         let worker = Worker::Lent(&*self.engine);
-        Ok(Solution::new(gap, worker, contact.scale(), found, cost))
+        let solution =
+            contact.approved(Solution::new(gap, worker, contact.scale(), found, cost))?;
+        self.last = Some((gap.number(), found.interval));
+        Ok(solution)
     }
 }
 

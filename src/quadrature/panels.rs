@@ -13,8 +13,8 @@
 // Loops over lanes index several arrays at once, which is what the compiler vectorises.
 #![allow(clippy::needless_range_loop)]
 
-mod angles;
-mod chebyshev;
+pub(crate) mod angles;
+pub(crate) mod chebyshev;
 mod conjugate;
 mod cover;
 mod far;
@@ -28,7 +28,8 @@ use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 use chebyshev::{MOST, SIZES};
 use conjugate::{Conjugate, Edges, LANES};
-use cover::Cover;
+pub(crate) use cover::Cover;
+pub(crate) use panel::Panel;
 
 /// The default quadrature: panels.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -113,7 +113,7 @@ impl<T: Real> Arc<T> {
 }
 
 /// The most nodes of a Gauss rule.
-pub(super) const MOST_NODES: usize = 64;
+pub(crate) const MOST_NODES: usize = 64;
 
 /// A Gauss-Legendre rule on [-1, 1].
 pub(crate) struct Gauss {

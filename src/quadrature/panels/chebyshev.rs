@@ -11,13 +11,13 @@ use std::sync::LazyLock;
 /// The numbers of nodes in use.
 pub(super) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
 /// The largest of them.
-pub(super) const MOST: usize = 32;
+pub(crate) const MOST: usize = 32;
 
 /// Coefficients or values, as many as the panel has nodes.
-pub(super) type Row<T> = [T; MOST];
+pub(crate) type Row<T> = [T; MOST];
 
 /// The zeros of `T_n`, and the transform from values there to coefficients.
-pub(super) struct Table {
+pub(crate) struct Table {
     /// The nodes, rising.
     pub z: [f64; MOST],
     /// `transform[j][k]`: the share of the value at node j in coefficient k.
@@ -159,13 +159,13 @@ fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W
 }
 
 /// The polynomial at one point.
-pub(super) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
+pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
 }
 
 /// The coefficients, as many as there are or a few more, of the same polynomial on the range from
 /// `left` to `right`, which need not lie between -1 and 1.
-pub(super) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
     match size_for(coefficients.len()) {
         4 => expanded::<4, T>(coefficients, left, right),
         8 => expanded::<8, T>(coefficients, left, right),

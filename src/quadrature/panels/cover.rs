@@ -48,7 +48,7 @@ fn is_long<T: Real>([left, right]: [T; 2]) -> bool {
 }
 
 /// A row of panels, from left to right without gaps.
-pub(super) struct Cover<T> {
+pub(crate) struct Cover<T> {
     pub panels: Vec<Panel<T>>,
     /// Panels still to be looked at, the leftmost last.
     waiting: Vec<Trial<T>>,
@@ -132,6 +132,17 @@ impl<T: Real> Cover<T> {
         Ok(())
     }
 
+    /// Covers an interval and nothing else, with eight nodes or more between two joints.
+    pub fn sample_anew(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        self.clear(true);
+        self.first = 8;
+        self.sample(gap, on, 0, None)
+    }
+
     /// Samples an interval; its panels are put last. They should meet those from number `known` on, and
     /// the neighbour on the right, which is put after them.
     fn sample(
@@ -195,7 +206,8 @@ impl<T: Real> Cover<T> {
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
-                let finer = is_long(trial.panel.x) || is_long(before.x);
+                let finer =
+                    trial.level < MOST_LEVELS && (is_long(trial.panel.x) || is_long(before.x));
                 if finer && splits < MOST_SPLITS && !self.rough {
                     self.panels.pop();
                     let again = |panel, trial: &Trial<T>| Trial { panel, split: true, ..*trial };

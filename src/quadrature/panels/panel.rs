@@ -5,7 +5,7 @@ use crate::{Interval, Real};
 
 /// The slope of the gap over an interval without joints, as a Chebyshev series.
 #[derive(Clone, Copy)]
-pub(super) struct Panel<T> {
+pub(crate) struct Panel<T> {
     /// Its two ends.
     pub x: [T; 2],
     /// How many nodes it was sampled at.

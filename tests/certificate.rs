@@ -1,0 +1,413 @@
+//! Certificates: contacts pass, and what is none is refused at the right place with the right value.
+#![allow(missing_docs)]
+
+mod common;
+#[path = "common/forms.rs"]
+mod forms;
+
+use common::{Profile, graph, join, parabola};
+use forms::{Form, KAPPA, forms};
+use linecontact::reference::body;
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Place};
+use std::f64::consts::PI;
+
+/// x²/2 + ε cos wx, on [-3, 3].
+fn wavy(eps: f64, w: f64) -> Profile {
+    graph(-3.0, 3.0, move |x| {
+        let (s, c) = (w * x).sin_cos();
+        [x * x / 2.0 + eps * c, x - eps * w * s]
+    })
+}
+
+/// J_n by its integral, which the trapezoidal rule gives to all digits.
+fn bessel(n: i32, x: f64) -> f64 {
+    let m = 400;
+    let term = |i: i32| {
+        let t = PI * f64::from(i) / f64::from(m);
+        (f64::from(n) * t - x * t.sin()).cos() * if i == 0 || i == m { 0.5 } else { 1.0 }
+    };
+    (0..=m).map(term).sum::<f64>() / f64::from(m)
+}
+
+/// The closed form for such a wave: P(x) for |x| < l, the load, and the gap outside.
+struct Wave {
+    eps: f64,
+    w: f64,
+    l: f64,
+    /// J_1, J_3, ... of w l.
+    odd: Vec<f64>,
+}
+
+impl Wave {
+    fn new(eps: f64, w: f64, l: f64) -> Self {
+        let odd = (0..60).map(|n| bessel(2 * n + 1, w * l)).collect();
+        Self { eps, w, l, odd }
+    }
+
+    fn load(&self) -> f64 {
+        self.l * self.l / 2.0 - self.eps * self.w * self.l * self.odd[0]
+    }
+
+    /// The coefficients c_k, k = 1, 3, ..., of the slope.
+    fn c(&self, n: usize) -> f64 {
+        let first = if n == 0 { self.l } else { 0.0 };
+        let sign = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
+        first - 2.0 * self.eps * self.w * sign * self.odd[n]
+    }
+
+    fn pressure(&self, x: f64) -> f64 {
+        let theta = (x / self.l).acos();
+        let term = |n: usize| self.c(n) * ((2 * n + 1) as f64 * theta).sin();
+        (0..60).map(term).sum::<f64>() / PI
+    }
+
+    /// The gap, with x = l cosh t: Σ c_k u^k, u = exp(-t), integrated term by term.
+    fn gap(&self, x: f64) -> f64 {
+        let body = |x: f64| x * x / 2.0 + self.eps * (self.w * x).cos();
+        let t = (x / self.l).acosh();
+        let drawn = |n: usize| {
+            // ∫ e^{-kt} l sinh t dt
+            let k = (2 * n + 1) as f64;
+            let up = if n == 0 { t } else { (1.0 - (-(k - 1.0) * t).exp()) / (k - 1.0) };
+            let down = (1.0 - (-(k + 1.0) * t).exp()) / (k + 1.0);
+            self.c(n) * self.l / 2.0 * (up - down)
+        };
+        body(x) - body(self.l) - (0..60).map(drawn).sum::<f64>()
+    }
+}
+
+/// The least value on a fine grid, refined.
+fn least(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> [f64; 2] {
+    let mut best = [from, f64::INFINITY];
+    for _ in 0..8 {
+        let step = (to - from) / 400.0;
+        for i in 0..=400 {
+            let x = from + step * f64::from(i);
+            if f(x) < best[1] {
+                best = [x, f(x)];
+            }
+        }
+        (from, to) = ((best[0] - 2.0 * step).max(from), (best[0] + 2.0 * step).min(to));
+    }
+    best
+}
+
+/// The amplitude at which f, which is positive for small ones, becomes zero.
+fn margin(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    assert!(f(low) > 0.0 && f(high) < 0.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if f(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[test]
+fn tension_in_a_wave_on_both_sides_of_the_margin() {
+    // The contacts of the three files, with the amplitude grown until the pressure touches zero.
+    for (w, l, highest) in [
+        (16.0, 0.233_306_345_773_701_2, 0.03),
+        (24.0, 1.142_738_838_438_643, 0.03),
+        (16.0, 0.979, 0.1),
+    ] {
+        let lowest = |eps: f64| {
+            let wave = Wave::new(eps, w, l);
+            least(|x| wave.pressure(x), 0.0, 0.99 * l)
+        };
+        let at = margin(|eps| lowest(eps)[1], 1e-4, highest);
+        for off in [1e-1, 1e-3, 1e-6, 1e-8] {
+            let below = wavy(at * (1.0 - off), w);
+            let contact = Contact::new(&Flat, &*below).unwrap();
+            let contact = contact.edges(Edge::UpTo(-l), Edge::UpTo(l));
+            let load = Load::PerLength(Wave::new(at * (1.0 - off), w, l).load() * (1.0 + 1e-13));
+            let passed = contact.solve(load).and_then(|s| s.certify());
+            let near = passed.unwrap_or_else(|e| panic!("w = {w}, -{off}: {e}")).pressure.unwrap();
+            let mean = Wave::new(at * (1.0 - off), w, l).load() / (2.0 * l);
+            assert!(near.value > 0.0 && near.value * mean < 10.0 * off, "{near:?}");
+
+            let eps = at * (1.0 + off);
+            let above = wavy(eps, w);
+            let contact = Contact::new(&Flat, &*above).unwrap();
+            let contact = contact.edges(Edge::UpTo(-l), Edge::UpTo(l));
+            let load = Load::PerLength(Wave::new(eps, w, l).load() * (1.0 + 1e-13));
+            let error = contact.clone().certified(true).solve(load).unwrap_err();
+            let ContactError::Tension { x, pressure } = error else { panic!("{error}") };
+            let [place, value] = lowest(eps);
+            println!("w = {w}, ε (1 + {off:e}): {x} {pressure:e} for {place} {value:e}");
+            assert!(
+                (pressure - value).abs() < 1e-3 * value.abs() + 1e-13,
+                "{value:e} {pressure:e}"
+            );
+            assert!((x.abs() - place).abs() < 1e-5 * l, "{x} for {place}");
+            // It is there for who wants it.
+            assert!((contact.solve(load).unwrap().a() / l - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
+    // A contact on the crest of the wave at zero would not do: it lies in the middle of a trough, and
+    // the next crest comes closer as the amplitude grows.
+    let (w, l) = (16.0, 0.380_560_682_395_248_3);
+    let deepest = |eps: f64| {
+        let wave = Wave::new(eps, w, l);
+        least(|x| wave.gap(x), l + 0.02, 1.0)
+    };
+    let at = margin(|eps| deepest(eps)[1], 1e-3, 0.0156);
+    for off in [1e-2, 1e-4, 1e-6] {
+        for sign in [-1.0, 1.0] {
+            let eps = at * (1.0 + sign * off);
+            let body = wavy(eps, w);
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            // Of the contacts under one load it is one of three.
+            let plain = contact.solve(Load::ToHalfWidth(l)).unwrap();
+            assert!((plain.load() / Wave::new(eps, w, l).load() - 1.0).abs() < 1e-12);
+            let [place, value] = deepest(eps);
+            match plain.certify() {
+                Ok(certificate) => {
+                    assert!(sign < 0.0, "passes with {value:e} at {place}");
+                    let near = certificate.gap.expect("it comes near");
+                    assert!(
+                        (near.value - value).abs() < 1e-3 * value + 1e-12,
+                        "{near:?} {value:e}"
+                    );
+                    assert!((near.x.abs() - place).abs() < 1e-5, "{near:?} for {place}");
+                }
+                Err(ContactError::Overlap { x, gap }) => {
+                    assert!(sign > 0.0, "refused with {value:e} at {place}");
+                    println!("ε (1 + {off:e}): {x} {gap:e} for {place} {value:e}");
+                    assert!((gap - value).abs() < 1e-3 * value.abs() + 1e-12, "{gap:e} {value:e}");
+                    assert!((x.abs() - place).abs() < 1e-5, "{x} for {place}");
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_narrow_asperity_far_away() {
+    // Hertz with L = 0.2, whose gap outside is L²/2 (cosh t sinh t - t) for x = L cosh t, and a bump of
+    // 1e-4 of the domain just high enough to touch.
+    let gap = |x: f64| {
+        let t = (x / 0.2).acosh();
+        0.02 * (t.cosh() * t.sinh() - t)
+    };
+    let (load, domain) = (Load::PerLength(0.02), 20.0);
+    for (at, width) in
+        [(7.123_456_7, 1e-4 * domain), (-3.3, 1e-4 * domain), (0.2345, 1e-3), (9.99, 4e-3)]
+    {
+        // The gap between the bump and the flat rises over the bump: where it is least, and at what
+        // height it touches.
+        let shape = move |x: f64| {
+            let s = (x - at) / (width / 2.0);
+            if s.abs() < 1.0 { (1.0 - s * s).powi(4) } else { 0.0 }
+        };
+        let least_with = |height: f64| {
+            least(|x: f64| gap(x.abs()) - height * shape(x), at - width / 2.0, at + width / 2.0)
+        };
+        let height = margin(|height| least_with(height)[1], 1e-9, 100.0);
+        for off in [-1e-6, 1e-6] {
+            let high = height * (1.0 + off);
+            let body = graph(-10.0, 10.0, move |x| {
+                let s = (x - at) / (width / 2.0);
+                let slope = if s.abs() < 1.0 {
+                    -8.0 * s * (1.0 - s * s).powi(3) / (width / 2.0)
+                } else {
+                    0.0
+                };
+                [x * x / 2.0 - high * shape(x), x - high * slope]
+            });
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            let solution = contact.solve(load).unwrap();
+            assert!((solution.a() - 0.2).abs() < 1e-14);
+            let [place, value] = least_with(high);
+            let found = solution.certify();
+            println!("at {at}, {off:e}: {found:?} for {place} {value:e}");
+            let near = match found {
+                Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
+                Err(ContactError::Overlap { x, gap: value }) if off > 0.0 => Place { x, value },
+                other => panic!("{off}: {other:?}, for {place} {value:e}"),
+            };
+            assert!((near.value - value).abs() < 1e-2 * value.abs(), "{near:?} {value:e}");
+            assert!((near.x - place).abs() < 1e-2 * width, "{near:?} for {place}");
+        }
+    }
+}
+
+#[test]
+fn an_asperity_on_both_sides_of_the_margin() {
+    // x²/2 - A exp(-64 (x - 8/5)²) under C = 3/2: a Hertz contact, to 1e-10, and its gap outside.
+    let load = Load::Constant(1.5);
+    let l = (3.0 / PI).sqrt();
+    let bump = |x: f64| (-64.0 * (x - 1.6) * (x - 1.6)).exp();
+    let deepest = |height: f64| {
+        let gap = |x: f64| {
+            let t = (x / l).acosh();
+            l * l / 2.0 * (t.cosh() * t.sinh() - t) - height * (bump(x) - bump(l))
+        };
+        least(gap, 1.3, 1.9)
+    };
+    let at = margin(|height| deepest(height)[1], 0.1, 0.625);
+    for off in [-1e-2, -1e-4, -1e-6, 1e-6, 1e-4, 1e-2] {
+        let height = at * (1.0 + off);
+        let body = graph(-3.0, 3.0, move |x| {
+            let bump = height * bump(x);
+            [x * x / 2.0 - bump, x + 128.0 * (x - 1.6) * bump]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let [place, value] = deepest(height);
+        let found = contact.solve(load).unwrap().certify();
+        println!("A (1 + {off:e}): {found:?} for {place} {value:e}");
+        let near = match found {
+            Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
+            Err(ContactError::Overlap { x, gap: value }) if off > 0.0 => Place { x, value },
+            other => panic!("{off}: {other:?}, for {place} {value:e}"),
+        };
+        assert!((near.value - value).abs() < 1e-3 * value.abs() + 1e-9, "{near:?} {value:e}");
+        assert!((near.x - place).abs() < 1e-5, "{near:?} for {place}");
+    }
+}
+
+#[test]
+fn a_budget_that_is_spent() {
+    // Waves beyond the contact that no number of panels resolves.
+    let body = graph(-3.0, 3.0, |x: f64| {
+        let out = (x - 0.5).max(0.0).powi(4);
+        [x * x / 2.0, x + out * (1e9 * x).sin()]
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let error = solution.certify().map(|_| ()).unwrap_err();
+    println!("{error}");
+    let ContactError::Undecided { x, evaluations, .. } = error else { panic!("{error}") };
+    assert!(x > 0.3 && evaluations < 1_300_000);
+}
+
+#[test]
+fn kinks_and_edges_that_lift() {
+    // A kink downwards, however small, parts the bodies; one upwards does not.
+    for slope in [1e-6, 1e-4, 0.125] {
+        let kink = |s: f64| {
+            join(vec![
+                graph(-3.0, 0.0, move |x| [x * x / 2.0 + s * x, x + s]),
+                graph(0.0, 3.0, move |x| [x * x / 2.0 - s * x, x - s]),
+            ])
+        };
+        let solve = |body: &Profile| {
+            let contact = Contact::new(&Flat, &**body)?.certified(true);
+            contact.solve(Load::Constant(1.5)).map(|_| ())
+        };
+        assert_eq!(solve(&kink(-slope)), Ok(()));
+        let down = kink(slope);
+        let error = solve(&down).unwrap_err();
+        let lowest = ContactError::Tension { x: 0.0, pressure: f64::NEG_INFINITY };
+        assert_eq!(error, lowest);
+    }
+    // A tilted punch, F - m x: it lifts at the right edge once m l > F; and beyond its corners
+    // there is nothing to touch.
+    for (m, lifts) in [(0.0, None), (3.9, None), (4.1, Some(0.5)), (-4.1, Some(-0.5))] {
+        let body = graph(-1.0, 1.0, move |x| [m * x, m]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5)).certified(true);
+        match (contact.solve(Load::PerLength(2.0)), lifts) {
+            (Ok(_), None) => {}
+            (Err(ContactError::Tension { x, pressure }), Some(at)) => {
+                assert_eq!([x, pressure], [at, f64::NEG_INFINITY]);
+            }
+            (other, _) => panic!("{m}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn corners_end_a_body() {
+    // Behind its corner the formula of the body goes on, and turns down; the body does not.
+    let body = graph(-1.0, 2.0, |x: f64| [x * x / 2.0 - x.powi(4) / 4.0, x - x.powi(3)]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let load = Load::PerLength(0.01);
+    let error = contact.clone().certified(true).solve(load).map(|_| ()).unwrap_err();
+    assert!(matches!(error, ContactError::Overlap { x, .. } if x == 2.0), "{error}");
+    for corner in [0.1, 0.5] {
+        let ends = contact.clone().edges(Edge::Free, Edge::UpTo(corner)).certified(true);
+        ends.solve(load).unwrap_or_else(|error| panic!("{corner}: {error}"));
+    }
+    let fixed = contact.edges(Edge::Free, Edge::Fixed(0.1)).certified(true);
+    fixed.solve(load).unwrap();
+}
+
+#[test]
+fn solvers_and_other_quadratures() {
+    let (good, bad) = (wavy(1.0 / 1024.0, 16.0), wavy(1.0 / 64.0, 16.0));
+    let first = Contact::new(&Flat, &*good).unwrap().certified(true);
+    let second = Contact::new(&Flat, &*bad).unwrap().certified(true);
+    let mut solver = first.solver().unwrap();
+    let load = Load::Constant(5.0 / 64.0);
+    for _ in 0..2 {
+        assert!(solver.solve(&first, load).is_ok());
+        let error = solver.solve(&second, load).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+    }
+    let rule = Midpoint { segments: 256, ..Midpoint::default() };
+    let error = second.quadrature(&rule).solve(load).map(|_| ()).unwrap_err();
+    assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+    first.quadrature(&rule).solve(load).unwrap();
+}
+
+#[test]
+fn closed_forms_are_contacts() {
+    for Form { name, form, reach } in forms::<f64>() {
+        let body = body(&*form, -reach, reach).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let [left, right] = form.edges();
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
+        let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+        let found = solution.certify();
+        if name == "cosine 0.7" {
+            // On a body that ends where the wave has its trough, 0.3 from the edge: there the terms of
+            // 2 J_k of its slope leave a gap of 0.0411 - 0.0524.
+            let error = found.unwrap_err();
+            let ContactError::Overlap { x, gap } = error else { panic!("{error}") };
+            assert!((x.abs() - 1.0).abs() < 1e-12 && (gap + 0.0113).abs() < 1e-4, "{error}");
+            continue;
+        }
+        let certificate = found.unwrap_or_else(|e| panic!("{name}: {e}"));
+        println!("{name:24} {:?} {:?}", certificate.pressure, certificate.cost);
+    }
+}
+
+#[test]
+fn what_a_plain_certificate_takes() {
+    // A convex gap: sampled over all of the bodies, and nothing else.
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let certificate = solution.certify().unwrap();
+    assert_eq!((certificate.pressure, certificate.gap), (None, None));
+    println!("{certificate:?}");
+    for body in [body, wavy(1.0 / 256.0, 24.0), wavy(1.0 / 1024.0, 16.0)] {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let start = std::time::Instant::now();
+        let solution = contact.solve(Load::Constant(0.7)).unwrap();
+        let solved = start.elapsed();
+        let found = solution.certify();
+        println!("{solved:?}, with the certificate {:?}: {found:?}", start.elapsed());
+    }
+    assert!(certificate.cost.evaluations < 40_000, "{certificate:?}");
+    // In f32 as well.
+    let body =
+        Curve::new([-1.0, 1.0], |k: f32| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
+    let contact = Contact::new(&Flat, &body).unwrap().certified(true);
+    contact.solve(Load::PerLength(0.02)).unwrap();
+}
+
+#[test]
+fn a_kink_that_nobody_declared() {
+    for (s, parts) in [(1e-3, false), (0.125, true)] {
+        let body = graph(-3.0, 3.0, move |x| [x * x / 2.0 - s * x.abs(), x - s * x.signum()]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let found = contact.solve(Load::Constant(1.5)).unwrap().certify();
+        // The lesser one is negative only closer to the kink than numbers are.
+        assert_eq!(matches!(found, Err(ContactError::Tension { .. })), parts, "{found:?}");
+    }
+}
