@@ -151,10 +151,11 @@ macro_rules! curves {
                 for (k, points) in k.chunks(W).zip(points.chunks_mut(W)) {
                     let mut lanes = [k[0]; W];
                     lanes[..k.len()].copy_from_slice(k);
-                    let _trig = trig_many(&lanes);
+                    #[allow(unused_variables)] // of use to some
+                    let trig = trig_many(&lanes);
                     for (i, point) in points.iter_mut().enumerate() {
                         let $k = lanes[i];
-                        $(let [$s, $c, $m] = _trig.map(|row| row[i]);)?
+                        $(let [$s, $c, $m] = trig.map(|row| row[i]);)?
                         let [x, dx, y, dy] = $point;
                         *point = CurvePoint { x, y, dx, dy };
                     }

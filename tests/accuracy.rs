@@ -4,7 +4,7 @@
 mod common;
 
 use approx::assert_relative_eq;
-use common::{graph, paper, power, reference, scenes};
+use common::{Counting, graph, paper, power, reference, scenes};
 use linecontact::{
     Contact, Cost, Curve, CurvePoint, Exponents, Flat, Interval, Load, Midpoint, Panels,
     ParametricProfile, Piecewise,
@@ -133,19 +133,6 @@ fn a_joint_is_no_singularity_at_any_tolerance() {
         let got =
             solution.pressure().unwrap().at(0.0).unwrap_or_else(|e| panic!("{tolerance}: {e}"));
         assert!((got / exact - 1.0).abs() <= 20.0 * tolerance, "{got} at {tolerance}");
-    }
-}
-
-/// Counts its calls, one by one and in batches.
-struct Counting<'c>(&'c dyn ParametricProfile<f64>, &'c AtomicUsize);
-
-impl ParametricProfile<f64> for Counting<'_> {
-    fn domain(&self) -> [f64; 2] {
-        self.0.domain()
-    }
-    fn at(&self, k: f64) -> CurvePoint<f64> {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0.at(k)
     }
 }
 

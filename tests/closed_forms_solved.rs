@@ -7,6 +7,7 @@ mod forms;
 use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::{ClosedForm, Ellipse, Exponential, PowerLaw, Wedge, body};
+use linecontact::search::{Bisection, LimitSearch, Secant};
 use linecontact::{Contact, ContactError, Cost, Curve, CurvePoint, Flat, Interval, Load};
 use std::f64::consts::PI;
 
@@ -86,6 +87,18 @@ fn slopes_up_to_e_to_the_150th_do_not_hide_the_contact() {
         let contact = Contact::new(&Flat, &body).unwrap();
         let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
         assert!(off(solution.interval(), &form) < 1e-13, "{end}: {solution:?}");
+    }
+}
+
+#[test]
+fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
+    // The bodies carry 151 on [-300, 0], and slopes of e^300 on the other side hide that.
+    let form = Exponential::new(1.0, 1.0, 1.0).unwrap();
+    let body = body(&form, -300.0, 300.0).unwrap();
+    for strategy in [&Bisection::default() as &dyn LimitSearch<f64>, &Secant::default()] {
+        let contact = Contact::new(&Flat, &body).unwrap().search(strategy);
+        let refused = contact.solve(Load::PerLength(1e10));
+        assert!(matches!(refused, Err(ContactError::NoBalance { .. })), "{refused:?}");
     }
 }
 

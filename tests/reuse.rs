@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{graph, paper, power, scenes};
+use common::{Counting, graph, paper, power, scenes};
 use linecontact::{
     Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load, ParametricProfile,
     Solution,
@@ -146,19 +146,6 @@ fn one_solver_serves_scenes_that_have_nothing_in_common() {
                 assert!((got / want - 1.0).abs() <= scene.accuracy, "{}: {got}", scene.name);
             }
         }
-    }
-}
-
-/// Counts its calls.
-struct Counting<'c, P>(P, &'c AtomicUsize);
-
-impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
-    fn domain(&self) -> [f64; 2] {
-        self.0.domain()
-    }
-    fn at(&self, k: f64) -> CurvePoint<f64> {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0.at(k)
     }
 }
 

@@ -112,6 +112,7 @@ pub(crate) fn aim<const N: usize, T: Real>(
     trace: &mut Trace<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
+    const { assert!(N <= MOST) };
     let (index, piece) = gap.piece_at(body, targets[N / 2], Side::Left);
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
         (trace.direct, trace.piece, trace.knots.len) = (true, None, N);

@@ -16,6 +16,7 @@
 pub(crate) mod angles;
 pub(crate) mod chebyshev;
 mod conjugate;
+mod continuation;
 mod cover;
 mod far;
 mod integrals;
@@ -106,7 +107,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         rough: bool,
     ) -> Result<Option<T>, ContactError<T>> {
         if !rough {
-            self.cover.first = self.expected_size(on);
+            self.cover.initial = self.expected_size(on);
         }
         self.cover.rough = rough;
         self.moments = None;
@@ -217,7 +218,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
     fn forget(&mut self) {
         self.cover.clear(true);
         (self.fall, self.moments) = (None, None);
-        self.cover.first = 8;
+        self.cover.initial = 8;
     }
 
     fn reset(&mut self, same_bodies: bool) {

@@ -7,6 +7,7 @@ pub mod paper;
 use linecontact::{Contact, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
 use serde_json::Value;
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub type Profile = Box<dyn ParametricProfile<f64>>;
 
@@ -209,4 +210,17 @@ pub fn example_1_exact(x: f64) -> f64 {
 /// The exact pressure of the paper's Example 2.
 pub fn example_2_exact(x: f64) -> f64 {
     16.0 * ((1.0 - x) * (0.6 + x)).sqrt()
+}
+
+/// Counts the calls of a curve.
+pub struct Counting<'c, P>(pub P, pub &'c AtomicUsize);
+
+impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
+    fn domain(&self) -> [f64; 2] {
+        self.0.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.at(k)
+    }
 }

@@ -13,6 +13,26 @@ pub(super) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
 /// The largest of them.
 pub(crate) const MOST: usize = 32;
 
+/// A call for one of the [`SIZES`], with the number of nodes known to the compiler.
+macro_rules! by_size {
+    ($n:expr, $size:ident => $call:expr) => {
+        by_size!(@ $n, $size, $call, 4 8 12 16 24)
+    };
+    (@ $n:expr, $size:ident, $call:expr, $($each:literal)*) => {
+        match $n {
+            $($each => {
+                const $size: usize = $each;
+                $call
+            })*
+            _ => {
+                const $size: usize = crate::quadrature::panels::chebyshev::MOST;
+                $call
+            }
+        }
+    };
+}
+pub(super) use by_size;
+
 /// Coefficients or values, as many as the panel has nodes.
 pub(crate) type Row<T> = [T; MOST];
 
@@ -76,14 +96,7 @@ impl Table {
 
     /// The coefficients of the polynomial with given values at the nodes.
     pub fn coefficients<T: Real>(&self, n: usize, values: &Row<T>) -> Row<T> {
-        match n {
-            4 => self.transform::<4, T>(values),
-            8 => self.transform::<8, T>(values),
-            12 => self.transform::<12, T>(values),
-            16 => self.transform::<16, T>(values),
-            24 => self.transform::<24, T>(values),
-            _ => self.transform::<MOST, T>(values),
-        }
+        by_size!(n, N => self.transform::<N, T>(values))
     }
 
     /// The larger of the last two coefficients, after that of the two before.
@@ -166,14 +179,7 @@ pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
 /// The coefficients, as many as there are or a few more, of the same polynomial on the range from
 /// `left` to `right`, which need not lie between -1 and 1.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
-    match size_for(coefficients.len()) {
-        4 => expanded::<4, T>(coefficients, left, right),
-        8 => expanded::<8, T>(coefficients, left, right),
-        12 => expanded::<12, T>(coefficients, left, right),
-        16 => expanded::<16, T>(coefficients, left, right),
-        24 => expanded::<24, T>(coefficients, left, right),
-        _ => expanded::<MOST, T>(coefficients, left, right),
-    }
+    by_size!(size_for(coefficients.len()), N => expanded::<N, T>(coefficients, left, right))
 }
 
 fn expanded<const N: usize, T: Real>(coefficients: &[T], left: T, right: T) -> Row<T> {

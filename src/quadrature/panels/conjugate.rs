@@ -29,11 +29,11 @@
 //! All of it has the factor w, or one that goes to zero like w, from the distances of x to the
 //! edges: R keeps its relative accuracy up to a free edge.
 
-use super::angles::{HalfAngle, Sines};
-use super::chebyshev::{MOST, Row, second_kind, size_for, value_at, values};
+use super::angles::Sines;
+use super::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
+use super::continuation::{Stretch, continued};
 use super::far::Far;
-use super::integrals::may_continue;
-use super::panel::{Panel, largest, within};
+use super::panel::{Panel, within};
 use crate::real::fma;
 use crate::{Interval, Real};
 
@@ -134,51 +134,41 @@ impl<T: Real> Conjugate<T> {
     /// The series, continued over the contact; `false` if one of several grows too much on the way.
     fn continued(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
         let zero = T::zero();
-        let largest = largest(panels, on);
         (self.smooth, self.terms) = ([zero; MOST], 1);
         self.changes.clear();
-        let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
-        let mut left = [zero; MOST + 2];
-        left[0] = T::pi();
         let mut before = ([zero; MOST], 0, zero);
-        for (i, panel) in panels.iter().enumerate() {
-            let (series, terms) = panel.over(on);
-            let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-            if panels.len() > 1 && !may_continue(bulk, largest) {
-                return false;
+        let every = continued(panels, on, |stretch| {
+            let Stretch { panel, series, terms, integrals, .. } = stretch;
+            if !stretch.is_first {
+                self.changes.push(self.change(stretch, &before, on));
             }
-            if i > 0 {
-                let joint = Joint::new(panel, on, panel.x[0]);
-                let (last, last_terms, last_tail) = before;
-                let mut series: Row<T> = std::array::from_fn(|k| series[k] - last[k]);
-                let terms = terms.max(last_terms);
-                // Noise at a joint that does not jump would be a spike.
-                let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
-                let jump = value_at(&series[..terms], z / (on.right - on.left));
-                if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + last_tail) {
-                    series[0] -= jump;
-                }
-                self.changes.push(Change { joint, series, terms });
-            }
-            let mut right = [zero; MOST + 2];
-            if i + 1 < panels.len() {
-                right = HalfAngle::of(on, panel.x[1]).sines(size_for(most) + 1);
-            }
-            let stretch = std::array::from_fn(|k| left[k] - right[k]);
             self.terms = self.terms.max(terms - 1);
-            match size_for(terms) {
-                4 => add_smooth::<4, T>(&mut self.smooth, &series, &stretch),
-                8 => add_smooth::<8, T>(&mut self.smooth, &series, &stretch),
-                12 => add_smooth::<12, T>(&mut self.smooth, &series, &stretch),
-                16 => add_smooth::<16, T>(&mut self.smooth, &series, &stretch),
-                24 => add_smooth::<24, T>(&mut self.smooth, &series, &stretch),
-                _ => add_smooth::<MOST, T>(&mut self.smooth, &series, &stretch),
-            }
-            (before, left) = ((series, terms, panel.tail), right);
-        }
+            let smooth = &mut self.smooth;
+            by_size!(size_for(*terms), N => add_smooth::<N, T>(smooth, series, integrals));
+            before = (*series, *terms, panel.tail);
+        });
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
-        true
+        every
+    }
+
+    /// From the panel before, by its series, terms and tail, to this one.
+    fn change(
+        &self,
+        stretch: &Stretch<'_, T>,
+        (last, last_terms, last_tail): &(Row<T>, usize, T),
+        on: Interval<T>,
+    ) -> Change<T> {
+        let panel = stretch.panel;
+        let mut series: Row<T> = std::array::from_fn(|k| stretch.series[k] - last[k]);
+        let terms = stretch.terms.max(*last_terms);
+        // Noise at a joint that does not jump would be a spike.
+        let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
+        let jump = value_at(&series[..terms], z / (on.right - on.left));
+        if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + *last_tail) {
+            series[0] -= jump;
+        }
+        Change { joint: Joint::new(panel, on, panel.x[0]), series, terms }
     }
 
     /// `π² R` at some points strictly inside the contact. Infinite where the slope jumps.

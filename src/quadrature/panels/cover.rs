@@ -1,6 +1,6 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{MOST, SIZES, Table, size_for, value_at};
+use super::chebyshev::{MOST, SIZES, Table, by_size, size_for, value_at};
 use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Trace, aim};
 use crate::real::fma;
@@ -56,7 +56,7 @@ pub(crate) struct Cover<T> {
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
     /// Nodes to start a panel with.
-    pub first: usize,
+    pub initial: usize,
     /// No more than a sketch is wanted: four nodes, whatever they say.
     pub rough: bool,
     pub tolerance: T,
@@ -70,7 +70,7 @@ impl<T: Real> Cover<T> {
             waiting: Vec::new(),
             traces: [Trace::new(), Trace::new()],
             size: T::zero(),
-            first: 8,
+            initial: 8,
             rough: false,
             tolerance,
             cost: Cost::default(),
@@ -112,7 +112,7 @@ impl<T: Real> Cover<T> {
         // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
         // joint is between them.
         if on.right > have.right {
-            self.first = enough(&last);
+            self.initial = enough(&last);
             let far = (have.right + more(&last)).min(half * on.right + half * range[1]);
             let right = on.right.max(far);
             let apart = gap.joint_after(last.x[0]) == Some(have.right);
@@ -120,7 +120,7 @@ impl<T: Real> Cover<T> {
             self.sample(gap, Interval { left: have.right, right }, known, None)?;
         }
         if on.left < have.left {
-            self.first = enough(&first);
+            self.initial = enough(&first);
             let far = (have.left - more(&first)).max(half * on.left + half * range[0]);
             let left = on.left.min(far);
             let apart = gap.joint_before(first.x[1]) == Some(have.left);
@@ -139,7 +139,7 @@ impl<T: Real> Cover<T> {
         on: Interval<T>,
     ) -> Result<(), ContactError<T>> {
         self.clear(true);
-        self.first = 8;
+        self.initial = 8;
         self.sample(gap, on, 0, None)
     }
 
@@ -236,7 +236,7 @@ impl<T: Real> Cover<T> {
         x: [T; 2],
         level: usize,
     ) -> Result<Trial<T>, ContactError<T>> {
-        let mut n = if self.rough { 4 } else { self.first };
+        let mut n = if self.rough { 4 } else { self.initial };
         loop {
             let (mut panel, Seen { slope, bodies, noise, off }) = self.panel(gap, x, n)?;
             if level == 0 {
@@ -252,9 +252,9 @@ impl<T: Real> Cover<T> {
                     (tail.max(off), more, true)
                 }
                 Verdict::Good(tail) => (tail.max(off), None, false),
-                Verdict::Noise(level) => {
-                    panel.drop_noise(level);
-                    (level, None, false)
+                Verdict::Noise(size) => {
+                    panel.drop_noise(size);
+                    (size, None, false)
                 }
                 Verdict::Take(next, tail) => (tail, Some(next), true),
                 Verdict::Split(tail) => (tail, None, true),
@@ -284,14 +284,7 @@ impl<T: Real> Cover<T> {
         x: [T; 2],
         n: usize,
     ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
-        match n {
-            4 => self.with_nodes::<4>(gap, x),
-            8 => self.with_nodes::<8>(gap, x),
-            12 => self.with_nodes::<12>(gap, x),
-            16 => self.with_nodes::<16>(gap, x),
-            24 => self.with_nodes::<24>(gap, x),
-            _ => self.with_nodes::<MOST>(gap, x),
-        }
+        by_size!(n, N => self.with_nodes::<N>(gap, x))
     }
 
     fn with_nodes<const N: usize>(

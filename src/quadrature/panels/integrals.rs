@@ -1,22 +1,16 @@
 //! The edge integrals of a row of panels, and their derivatives by the two limits.
 //!
-//! A polynomial p on `c + L z` is `Σ c_k T_k(z)`, that is `Σ c_k cos kθ`, and so is its derivative:
-//! what a panel adds is a sum of differences of `sin kθ/k`. The series of a panel may be continued
-//! over the whole contact as long as it does not grow too much on the way. Where panels are too
-//! short for that, each is a stretch of θ for Gauss's rule.
+//! A polynomial over the contact is a sum of cosines, and so is its derivative: what a panel adds is
+//! a sum of differences of `sin kθ/k`. Where panels are too short for their series to be continued
+//! over the contact, each is a stretch of θ for Gauss's rule.
 
 use super::angles::{Arc, Gauss, HalfAngle, Sines};
-use super::chebyshev::{MOST, Row, evaluate, size_for};
+use super::chebyshev::{MOST, Row, by_size, evaluate, size_for};
+use super::continuation::{Stretch, continued};
 use super::panel::{Panel, within};
 use crate::quadrature::{Moments, Trend};
 use crate::real::Sum;
 use crate::{Interval, Real};
-
-/// Whether series may be continued over a contact, where the absolute values of their coefficients then
-/// add up to `bulk` at most, and the slopes at the ends of the panels are up to `largest`.
-pub(super) fn may_continue<T: Real>(bulk: T, largest: T) -> bool {
-    bulk <= T::of(16.0) * largest
-}
 
 /// `∫ g cosⁱθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
@@ -80,14 +74,7 @@ fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
 fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
     let half = T::of(0.5);
     let (series, counting) = panel.over(on);
-    let slopes = match size_for(counting) {
-        4 => derivative::<4, T>(&series),
-        8 => derivative::<8, T>(&series),
-        12 => derivative::<12, T>(&series),
-        16 => derivative::<16, T>(&series),
-        24 => derivative::<24, T>(&series),
-        _ => derivative::<MOST, T>(&series),
-    };
+    let slopes = by_size!(size_for(counting), N => derivative::<N, T>(&series));
     let by_x = T::one() / on.half_width();
     sums.g[0].add(series[0]);
     sums.g[1].add(half * series[1]);
@@ -100,46 +87,20 @@ fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
 
 /// Several panels hold it between them, and their series can be continued over it; `false` if not.
 fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
-    let (zero, half) = (T::zero(), T::of(0.5));
-    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
-    let count = size_for(most) + 1;
-    let (mut most_bulk, mut largest) = (zero, zero);
-    let mut left = [zero; MOST + 2];
-    left[0] = T::pi();
-    let mut slope_before = zero;
-    for (i, panel) in panels.iter().enumerate() {
-        let (series, counting) = panel.over(on);
-        let bulk = series[..counting].iter().fold(zero, |sum, a| sum + a.abs());
-        let [mut from, mut to] = panel.at_ends();
-        if i == 0 {
-            from = panel.value(on.left);
-        } else {
-            jump(sums, from - slope_before, HalfAngle::of(on, panel.x[0]), on);
+    let half = T::of(0.5);
+    let mut before = T::zero();
+    let every = continued(panels, on, |stretch| {
+        let Stretch { series, integrals, ends: [from, to], .. } = stretch;
+        if !stretch.is_first {
+            jump(sums, *from - before, stretch.start, on);
         }
-        let mut right = [zero; MOST + 2];
-        if i + 1 < panels.len() {
-            right = HalfAngle::of(on, panel.x[1]).sines(count);
-        } else {
-            to = panel.value(on.right);
-        }
-        slope_before = to;
-        largest = largest.max(from.abs()).max(to.abs());
-        most_bulk = most_bulk.max(if bulk.is_finite() { bulk } else { T::one() / zero });
-        let stretch = std::array::from_fn(|k| left[k] - right[k]);
-        match size_for(counting) {
-            4 => stretch_of::<4, T>(sums, &series, &stretch, on),
-            8 => stretch_of::<8, T>(sums, &series, &stretch, on),
-            12 => stretch_of::<12, T>(sums, &series, &stretch, on),
-            16 => stretch_of::<16, T>(sums, &series, &stretch, on),
-            24 => stretch_of::<24, T>(sums, &series, &stretch, on),
-            _ => stretch_of::<MOST, T>(sums, &series, &stretch, on),
-        }
-        sums.size += half * (from.abs() + to.abs()) * stretch[0];
-        sums.error += (panel.tail + T::epsilon() * bulk) * stretch[0];
-        left = right;
-    }
+        by_size!(size_for(stretch.terms), N => stretch_of::<N, T>(sums, series, integrals, on));
+        sums.size += half * (from.abs() + to.abs()) * integrals[0];
+        sums.error += (stretch.panel.tail + T::epsilon() * stretch.bulk) * integrals[0];
+        before = *to;
+    });
     sums.scale(T::frac_1_pi());
-    may_continue(most_bulk, largest)
+    every
 }
 
 /// What the series adds on a stretch, given the integrals of cos kθ over it.

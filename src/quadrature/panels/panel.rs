@@ -79,17 +79,6 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
 }
 
-/// The largest slope at the ends of the panels and of the contact that they make up.
-pub(super) fn largest<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> T {
-    let Some((first, others)) = panels.split_first() else { return T::zero() };
-    let edges = first.value(on.left).abs().max(panels[others.len()].value(on.right).abs());
-    let at_joint = |max: T, pair: &[Panel<T>]| {
-        let [to, from] = [pair[0].at_ends()[1], pair[1].at_ends()[0]];
-        max.max(from.abs()).max(to.abs())
-    };
-    panels.windows(2).fold(edges, at_joint)
-}
-
 /// What the coefficients say of a series.
 pub(super) enum Verdict<T> {
     /// Good enough, with an estimate of its largest error.
