@@ -61,7 +61,8 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
     fn domain(&self) -> [T; 2];
 
     /// The point at `k`, with both derivatives: one call, so that what they share is
-    /// computed once.
+    /// computed once. At an end of the domain the derivatives are those from inside: one that is not
+    /// (`signum` at 0, say) is searched for what it seems to hide, for some hundreds of evaluations.
     fn at(&self, k: T) -> CurvePoint<T>;
 
     /// The slope `dY/dX` at `x`, where it can be had without inverting `X(k) = x`: the body

@@ -350,3 +350,40 @@ fn a_shape_common_to_both_bodies() {
         assert!(off <= error, "{common}: off {off:e}, said {error:e}");
     }
 }
+
+#[test]
+fn a_tip_far_narrower_than_a_panel_beside_a_joint() {
+    // The slope x + A (1 - exp(-x/ε)) on the right, x - A on the left. With θ₀ the angle of the
+    // joint, cos θ₀ = -c/L, the balance π m₀ = 0 is that of a wedge on a parabola, less the integral
+    // of A exp(-x/ε)/sqrt((x + b)(a - x)).
+    let steep = 0.3;
+    for tip in [1e-3, 1e-5, 1e-7] {
+        let body = join(vec![
+            graph(-1.0, 0.0, move |x| [x * x / 2.0 - steep * x, x - steep]),
+            graph(0.0, 1.0, move |x| {
+                let rest = (-x / tip).exp_m1();
+                [x * x / 2.0 + steep * (x + tip * rest), x - steep * rest]
+            }),
+        ]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(0.4)).unwrap();
+        let (on, error) = (solution.interval(), solution.limits_error().unwrap());
+        let (a, b, c) = (on.right, -on.left, on.centre());
+        // Simpson's rule in x/ε.
+        let (n, step) = (4000, 0.01);
+        let lost: f64 = (0..=n)
+            .map(|i| {
+                let (t, ends) = (step * f64::from(i), i == 0 || i == n);
+                let weight = if ends { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+                let x = tip * t;
+                weight * (-t).exp() / ((x + b) * (a - x)).sqrt()
+            })
+            .sum();
+        let lost = steep * tip * lost * step / 3.0;
+        let balance = PI * c + steep * (2.0 * (-c / 0.4).acos() - PI) - lost;
+        // A step in c changes the balance by π and more.
+        println!("{tip:e}: c = {c:e}, {balance:e}, error {error:e}, {:?}", solution.cost());
+        assert!(balance.abs() < 1e-13, "{tip}: {balance:e}");
+        assert!(solution.cost().evaluations < 1000);
+    }
+}

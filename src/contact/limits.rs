@@ -8,8 +8,10 @@
 //! ```text
 //! outer:  half-width L        spread(L, u(L)) = 0
 //! inner:  distance u          shift(L, u) = 0,     a = x₀ + u,  -b = x₀ + u - 2L
+//!                                             or   -b = x₀ - u,  a = x₀ - u + 2L
 //! ```
 //!
+//! u belongs to the edge closer to `x₀`, which may be a millionth of the width away: it keeps its digits.
 //! `x₀` is a point of first contact, where the slope of the gap passes through zero. Every
 //! contact contains it, so `u` and the half-width are positive lengths of the contact's own
 //! size, and a relative tolerance means the same on either side and wherever the origin is.
@@ -73,6 +75,7 @@ pub(super) fn find<T: Real>(
         origin,
         range,
         load,
+        near: 1,
         share: T::of(0.5),
         stiffness: None,
     };
@@ -103,9 +106,9 @@ pub(super) fn place<T: Real>(
     *cost += sampler.cost;
     let (origin, range) = (first?, gap.range());
     let load = T::one();
-    let (strategy, share, stiffness) = (contact.strategy(), T::of(0.5), None);
+    let (strategy, near, share, stiffness) = (contact.strategy(), 1, T::of(0.5), None);
     let mut search =
-        Search { goal, gap, engine, cost, strategy, origin, range, load, share, stiffness };
+        Search { goal, gap, engine, cost, strategy, origin, range, load, near, share, stiffness };
     match search.place(half_width)? {
         Placed::At(trial) => Ok(Nested { on: trial.on, error: trial.excess.error }),
         Placed::Beyond(end) => Err(ContactError::OutsideBodies {
@@ -145,7 +148,9 @@ struct Search<'s, T: Real> {
     origin: T,
     range: [T; 2],
     load: T,
-    /// The share of the width that lay to the right of the origin the last time.
+    /// The edge whose distance from the origin is looked for: the left (0) or the right one (1).
+    near: usize,
+    /// The share of the width that lay between it and the origin the last time.
     share: T,
     /// By how much the shift fell the last time for each unit of length moved to the right.
     stiffness: Option<T>,
@@ -263,7 +268,8 @@ impl<T: Real> Search<'_, T> {
     fn place(&mut self, half_width: T) -> Result<Placed<T>, ContactError<T>> {
         let zero = T::zero();
         let width = T::of(2.0) * half_width;
-        let [room_left, room_right] = self.room();
+        let room = self.room();
+        let [room_left, room_right] = room;
         match self.goal.limits() {
             [Some(left), _] if width >= room_right => {
                 return self.attempt(Interval { left, right: self.range[1] }).map(Placed::At);
@@ -279,14 +285,19 @@ impl<T: Real> Search<'_, T> {
             }
             [None, None] => {}
         }
-        let (lo, hi) = ((width - room_left).max(zero), width.min(room_right));
+        let (near, far) = (self.near, 1 - self.near);
+        let (lo, hi) = ((width - room[far]).max(zero), width.min(room[near]));
         if lo >= hi {
             return Ok(Placed::Beyond(usize::from(room_right < room_left)));
         }
         let origin = self.origin;
-        let on = |right: T| Interval { left: origin + (right - width), right: origin + right };
-        let mut right = (self.share * width).max(lo).min(hi);
-        let mut trial = self.attempt(on(right))?;
+        let on = |reach: T| match near {
+            0 => Interval { left: origin - reach, right: origin + (width - reach) },
+            _ => Interval { left: origin + (reach - width), right: origin + reach },
+        };
+        let reached = |trial: &Trial<T>| reaches(trial.on, origin)[near];
+        let mut reach = (self.share * width).max(lo).min(hi);
+        let mut trial = self.attempt(on(reach))?;
         let widest = T::of(0.125) * width;
         let mut factor = T::of(2.0);
         let [low, high] = loop {
@@ -295,16 +306,17 @@ impl<T: Real> Search<'_, T> {
                 return Ok(self.placed(trial, width));
             }
             // Twice as far as the balance seems to be, so as to pass it.
-            let far = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
-            let step = far.filter(|&far| far < widest).unwrap_or(widest * factor * T::of(0.5));
-            let step = step.max(ulps::<T>() * right).max(self.resolution());
-            let next = if shift > zero { (right + step).min(hi) } else { (right - step).max(lo) };
-            if next == right {
+            let past = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
+            let step = past.filter(|&past| past < widest).unwrap_or(widest * factor * T::of(0.5));
+            let step = step.max(ulps::<T>() * reach).max(self.resolution());
+            let outward = (shift > zero) == (near == 1);
+            let next = if outward { (reach + step).min(hi) } else { (reach - step).max(lo) };
+            if next == reach {
                 // The balance lies beyond what is left of the bodies, or of the contact.
-                return if right == room_right {
-                    Ok(Placed::Beyond(1))
-                } else if right == width - room_left {
-                    Ok(Placed::Beyond(0))
+                return if reach == room[near] {
+                    Ok(Placed::Beyond(near))
+                } else if reach == width - room[far] {
+                    Ok(Placed::Beyond(far))
                 } else {
                     Ok(match self.goal {
                         Goal::Strength { .. } => Placed::Adrift,
@@ -316,28 +328,34 @@ impl<T: Real> Search<'_, T> {
             let before = trial;
             trial = self.attempt(on(next))?;
             let moved = trial.excess.rough_shift();
-            right = next;
+            reach = next;
             if moved != zero {
-                let stiffness = (shift - moved) / (trial.on.right - before.on.right);
+                let rightward = reached(&trial) - reached(&before);
+                let rightward = if near == 1 { rightward } else { -rightward };
+                let stiffness = (shift - moved) / rightward;
                 self.stiffness = Some(stiffness).filter(|&stiffness| stiffness > zero);
                 if (shift > zero) != (moved > zero) {
-                    break if shift > zero { [before, trial] } else { [trial, before] };
+                    break if outward { [before, trial] } else { [trial, before] };
                 }
             }
             factor *= T::of(4.0);
         };
-        let ends = Bracket::new(low.on.right - origin, high.on.right - origin)
+        let ends = Bracket::new(reached(&low), reached(&high))
             .values(low.excess.rough_shift(), high.excess.rough_shift());
         let mut best = nearer(low, high, Excess::rough_shift);
-        let trial = self.run(&ends, &mut best, Excess::rough_shift, |search, right| {
-            search.attempt(on(right))
+        let trial = self.run(&ends, &mut best, Excess::rough_shift, |search, reach| {
+            search.attempt(on(reach))
         })?;
         Ok(self.placed(trial, width))
     }
 
-    /// Remembers the share of a placed contact for the next.
+    /// Remembers the near edge of a placed contact, and its share, for the next.
     fn placed(&mut self, trial: Trial<T>, width: T) -> Placed<T> {
-        self.share = (trial.on.right - self.origin) / width;
+        let reaches = reaches(trial.on, self.origin);
+        if reaches[1 - self.near] < T::of(0.125) * reaches[self.near] {
+            self.near = 1 - self.near;
+        }
+        self.share = reaches[self.near] / width;
         Placed::At(trial)
     }
 
@@ -427,6 +445,11 @@ impl<T: Real> Search<'_, T> {
             Err(error) => error,
         }
     }
+}
+
+/// How far a contact reaches to the left and to the right of a point in it.
+fn reaches<T: Real>(on: Interval<T>, origin: T) -> [T; 2] {
+    [origin - on.left, on.right - origin]
 }
 
 fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Excess<T>) -> T) -> Trial<T> {

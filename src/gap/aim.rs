@@ -95,6 +95,11 @@ impl<T: Real> Trace<T> {
         self.knots.inner()
     }
 
+    /// The two ends of the piece.
+    pub fn ends(&self) -> [Knot<T>; 2] {
+        self.knots.ends()
+    }
+
     /// The larger `|Y|` at the ends of the piece.
     pub fn height(&self) -> T {
         let [left, right] = self.knots.ends();

@@ -44,17 +44,28 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// The integrals `∫₀^θ cos kφ dφ`: θ itself, then `sin kθ/k`.
+/// The integrals of `cos kφ` over a stretch of φ; or over that from 0 to θ, which are `sin kθ/k`.
 pub(super) type Sines<T> = [T; MOST + 2];
 
 impl<T: Real> HalfAngle<T> {
-    /// The first `count` of them.
+    /// θ and `π - θ`, the smaller one to all digits.
+    pub fn angles(&self) -> [T; 2] {
+        let twice = |sin: T, cos: T| T::of(2.0) * sin.atan2(cos);
+        if self.sin <= self.cos {
+            let theta = twice(self.sin, self.cos);
+            [theta, T::pi() - theta]
+        } else {
+            let rest = twice(self.cos, self.sin);
+            [T::pi() - rest, rest]
+        }
+    }
+
+    /// Those from 0 to θ, up to k = `count - 1`, but for the one of k = 0.
     pub fn sines(&self, count: usize) -> Sines<T> {
         let two = T::of(2.0);
         let mut sines = [T::zero(); MOST + 2];
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
-        sines[0] = two * self.sin.atan2(self.cos);
         for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {
             *integral = sine * T::of(share);
             (before, sine) = (sine, twice * sine - before);

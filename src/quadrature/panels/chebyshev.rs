@@ -42,14 +42,20 @@ pub(crate) struct Table {
     pub z: [f64; MOST],
     /// `transform[j][k]`: the share of the value at node j in coefficient k.
     transform: [[f64; MOST]; MOST],
+    /// The share of the value at node j in that at the right end.
+    at_end: [f64; MOST],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
 static SKETCH: LazyLock<Table> = LazyLock::new(Table::with_ends);
 
 impl Table {
+    fn empty() -> Self {
+        Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST], at_end: [0.0; MOST] }
+    }
+
     fn new(n: usize) -> Self {
-        let mut table = Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST] };
+        let mut table = Self::empty();
         let angle = |eighths: usize| PI * eighths as f64 / (2 * n) as f64;
         for j in 0..n {
             // sin of a small angle of either sign, so that the nodes are symmetric.
@@ -58,13 +64,14 @@ impl Table {
                 let cosine = angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
                 table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
             }
+            table.at_end[j] = table.transform[j][..n].iter().sum();
         }
         table
     }
 
     /// Four nodes, two of them at the ends.
     fn with_ends() -> Self {
-        let mut table = Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST] };
+        let mut table = Self::empty();
         table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
         for j in 0..4 {
             for k in 0..4 {
@@ -97,6 +104,16 @@ impl Table {
     /// The coefficients of the polynomial with given values at the nodes.
     pub fn coefficients<T: Real>(&self, n: usize, values: &Row<T>) -> Row<T> {
         by_size!(n, N => self.transform::<N, T>(values))
+    }
+
+    /// The polynomial with these values at the nodes, at its left and at its right end.
+    pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
+        let [mut left, mut right] = [T::zero(); 2];
+        for j in 0..N {
+            left = fma(values[N - 1 - j], T::of(self.at_end[j]), left);
+            right = fma(values[j], T::of(self.at_end[j]), right);
+        }
+        [left, right]
     }
 
     /// The larger of the last two coefficients, after that of the two before.

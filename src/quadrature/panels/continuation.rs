@@ -43,8 +43,7 @@ pub(super) fn continued<T: Real>(
     let count = size_for(most) + 1;
     let (mut most_bulk, mut largest) = (zero, zero);
     let mut start = HalfAngle::of(on, on.left);
-    let mut left = [zero; MOST + 2];
-    left[0] = T::pi();
+    let mut left = ([zero; MOST + 2], [T::pi(), zero]);
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
@@ -52,17 +51,20 @@ pub(super) fn continued<T: Real>(
         if i == 0 {
             ends[0] = panel.value(on.left);
         }
-        let mut right = [zero; MOST + 2];
+        let mut right = ([zero; MOST + 2], [zero, T::pi()]);
         let mut end = start;
         if i + 1 < panels.len() {
             end = HalfAngle::of(on, panel.x[1]);
-            right = end.sines(count);
+            right = (end.sines(count), end.angles());
         } else {
             ends[1] = panel.value(on.right);
         }
         largest = largest.max(ends[0].abs()).max(ends[1].abs());
         most_bulk = most_bulk.max(if bulk.is_finite() { bulk } else { T::one() / zero });
-        let integrals = std::array::from_fn(|k| left[k] - right[k]);
+        let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
+        // Between angles near π, their distances from there keep the digits.
+        let [by_angle, by_rest] = [left.1[0] - right.1[0], right.1[1] - left.1[1]];
+        integrals[0] = if right.1[1] < right.1[0] { by_rest } else { by_angle };
         show(&Stretch { panel, is_first: i == 0, start, series, terms, bulk, integrals, ends });
         (start, left) = (end, right);
     }

@@ -12,6 +12,10 @@ const MOST_SPLITS: usize = 4096;
 /// How often a stretch is halved beside a root or the like: what is left is no part of any integral.
 const MOST_LEVELS: usize = 110;
 
+/// How often a stretch is halved to resolve what only the slope at the end of a piece tells of. (A
+/// formula may be wrong there, as signum is at 0.)
+const LEVELS_OF_A_TIP: usize = 40;
+
 /// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
@@ -27,6 +31,8 @@ struct Seen<T> {
     /// What the series of the bodies leave open where their points are not at the nodes. What the two
     /// have in common does not show in the series of the gap.
     off: T,
+    /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
+    missed: T,
 }
 
 /// A panel that may have to be split.
@@ -238,7 +244,8 @@ impl<T: Real> Cover<T> {
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut n = if self.rough { 4 } else { self.initial };
         loop {
-            let (mut panel, Seen { slope, bodies, noise, off }) = self.panel(gap, x, n)?;
+            let (mut panel, seen) = self.panel(gap, x, n)?;
+            let Seen { slope, bodies, noise, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -247,6 +254,12 @@ impl<T: Real> Cover<T> {
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
             let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
             let (tail, next, split) = match verdict {
+                // The first sign of a tip looks like noise.
+                Verdict::Good(tail) | Verdict::Noise(tail)
+                    if level < LEVELS_OF_A_TIP && self.misses_a_tip(missed, allowed.max(tail)) =>
+                {
+                    (tail, None, true)
+                }
                 Verdict::Good(tail) if off > allowed => {
                     let more = SIZES.into_iter().find(|&more| more > n);
                     (tail.max(off), more, true)
@@ -275,6 +288,12 @@ impl<T: Real> Cover<T> {
                 }
             }
         }
+    }
+
+    /// Whether what a panel misses at a joint is more than the noise there: a tip much narrower than
+    /// the panel.
+    fn misses_a_tip(&self, missed: T, noise: T) -> bool {
+        missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
     /// Samples one panel with n nodes.
@@ -309,7 +328,15 @@ impl<T: Real> Cover<T> {
         let mut slopes = [zero; MOST];
         let off = [(&lower, 0), (&upper, 1)]
             .map(|(slopes, i)| left_open(&nodes, &self.traces[i], reach, slopes, self.rough));
-        let mut seen = Seen { slope: zero, bodies: zero, noise: zero, off: off[0].max(off[1]) };
+        let missed = [(&lower, 0), (&upper, 1)]
+            .map(|(slopes, i)| missed_at_ends(x, &self.traces[i], slopes, self.rough));
+        let mut seen = Seen {
+            slope: zero,
+            bodies: zero,
+            noise: zero,
+            off: off[0].max(off[1]),
+            missed: missed[0].max(missed[1]),
+        };
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
             seen.slope = seen.slope.max(slopes[i].abs());
@@ -431,4 +458,22 @@ fn left_open<const N: usize, T: Real>(
         return T::zero();
     }
     off * last * (last / before).min(T::one())
+}
+
+/// By how much the series of a body misses its slopes at the ends of its piece.
+fn missed_at_ends<const N: usize, T: Real>(
+    x: [T; 2],
+    trace: &Trace<T>,
+    slopes: &[T; N],
+    rough: bool,
+) -> T {
+    let known = trace.ends();
+    let is_end = |i: usize| known[i].x == x[i] && known[i].slope.is_finite();
+    if trace.direct || rough || !(is_end(0) || is_end(1)) {
+        return T::zero();
+    }
+    let at_ends = Table::of(N).at_ends(slopes);
+    (0..2)
+        .filter(|&i| is_end(i))
+        .fold(T::zero(), |missed, i| missed.max((at_ends[i] - known[i].slope).abs()))
 }
