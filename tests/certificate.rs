@@ -270,6 +270,32 @@ fn an_asperity_on_both_sides_of_the_margin() {
     }
 }
 
+/// Where an asperity touches but for rounding, either answer is right; the gap it leaves is nothing.
+#[test]
+fn an_asperity_that_touches() {
+    let l = (3.0 / PI).sqrt();
+    let bump = |x: f64| (-64.0 * (x - 1.6) * (x - 1.6)).exp();
+    let gap = |x: f64| {
+        let t = (x / l).acosh();
+        l * l / 2.0 * (t.cosh() * t.sinh() - t)
+    };
+    let at = least(|x| gap(x) / (bump(x) - bump(l)), 1.3, 1.9)[1];
+    for off in [-1e-10, -1e-11, -1e-12, 0.0, 1e-12, 1e-11] {
+        let height = at * (1.0 + off);
+        let body = graph(-3.0, 3.0, move |x| {
+            let bump = height * bump(x);
+            [x * x / 2.0 - bump, x + 128.0 * (x - 1.6) * bump]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let near = match contact.solve(Load::Constant(1.5)).unwrap().certify() {
+            Ok(certificate) => certificate.gap.unwrap(),
+            Err(ContactError::Overlap { x, gap: value }) => Place { x, value },
+            Err(error) => panic!("{error}"),
+        };
+        assert!((near.x - 1.579_545_6).abs() < 1e-5 && near.value.abs() < 1e-10, "{off}: {near:?}");
+    }
+}
+
 #[test]
 fn a_budget_that_is_spent() {
     // Waves beyond the contact that no number of panels resolves.

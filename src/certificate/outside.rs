@@ -58,6 +58,8 @@ pub(super) struct Side<'o, T: Real> {
     height: T,
     y: T,
     pending: T,
+    /// Whether the gap has been open: a least gap of nothing at the edge itself is none.
+    open: bool,
     cells: usize,
     /// The deepest overlap, and the least gap at which the bodies come closer again.
     pub worst: Option<Place<T>>,
@@ -163,7 +165,8 @@ impl<'o, T: Real> Side<'o, T> {
         let zero = T::zero();
         let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);
-        Self { outside, right, strengths, allowed, height, y, pending, worst, closest, cells: 0 }
+        let (open, cells) = (false, 0);
+        Self { outside, right, strengths, allowed, height, y, pending, open, cells, worst, closest }
     }
 
     fn sign(&self) -> T {
@@ -263,13 +266,16 @@ impl<'o, T: Real> Side<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
-        *left_out += length * (panel.tail + T::epsilon() * panel.series[0].abs());
+        let rounding = T::of(16.0) * T::epsilon();
+        *left_out += length * (panel.tail + rounding * panel.series[0].abs());
         let series = panel.coefficients();
         let [own, other] = self.strengths;
+        // A straight flank is as steep as in the contact.
+        let slack = rounding * self.outside.steepest();
         let growing = if self.right {
-            below(series) >= self.outside.slopes[1]
+            below(series) >= self.outside.slopes[1] - slack
         } else {
-            above(series) <= self.outside.slopes[0]
+            above(series) <= self.outside.slopes[0] + slack
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
@@ -281,6 +287,7 @@ impl<'o, T: Real> Side<'o, T> {
         if self.pending != T::zero() {
             let drawn = self.drawn(self.y, from);
             self.height += self.pending - drawn;
+            self.open |= self.height > self.allowed;
             self.pending = T::zero();
         }
         self.bound(panel, [from, to], self.allowed + *left_out, cost)?;
@@ -360,12 +367,13 @@ impl<'o, T: Real> Side<'o, T> {
                 if value < -(allowed + left_out) && less(&self.worst) {
                     self.worst = Some(here);
                 }
-                let turns = s > -T::one() && value.abs() > allowed;
+                let turns = s > -T::one() && (self.open || value.abs() > allowed);
                 if turns && less(&self.closest) {
                     self.closest = Some(here);
                 }
             }
             self.height = heights.iter().fold(T::zero(), |sum, &a| sum + a);
+            self.open |= self.height > allowed;
         }
         Ok(())
     }
