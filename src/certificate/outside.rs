@@ -330,6 +330,9 @@ impl<'o, T: Real> Side<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
+        // How fast g changes: so much of it is lost with the rounding of x.
+        let bends = panel.coefficients().iter().enumerate();
+        let bend = bends.fold(T::zero(), |sum, (k, a)| sum + T::count(k) * a.abs()) / panel.half();
         let mut waiting = vec![(whole, 0)];
         while let Some(([from, to], level)) = waiting.pop() {
             let (middle, reach) = (half * (from + to), half * (to - from));
@@ -341,10 +344,12 @@ impl<'o, T: Real> Side<'o, T> {
             for (value, &z) in values[..NODES].iter_mut().zip(&table.z) {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
-                let g = panel.value(self.edge() + sign * distance);
+                let x = self.edge() + sign * distance;
+                let g = panel.value(x);
                 let [with, without, root] = self.outside.sums(distance, self.right);
                 let opens = sign * (g * without - with) * root * T::frac_1_pi();
-                terms = terms.max((y + y) * g.abs() * reach);
+                let lost = T::of(0.125) * (x.abs() + distance) * bend;
+                terms = terms.max((y + y) * (g.abs() + lost) * reach);
                 *value = ((y + y) * opens + self.singular(distance)) * reach;
             }
             let row = table.coefficients(NODES, &values);
@@ -359,8 +364,14 @@ impl<'o, T: Real> Side<'o, T> {
             }
             let mut heights = integral(rate);
             heights[0] += self.height;
-            if below(rate) < T::zero() {
-                let [s, value] = least(&heights, T::of(1e-3) * allowed);
+            let lowest = below(&heights);
+            let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);
+            if below(rate) < T::zero() && !known {
+                // To what counts, and no further than rounding.
+                let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
+                let rounding = T::of(16.0) * T::epsilon() * rounding;
+                let enough = (T::of(1e-3) * allowed).max(rounding).max(T::of(1e-9) * lowest);
+                let [s, value] = least(&heights, enough);
                 let y = middle + s * reach;
                 let here = Place { x: self.edge() + sign * y * y, value };
                 let less = |than: &Option<Place<T>>| than.is_none_or(|than| value < than.value);
