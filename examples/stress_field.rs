@@ -1,9 +1,13 @@
 //! The stress below a roller on a flat: where the material yields first.
 //!
 //! Run with `cargo run --release --example stress_field`. It prints the greatest shear and the
-//! greatest von Mises stress with their depths, checked against Hertz's solution, and draws the gap
-//! before and after loading, the pressure, and the lines of equal shear below, all in terms of the
-//! half-width L and the peak pressure p₀, to `target/figures/stress_field.svg`.
+//! greatest von Mises stress with their depths, checked against Hertz's solution, and draws the two
+//! bodies before and under load, the pressure, and the lines of equal shear below, all in terms of
+//! the half-width L and the peak pressure p₀, to `target/figures/stress_field.svg`.
+//!
+//! The bodies are of like material, so that each takes half of what the pressure moves their
+//! surfaces apart. How far they approach each other as a whole has no meaning in plane strain without
+//! a place to measure it from: the loaded bodies are drawn with y = 0 at the edges of the contact.
 
 use kuva::prelude::*;
 use linecontact::stress::Subsurface;
@@ -65,17 +69,26 @@ fn draw(
         LinePlot::new().with_data(points).with_color(color).with_stroke_width(2.0)
     };
 
-    // The roller over the flat, in units of L²/R = L².
-    let after = |&x: &f64| {
+    // The roller on the flat, in units of L²/R = L². Of the gap that opens beside the contact over
+    // that of the bodies, and of their common surface in it, each has half.
+    let loaded = |x: f64| {
         let inside = solution.interval().contains(L * x);
-        let gap = if inside { 0.0 } else { solution.gap_at(L * x)? };
-        Ok((x, gap / (L * L)))
+        let gap = if inside { 0.0 } else { solution.gap_at(L * x)? / (L * L) };
+        let [flat, roller] = [0.0, (x * x - 1.0) / 2.0];
+        let moved = 0.5 * (gap - (roller - flat));
+        Ok([flat - moved, roller + moved])
     };
-    let before = line(x.iter().map(|&x| (x, x * x / 2.0)).collect(), RED);
-    let after = line(x.iter().map(after).collect::<Result<_, ContactError<_>>>()?, BLUE);
-    let gap: Vec<Plot> = vec![
-        before.with_dashed().with_legend("before loading").into(),
-        after.with_legend("under load").into(),
+    let loaded: Vec<[f64; 2]> =
+        x.iter().map(|&x| loaded(x)).collect::<Result<_, ContactError<_>>>()?;
+    let under = |i: usize| line(x.iter().zip(&loaded).map(|(&x, y)| (x, y[i])).collect(), BLUE);
+    let before = |height: fn(f64) -> f64| {
+        line(x.iter().map(|&x| (x, height(x))).collect(), RED).with_dashed()
+    };
+    let bodies: Vec<Plot> = vec![
+        before(|_| 0.0).with_legend("before loading").into(),
+        before(|x| x * x / 2.0).into(),
+        under(0).with_legend("under load").into(),
+        under(1).into(),
     ];
     let pressure = solution.pressure()?;
     let share = |&x: &f64| Ok((x, pressure.estimate(L * x, &mut Cost::default())?.value / p0));
@@ -83,7 +96,7 @@ fn draw(
         vec![line(x.iter().map(share).collect::<Result<_, ContactError<_>>>()?, BLUE).into()];
 
     let across: Vec<f64> = (-75..=75).map(|i| REACH * f64::from(i) / 75.0).collect();
-    let up: Vec<f64> = (0..=75).rev().map(|i| -0.005 - 2.495 * f64::from(i) / 75.0).collect();
+    let up: Vec<f64> = (0..=75).rev().map(|i| -REACH * f64::from(i) / 75.0).collect();
     let row = |&y: &f64| {
         let shear = |&x: &f64| Ok(below.at(L * x, -L * y)?.max_shear() / p0);
         across.iter().map(shear).collect::<Result<Vec<f64>, ContactError<f64>>>()
@@ -98,15 +111,14 @@ fn draw(
         layout.with_x_axis_min(-REACH).with_x_axis_max(REACH).with_box_axes()
     };
     let layouts = vec![
-        framed(&gap, "Gap between the bodies", "gap R/L²")
-            .with_y_axis_min(0.0)
+        framed(&bodies, "The two bodies (under load: from the edges of the contact)", "y R/L²")
             .with_legend_position(LegendPosition::InsideTopCenter),
         framed(&pressure, "Pressure", "P/p₀").with_y_axis_min(0.0),
         framed(&field, "Largest shear stress, 0.02 p₀ from line to line", "−depth/L")
             .with_x_label("x/L")
             .with_y_axis_min(-REACH),
     ];
-    let figure = Figure::new(3, 1).with_plots(vec![gap, pressure, field]).with_layouts(layouts);
+    let figure = Figure::new(3, 1).with_plots(vec![bodies, pressure, field]).with_layouts(layouts);
     let figure = figure.with_cell_size(640.0, 260.0).with_row_height(2, 420.0).with_shared_x_all();
     fs::create_dir_all("target/figures")?;
     fs::write("target/figures/stress_field.svg", SvgBackend.render_scene(&figure.render()))?;

@@ -36,10 +36,10 @@ pub struct Certificate<T> {
     /// the root of a distance at an edge that is not free. `None` where the slope of the
     /// gap rises throughout the contact, which says that `P > 0`, and between adhesive edges.
     pub pressure: Option<Place<T>>,
-    /// The least gap at a place outside where the bodies approach each other again, a length; `None`
-    /// where the gap grows on both sides up to the ends.
+    /// The least gap at a place outside where the bodies approach each other again, a length, negative
+    /// by no more than rounding; `None` where the gap grows on both sides up to the ends.
     pub gap: Option<Place<T>>,
-    /// The longest cell, a length: what is a fifth as wide, or more, cannot have passed unseen.
+    /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
     pub spacing: T,
     /// What it has cost.
     pub cost: Cost,

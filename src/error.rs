@@ -259,8 +259,8 @@ pub enum ContactError<T: Real> {
         /// The peak pressure there; infinite where an edge is sharp or a slope jumps.
         found: T,
     },
-    /// A point is not below the surface, or not finite.
-    #[error("no stress at x = {x:?}, depth {depth:?}: both must be finite, the depth positive")]
+    /// A point is above the surface, or not finite.
+    #[error("no stress at x = {x:?}, depth {depth:?}: both must be finite, the depth not negative")]
     AboveSurface {
         /// Abscissa.
         x: T,

@@ -25,7 +25,8 @@ const MOST_PANELS: usize = 20_000;
 /// The pressure of a contact, ready to be integrated.
 pub(crate) struct Integrals<'p, T: Real> {
     pub pressure: Pressure<'p, T>,
-    joints: Vec<T>,
+    /// Of the contact, rising.
+    pub joints: Vec<T>,
     /// Whether `P w` vanishes at a and at -b.
     free: [bool; 2],
 }
@@ -44,6 +45,17 @@ impl<'p, T: Real> Integrals<'p, T> {
         x: T,
         kernel: impl Fn(T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
+        self.over_as_of(T::zero(), x, kernel)
+    }
+
+    /// The same to no more than the tolerance of an integral of this size: for a kernel that may be
+    /// the rounding of a difference and nothing else.
+    pub fn over_as_of<const N: usize>(
+        &self,
+        least: T,
+        x: T,
+        kernel: impl Fn(T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
         let view = View::new(self.pressure.interval(), x);
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
@@ -53,6 +65,8 @@ impl<'p, T: Real> Integrals<'p, T> {
             pending.push(panel);
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
+        // Below the least normal number, which is about that, there are fewer digits.
+        let least = T::max_value().map_or(least, |max| least.max(max.recip()));
         let mut left = MOST_PANELS;
         while let Some(panel) = pending.pop() {
             let [from, to] = panel.ends;
@@ -67,7 +81,7 @@ impl<'p, T: Real> Integrals<'p, T> {
             for i in 0..N {
                 refined[i] = halves[0].sum[i] + halves[1].sum[i];
                 size[i] += halves[0].size[i] + halves[1].size[i] - panel.size[i];
-                let allowed = tolerance * size[i] + noise * panel.size[i];
+                let allowed = tolerance * size[i].max(least) + noise * panel.size[i];
                 agreed &= (refined[i] - panel.sum[i]).abs() <= allowed;
             }
             if agreed {

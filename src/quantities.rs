@@ -59,23 +59,34 @@ impl<T: Real> Solution<'_, T> {
     /// largest x of the contact; beside a kink of the slope up to 1e-12 of F L.
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`].
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
+    /// [`ContactError::Overflow`].
     pub fn moment(&self) -> Result<T, ContactError<T>> {
-        let centre = self.interval().centre();
-        let [moment] = Integrals::new(self)?.over(centre, |d, strength| [-d * strength])?;
-        Ok(centre * self.load() + moment)
+        let interval = self.interval();
+        let moment = interval.half_width() * self.moment_by_half_width()?;
+        if moment.is_finite() { Ok(moment) } else { Err(ContactError::Overflow { interval }) }
     }
 
     /// Centre of pressure, `∫ x P dx/F`: where the load acts.
     ///
     /// # Errors
-    /// Those of [`moment`](Self::moment); [`ContactError::Load`] where F is zero.
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`]; [`ContactError::Load`]
+    /// where F is zero.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load();
         if load.is_zero() {
             return Err(ContactError::Load { load });
         }
-        Ok(self.moment()? / load)
+        Ok(self.interval().half_width() * (self.moment_by_half_width()? / load))
+    }
+
+    /// A force: a moment may be beyond the numbers where the centre of pressure is not.
+    fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
+        let on = self.interval();
+        let (centre, half_width) = (on.centre(), on.half_width());
+        let share = |distance: T, strength: T| [-(distance / half_width) * strength];
+        let [about_centre] = Integrals::new(self)?.over(centre, share)?;
+        Ok(centre / half_width * self.load() + about_centre)
     }
 
     /// The derivatives of pressure and limits by the load.
@@ -140,7 +151,9 @@ impl<T: Real> Solution<'_, T> {
         }
         let at_x = at_x[0] * interval.edge_root(x);
         // PV∫ ds/((x - s) w(s)) is zero.
-        let [sum] = integrals.over(x, |distance, strength| [(strength - at_x) / distance])?;
+        let difference = |distance: T, strength: T| [(strength - at_x) / distance];
+        let size = at_x.abs() / interval.half_width();
+        let [sum] = integrals.over_as_of(size, x, difference)?;
         let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;
         Ok(sum - self.scale() * slope)
     }

@@ -9,8 +9,13 @@
 //! ```
 //!
 //! (Johnson, *Contact Mechanics*, 1985, Eqs. 2.23a to c). Tension is positive, y points into the
-//! body, and q acts on the surface in the direction of positive x. At y = 0 inside the contact
-//! `σ_y = -P` and `τ_xy = -μ P`.
+//! body, and q acts on the surface in the direction of positive x. On the surface itself
+//!
+//! ```text
+//! σ_x = -P - 2 μ/π PV∫ P(s)/(x - s) ds,   σ_y = -P,   τ_xy = -μ P
+//! ```
+//!
+//! where the integral is κ g(x) inside the contact, by the equation that is solved.
 //!
 //! **Either body.** Without friction both bodies have the same stress at the same depth. With it the
 //! traction on the other body is opposite: where the upper body slides towards positive x over the
@@ -19,10 +24,11 @@
 //!
 //! **Accuracy.** None of the A is a difference of large numbers, and the panels that they are
 //! integrated on shrink towards x as far as y asks for. So the stress is good to some units in the
-//! last place of the pressure however small y is, with three exceptions. Where the slope of a body has
+//! last place of the pressure however small y is, with four exceptions. Where the slope of a body has
 //! a kink it is good to about 1e-11 of the pressure. Below a jump of the slope it is no better than the
 //! rounding of x as a share of y. At a distance d from a free edge, what rounding leaves open of the
-//! limits adds `sqrt(L/d)` units. A value takes some tens of microseconds.
+//! limits adds `sqrt(L/d)` units. With friction A₃, which is an integral of either sign, loses
+//! `ln(L/y)` units; not so at y = 0. A value takes some tens of microseconds.
 //!
 //! ```
 //! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
@@ -41,6 +47,7 @@
 
 mod search;
 
+use crate::gap::Sampler;
 use crate::integral::Integrals;
 use crate::{ContactError, Interval, Real, Solution};
 
@@ -102,12 +109,9 @@ fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
 
 /// The stress below a contact: [`Solution::subsurface`].
 pub struct Subsurface<'p, T: Real> {
+    solution: &'p Solution<'p, T>,
     integrals: Integrals<'p, T>,
     friction: T,
-    /// K_a and K_b, zero where the limits were sought by that.
-    strengths: [T; 2],
-    /// Mean pressure.
-    mean: T,
 }
 
 /// A largest stress and its place.
@@ -127,10 +131,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
-        let found = self.found();
-        let at = |i: usize| if found.free[i] { T::zero() } else { found.strengths[i] };
-        let (strengths, friction, mean) = ([at(0), at(1)], T::zero(), self.mean_pressure());
-        Ok(Subsurface { integrals: Integrals::new(self)?, friction, strengths, mean })
+        Ok(Subsurface { solution: self, integrals: Integrals::new(self)?, friction: T::zero() })
     }
 }
 
@@ -147,14 +148,18 @@ impl<T: Real> Subsurface<'_, T> {
         Ok(Self { friction: coefficient, ..self })
     }
 
-    /// The stress at any x, at a positive depth.
+    /// The stress at any x, at any depth from zero on.
     ///
     /// # Errors
-    /// [`ContactError::AboveSurface`] for a depth that is not positive, and what is not finite;
+    /// [`ContactError::AboveSurface`] for a negative depth, and what is not finite;
+    /// [`ContactError::Singular`] on the surface where the pressure is infinite;
     /// [`ContactError::Integral`]; those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
-        if !(x.is_finite() && depth.is_finite() && depth > T::zero()) {
+        if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(ContactError::AboveSurface { x, depth });
+        }
+        if depth.is_zero() {
+            return self.on_surface(x);
         }
         let moments = self.integrals.over(x, |distance, strength| {
             let radius = distance.hypot(depth);
@@ -166,6 +171,36 @@ impl<T: Real> Subsurface<'_, T> {
         let [a0, a1, a2, a3] = moments.map(|moment| -T::of(2.0) * T::frac_1_pi() * moment);
         let mu = self.friction;
         Ok(Stress { sigma_x: a2 + mu * a3, sigma_y: a0 + mu * a1, tau_xy: a1 + mu * a2 })
+    }
+
+    /// The limit of the stress as the depth goes to zero.
+    fn on_surface(&self, x: T) -> Result<Stress<T>, ContactError<T>> {
+        let Interval { left, right } = self.interval();
+        let touches = x >= left && x <= right;
+        let mut pressure = [T::zero()];
+        if self.interval().contains(x) {
+            self.integrals.pressure.values(&[x], &mut pressure)?;
+        }
+        let [free_a, free_b] = self.solution.found().free;
+        let infinite = (x == left && !free_b) || (x == right && !free_a);
+        let [pressure] = pressure;
+        if infinite || !pressure.is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        let pull = if self.friction.is_zero() {
+            T::zero()
+        } else if touches {
+            // An edge may have been rounded to beyond the end of a body that it lies at.
+            let gap = self.solution.gap();
+            let [from, to] = gap.range();
+            self.solution.scale() * Sampler::default().slope(gap, x.max(from).min(to))?
+        } else {
+            let [pull] = self.integrals.over(x, |distance, strength| [strength / distance])?;
+            pull
+        };
+        let along = T::of(2.0) * T::frac_1_pi() * self.friction * pull;
+        let tau_xy = -self.friction * pressure;
+        Ok(Stress { sigma_x: -pressure - along, sigma_y: -pressure, tau_xy })
     }
 
     /// The contact.

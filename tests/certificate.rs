@@ -270,6 +270,59 @@ fn an_asperity_on_both_sides_of_the_margin() {
     }
 }
 
+/// As narrow as is promised, anywhere, and far higher than the gap: found, and in no time.
+#[test]
+fn tall_narrow_asperities() {
+    let start = std::time::Instant::now();
+    let width = 20.0 / 4096.0 / 4.0;
+    for i in 0..60 {
+        // Places that have nothing to do with each other.
+        let at = 0.5 + 9.4 * (0.618_033_988_75 * f64::from(i)).fract();
+        let at = if i % 2 == 0 { at } else { -at };
+        let body = graph(-10.0, 10.0, move |x| {
+            let s = (x - at) / (width / 2.0);
+            let [bump, slope] = if s.abs() < 1.0 {
+                [(1.0 - s * s).powi(4), -8.0 * s * (1.0 - s * s).powi(3) / (width / 2.0)]
+            } else {
+                [0.0; 2]
+            };
+            [x * x / 2.0 - 0.75 * at * at * bump, x - 0.75 * at * at * slope]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let found = contact.solve(Load::PerLength(0.02)).unwrap().certify();
+        let Err(ContactError::Overlap { x, .. }) = found else { panic!("{at}: {found:?}") };
+        assert!((x - at).abs() < width, "{at}: {found:?}");
+    }
+    // It was seconds for each.
+    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
+}
+
+/// Where an asperity touches but for rounding, either answer is right; the gap it leaves is nothing.
+#[test]
+fn an_asperity_that_touches() {
+    let l = (3.0 / PI).sqrt();
+    let bump = |x: f64| (-64.0 * (x - 1.6) * (x - 1.6)).exp();
+    let gap = |x: f64| {
+        let t = (x / l).acosh();
+        l * l / 2.0 * (t.cosh() * t.sinh() - t)
+    };
+    let at = least(|x| gap(x) / (bump(x) - bump(l)), 1.3, 1.9)[1];
+    for off in [-1e-10, -1e-11, -1e-12, 0.0, 1e-12, 1e-11] {
+        let height = at * (1.0 + off);
+        let body = graph(-3.0, 3.0, move |x| {
+            let bump = height * bump(x);
+            [x * x / 2.0 - bump, x + 128.0 * (x - 1.6) * bump]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let near = match contact.solve(Load::Constant(1.5)).unwrap().certify() {
+            Ok(certificate) => certificate.gap.unwrap(),
+            Err(ContactError::Overlap { x, gap: value }) => Place { x, value },
+            Err(error) => panic!("{error}"),
+        };
+        assert!((near.x - 1.579_545_6).abs() < 1e-5 && near.value.abs() < 1e-10, "{off}: {near:?}");
+    }
+}
+
 #[test]
 fn a_budget_that_is_spent() {
     // Waves beyond the contact that no number of panels resolves.

@@ -357,6 +357,56 @@ fn parameters_that_make_no_sense_are_refused() {
     assert_eq!(error, ReferenceError::PullOff { load: -1.6, least: -1.5 });
 }
 
+/// The same bodies in other units: everything goes with them, also where a power of a length is
+/// beyond the numbers.
+#[test]
+fn other_units() {
+    let forms = |u: f64| -> Vec<Box<dyn ClosedForm<f64>>> {
+        let f = 0.2 * u;
+        vec![
+            Box::new(Hertz::under_load(1.3 * u, f, KAPPA).unwrap()),
+            Box::new(Jkr::under_load(1.3 * u, 0.3 * u, f, KAPPA).unwrap()),
+            Box::new(Jkr::under_load(1.3 * u, 0.3 * u, -f, KAPPA).unwrap()),
+            Box::new(PowerLaw::under_load(0.4 / u / u, 3.0, f, KAPPA).unwrap()),
+            Box::new(PowerLaw::under_load(0.4 / u.sqrt(), 1.5, f, KAPPA).unwrap()),
+            Box::new(Biquadratic::under_load(1.3 * u, 0.0, f, KAPPA).unwrap()),
+            Box::new(Biquadratic::new(1.3 * u, 0.0, 0.7 * u).unwrap()),
+            Box::new(UnequalRadii::under_load(0.3 * u, 5.0 * u, f, KAPPA).unwrap()),
+            Box::new(RoundedPunch::under_load(0.3 * u, 5.0 * u, f, KAPPA).unwrap()),
+            Box::new(FlatPunch::under_load(0.3 * u, 0.1, f, KAPPA).unwrap()),
+            Box::new(Wedge::under_load(0.3, 0.7, f, KAPPA).unwrap()),
+            Box::new(Ellipse::circle(u, 0.99 * u).unwrap()),
+            Box::new(Hyperbola::new(0.3, 0.2 * u, u).unwrap()),
+            Box::new(Exponential::new(0.3 * u, 0.2 * u, u).unwrap()),
+            Box::new(Cosine::new(0.3 * u, 5.0 * u, u).unwrap()),
+        ]
+    };
+    for power in [-510, -400, 400, 508] {
+        let unit = 2f64.powi(power);
+        for (i, (ours, other)) in forms(1.0).iter().zip(forms(unit)).enumerate() {
+            let close = |got: f64, want: f64| {
+                assert_relative_eq!(got, want, epsilon = 0.0, max_relative = 4e-15);
+            };
+            close(other.limits().right / unit, ours.limits().right);
+            close(other.load(KAPPA) / unit, ours.load(KAPPA));
+            let x = 0.3 * ours.limits().right;
+            println!("{i} in units of 2^{power}");
+            close(other.pressure(x * unit, KAPPA), ours.pressure(x, KAPPA));
+            close(other.height(x * unit) / unit, ours.height(x));
+            close(other.slope(x * unit), ours.slope(x));
+        }
+    }
+    // A quartic as strong as its parabola, near 2^340 and 2^-340.
+    for unit in [2f64.powi(330), 2f64.powi(-330)] {
+        let cubed = unit * unit * unit;
+        let other = Biquadratic::under_load(1.3 * unit, -0.01 / cubed, 0.2 * unit, KAPPA).unwrap();
+        let ours = Biquadratic::under_load(1.3, -0.01, 0.2, KAPPA).unwrap();
+        assert_eq!(other.limits().right / unit, ours.limits().right);
+        assert_eq!(other.pressure(0.1 * unit, KAPPA), ours.pressure(0.1, KAPPA));
+        assert_eq!(other.height(0.1 * unit) / unit, ours.height(0.1));
+    }
+}
+
 #[test]
 fn extreme_parameters_give_finite_answers() {
     let forms: [Box<dyn ClosedForm<f64>>; 14] = [

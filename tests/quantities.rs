@@ -74,6 +74,49 @@ fn a_tilted_punch_is_pressed_off_centre() {
     assert!((rates.pressure(0.3).unwrap() * PI * 0.4 - 1.0).abs() < 1e-15);
 }
 
+/// There the difference that is integrated is nothing but rounding.
+#[test]
+fn flat_punches_meet_the_equation() {
+    for (load, slope) in [(0.02, 0.0), (1e-300, 0.0), (-0.1, 0.0), (0.7, 1e-13), (0.7, 0.1)] {
+        let flat = graph(-2.0, 2.0, move |x| [slope * x, slope]);
+        let contact = Contact::new(&Flat, &*flat).unwrap().kappa(KAPPA);
+        let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
+        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        for x in [-0.49, 0.0, 0.05, 0.3] {
+            let residual = solution.residual(x).unwrap();
+            assert!(
+                residual.abs() < 1e-12 * solution.mean_pressure().abs(),
+                "{load}: {residual:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_centre_of_pressure_at_either_end_of_the_numbers() {
+    // x²/2 and more on the right: the same bodies in other units, and other moduli.
+    let scene = |unit: f64, kappa: f64| {
+        let body = graph(-unit, unit, move |x| {
+            let z = x / unit;
+            [unit * z * z * (0.5 + 0.3 * z), z * (1.0 + 0.9 * z)]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(kappa);
+        let solution = contact.solve(Load::PerLength(0.02 * unit * kappa)).unwrap();
+        let moment = solution.moment().map(|moment| moment / solution.load() / unit);
+        (solution.centre_of_pressure().unwrap() / unit, moment)
+    };
+    let (centre, moment) = scene(1.0, 1.0);
+    assert!((moment.unwrap() / centre - 1.0).abs() < 1e-14);
+    for (length, modulus) in [(-500, 0), (-500, -300), (500, 300), (-500, 500), (0, 900)] {
+        let (got, moment) = scene(2f64.powi(length), 2f64.powi(modulus));
+        assert_eq!(got, centre, "{length}, {modulus}");
+        // The moment may be beyond the numbers.
+        if 2 * length + modulus > 1023 {
+            assert!(matches!(moment, Err(ContactError::Overflow { .. })), "{moment:?}");
+        }
+    }
+}
+
 /// Central differences of solves, by Richardson's rule.
 fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
     let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);

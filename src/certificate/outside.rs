@@ -58,6 +58,8 @@ pub(super) struct Side<'o, T: Real> {
     height: T,
     y: T,
     pending: T,
+    /// Whether the gap has been open: a least gap of nothing at the edge itself is none.
+    open: bool,
     cells: usize,
     /// The deepest overlap, and the least gap at which the bodies come closer again.
     pub worst: Option<Place<T>>,
@@ -163,7 +165,8 @@ impl<'o, T: Real> Side<'o, T> {
         let zero = T::zero();
         let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);
-        Self { outside, right, strengths, allowed, height, y, pending, worst, closest, cells: 0 }
+        let (open, cells) = (false, 0);
+        Self { outside, right, strengths, allowed, height, y, pending, open, cells, worst, closest }
     }
 
     fn sign(&self) -> T {
@@ -263,13 +266,16 @@ impl<'o, T: Real> Side<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
-        *left_out += length * (panel.tail + T::epsilon() * panel.series[0].abs());
+        let rounding = T::of(16.0) * T::epsilon();
+        *left_out += length * (panel.tail + rounding * panel.series[0].abs());
         let series = panel.coefficients();
         let [own, other] = self.strengths;
+        // A straight flank is as steep as in the contact.
+        let slack = rounding * self.outside.steepest();
         let growing = if self.right {
-            below(series) >= self.outside.slopes[1]
+            below(series) >= self.outside.slopes[1] - slack
         } else {
-            above(series) <= self.outside.slopes[0]
+            above(series) <= self.outside.slopes[0] + slack
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
@@ -281,6 +287,7 @@ impl<'o, T: Real> Side<'o, T> {
         if self.pending != T::zero() {
             let drawn = self.drawn(self.y, from);
             self.height += self.pending - drawn;
+            self.open |= self.height > self.allowed;
             self.pending = T::zero();
         }
         self.bound(panel, [from, to], self.allowed + *left_out, cost)?;
@@ -323,6 +330,9 @@ impl<'o, T: Real> Side<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
+        // How fast g changes: so much of it is lost with the rounding of x.
+        let bends = panel.coefficients().iter().enumerate();
+        let bend = bends.fold(T::zero(), |sum, (k, a)| sum + T::count(k) * a.abs()) / panel.half();
         let mut waiting = vec![(whole, 0)];
         while let Some(([from, to], level)) = waiting.pop() {
             let (middle, reach) = (half * (from + to), half * (to - from));
@@ -334,10 +344,12 @@ impl<'o, T: Real> Side<'o, T> {
             for (value, &z) in values[..NODES].iter_mut().zip(&table.z) {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
-                let g = panel.value(self.edge() + sign * distance);
+                let x = self.edge() + sign * distance;
+                let g = panel.value(x);
                 let [with, without, root] = self.outside.sums(distance, self.right);
                 let opens = sign * (g * without - with) * root * T::frac_1_pi();
-                terms = terms.max((y + y) * g.abs() * reach);
+                let lost = T::of(0.125) * (x.abs() + distance) * bend;
+                terms = terms.max((y + y) * (g.abs() + lost) * reach);
                 *value = ((y + y) * opens + self.singular(distance)) * reach;
             }
             let row = table.coefficients(NODES, &values);
@@ -352,20 +364,27 @@ impl<'o, T: Real> Side<'o, T> {
             }
             let mut heights = integral(rate);
             heights[0] += self.height;
-            if below(rate) < T::zero() {
-                let [s, value] = least(&heights, T::of(1e-3) * allowed);
+            let lowest = below(&heights);
+            let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);
+            if below(rate) < T::zero() && !known {
+                // To what counts, and no further than rounding.
+                let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
+                let rounding = T::of(16.0) * T::epsilon() * rounding;
+                let enough = (T::of(1e-3) * allowed).max(rounding).max(T::of(1e-9) * lowest);
+                let [s, value] = least(&heights, enough);
                 let y = middle + s * reach;
                 let here = Place { x: self.edge() + sign * y * y, value };
                 let less = |than: &Option<Place<T>>| than.is_none_or(|than| value < than.value);
                 if value < -(allowed + left_out) && less(&self.worst) {
                     self.worst = Some(here);
                 }
-                let turns = s > -T::one() && value.abs() > allowed;
+                let turns = s > -T::one() && (self.open || value.abs() > allowed);
                 if turns && less(&self.closest) {
                     self.closest = Some(here);
                 }
             }
             self.height = heights.iter().fold(T::zero(), |sum, &a| sum + a);
+            self.open |= self.height > allowed;
         }
         Ok(())
     }

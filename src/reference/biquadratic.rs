@@ -46,11 +46,10 @@ impl<T: Real> Biquadratic<T> {
         positive("the load", load)?;
         positive("κ", kappa)?;
         // v + v² 6 B R · (F R/κ) = 1 for v = κ L²/(2 F R).
-        let (one, two) = (T::one(), T::of(2.0));
-        let share = load / kappa * radius;
-        let root = one + T::of(24.0) * quartic * radius * share;
+        let (one, two, pressed) = (T::one(), T::of(2.0), load / kappa);
+        let root = one + T::of(24.0) * quartic * radius * pressed * radius;
         check("the load", load, root > T::zero(), "no more than -κ/(24 B R²)")?;
-        Self::new(radius, quartic, two * (share / (one + root.sqrt())).sqrt())
+        Self::new(radius, quartic, two * (pressed / (one + root.sqrt())).sqrt() * radius.sqrt())
     }
 }
 
@@ -60,24 +59,25 @@ impl<T: Real> ClosedForm<T> for Biquadratic<T> {
     }
 
     fn load(&self, kappa: T) -> T {
-        let square = self.half_width * self.half_width;
-        T::of(0.5) * kappa * square * (self.radius.recip() + T::of(3.0) * self.quartic * square)
+        let l = self.half_width;
+        T::of(0.5) * kappa * l * (l / self.radius + T::of(3.0) * self.quartic * l * l * l)
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, two) = (self.limits(), T::of(2.0));
+        let (limits, l, two) = (self.limits(), self.half_width, T::of(2.0));
         if outside(limits, x) {
             return T::zero();
         }
-        let square = self.half_width * self.half_width + two * x * x;
-        kappa / T::pi() * limits.edge_root(x) * (self.radius.recip() + two * self.quartic * square)
+        let root = limits.edge_root(x);
+        let quartic = self.quartic * root * l * l + two * self.quartic * root * x * x;
+        kappa / T::pi() * (root / self.radius + two * quartic)
     }
 
     fn height(&self, x: T) -> T {
-        x * x * (T::of(0.5) / self.radius + self.quartic * x * x)
+        x * (T::of(0.5) * x / self.radius + self.quartic * x * x * x)
     }
 
     fn slope(&self, x: T) -> T {
-        x * (self.radius.recip() + T::of(4.0) * self.quartic * x * x)
+        x / self.radius + T::of(4.0) * self.quartic * x * x * x
     }
 }

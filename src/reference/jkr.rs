@@ -45,7 +45,7 @@ impl<T: Real> Jkr<T> {
         positive("κ", kappa)?;
         check("the load", load, true, "finite")?;
         let [three, four, six] = [3.0, 4.0, 6.0].map(T::of);
-        let narrowest = (radius * (work / kappa) * radius).cbrt();
+        let narrowest = radius * (work / kappa / radius).cbrt();
         let unit = T::of(0.5) * kappa * (narrowest / radius) * narrowest;
         let excess = load / unit + three;
         if excess < T::zero() {
@@ -62,7 +62,7 @@ impl<T: Real> Jkr<T> {
 
     /// `2 sqrt(κ w L)`.
     fn pull(&self, kappa: T) -> T {
-        T::of(2.0) * kappa.sqrt() * (self.work * self.half_width).sqrt()
+        T::of(2.0) * kappa.sqrt() * self.work.sqrt() * self.half_width.sqrt()
     }
 }
 

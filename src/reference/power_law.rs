@@ -48,9 +48,19 @@ impl<T: Real> PowerLaw<T> {
         Self::new(coefficient, exponent, T::one())?;
         positive("the load", load)?;
         positive("κ", kappa)?;
-        let two = T::of(2.0);
-        let factor = load * T::pi() / (two * kappa * exponent * coefficient * wallis(exponent));
-        Self::new(coefficient, exponent, factor.powf(exponent.recip()))
+        // Lⁿ itself may be beyond the numbers.
+        let root = |value: T| value.powf(exponent.recip());
+        let constant = T::frac_pi_2() / (exponent * wallis(exponent));
+        let start = root(load / kappa) * root(constant) / root(coefficient);
+        // A rounded 1/n makes up to a hundred units of it, which one step of Newton's method mends.
+        let excess = load / Self::new(coefficient, exponent, start)?.load(kappa) - T::one();
+        Self::new(coefficient, exponent, start + start * excess / exponent)
+    }
+
+    /// `A xⁿ` for another n; as xⁿ alone may be beyond the numbers, by its square root.
+    fn times_power(&self, x: T, exponent: T) -> T {
+        let root = x.powf(T::of(0.5) * exponent);
+        self.coefficient * root * root
     }
 }
 
@@ -61,8 +71,8 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
 
     fn load(&self, kappa: T) -> T {
         let n = self.exponent;
-        let power = self.half_width.powf(n);
-        T::of(2.0) * kappa * n * self.coefficient * power * wallis(n) / T::pi()
+        let power = self.times_power(self.half_width, n);
+        T::of(2.0) * kappa * n * power * wallis(n) / T::pi()
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
@@ -75,12 +85,12 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
     }
 
     fn height(&self, x: T) -> T {
-        self.coefficient * x.abs().powf(self.exponent)
+        self.times_power(x.abs(), self.exponent)
     }
 
     fn slope(&self, x: T) -> T {
         let (n, one) = (self.exponent, T::one());
-        let slope = n * self.coefficient * x.abs().powf(n - one);
+        let slope = n * self.times_power(x.abs(), n - one);
         if x < T::zero() { -slope } else { slope }
     }
 

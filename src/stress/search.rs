@@ -1,37 +1,70 @@
 //! Where the stress is largest.
 
-use super::{Stress, StressPeak, Subsurface};
+use super::{Stress, StressPeak, Subsurface, checked_ratio};
 use crate::{ContactError, Interval, Real};
 
 /// Abscissae and depths of the first look.
 const COLUMNS: usize = 33;
 const ROWS: usize = 32;
 
-/// The depths looked at, in half-widths.
+/// The depths looked at, in half-widths; the least stands for the surface.
 const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
 
 impl<T: Real> Subsurface<'_, T> {
     /// The largest shear stress in the plane, as far as a grid of 33 abscissae, from half a half-width
-    /// beyond either edge, and 32 depths from a millionth of the half-width to four of them shows
-    /// which maximum is the largest. Its value has nearly all digits, its place half of them.
+    /// beyond either edge, and 32 depths from the surface to four half-widths shows which maximum is
+    /// the largest. Its value has nearly all digits, its place half of them.
     ///
-    /// At the least depth it stands for a maximum on the surface itself, where strong friction puts
-    /// it.
+    /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
+    /// the depth goes to zero: then the depth is about a millionth of the half-width.
     ///
     /// # Errors
-    /// [`ContactError::Singular`] where the stress is infinite, at an edge where the pressure is; those
-    /// of [`at`](Self::at).
+    /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and
+    /// with friction also where the slope of the gap jumps; those of [`at`](Self::at).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+        self.check_edges()?;
+        if !self.friction.is_zero() {
+            self.check_joints()?;
+        }
         self.largest(|stress| Ok(stress.max_shear()))
     }
 
     /// The largest equivalent stress of von Mises, found in the same way.
     ///
     /// # Errors
-    /// As [`max_shear`](Self::max_shear); [`ContactError::PoissonRatio`].
+    /// As [`max_shear`](Self::max_shear), and without friction, too, where the slope of the gap jumps,
+    /// unless ν is 1/2; [`ContactError::PoissonRatio`].
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
+        let poisson = checked_ratio(poisson)?;
+        self.check_edges()?;
+        if !(self.friction.is_zero() && poisson == T::of(0.5)) {
+            self.check_joints()?;
+        }
         self.largest(|stress| stress.von_mises(poisson))
+    }
+
+    /// Refuses edges at which all stress is infinite.
+    fn check_edges(&self) -> Result<(), ContactError<T>> {
+        let (found, Interval { left, right }) = (self.solution.found(), self.interval());
+        let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
+        for (i, x) in [right, left].into_iter().enumerate() {
+            if !found.free[i] && found.strengths[i].abs() > least {
+                return Err(ContactError::Singular { x });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses joints at which the pressure is infinite.
+    fn check_joints(&self) -> Result<(), ContactError<T>> {
+        let joints = &self.integrals.joints;
+        let mut pressures = vec![T::zero(); joints.len()];
+        self.integrals.pressure.values(joints, &mut pressures)?;
+        match joints.iter().zip(&pressures).find(|(_, pressure)| !pressure.is_finite()) {
+            Some((&x, _)) => Err(ContactError::Singular { x }),
+            None => Ok(()),
+        }
     }
 
     fn largest(
@@ -39,18 +72,18 @@ impl<T: Real> Subsurface<'_, T> {
         value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
     ) -> Result<StressPeak<T>, ContactError<T>> {
         let on = self.interval();
-        let Interval { left, right } = on;
-        for (x, strength) in [(right, self.strengths[0]), (left, self.strengths[1])] {
-            if strength.abs() > T::of(64.0) * T::epsilon() * self.mean.abs() {
-                return Err(ContactError::Singular { x });
-            }
-        }
         let (centre, half_width) = (on.centre(), on.half_width());
         // By places in half-widths, the depth by its logarithm.
         let [shallowest, deepest] = [SHALLOWEST, DEEPEST].map(|depth| T::of(depth.ln()));
         let peak = |[along, down]: [T; 2]| {
-            let (x, depth) = (centre + half_width * along, half_width * down.exp());
-            Ok(StressPeak { x, depth, value: value(self.at(x, depth)?)? })
+            let depth = if down > shallowest { half_width * down.exp() } else { T::zero() };
+            let x = centre + half_width * along;
+            match self.at(x, depth) {
+                Ok(stress) => Ok(StressPeak { x, depth, value: value(stress)? }),
+                // Shear that is bounded, or an edge whose strength is nothing but rounding.
+                Err(ContactError::Singular { .. }) => Ok(StressPeak { x, depth, value: -T::one() }),
+                Err(error) => Err(error),
+            }
         };
         let step = [3.0 / (COLUMNS - 1) as f64, (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64];
         let [mut across, mut deeper] = step.map(T::of);
