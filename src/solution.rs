@@ -137,10 +137,13 @@ impl<'s, T: Real> Solution<'s, T> {
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
         let cost = self.engine.engine().complete(self.gap)?;
         let (gap, Found { interval: on, load, error, force, .. }) = (self.gap, self.found);
-        let of_limits = T::of(3.0) * load.abs() * error.unwrap_or(T::zero());
-        let force = force.unwrap_or(of_limits);
+        let error = error.unwrap_or(T::zero());
+        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
+        let held =
+            |strength: T| if self.found.adhesive { strength.abs() * error } else { T::zero() };
+        let held = self.found.strengths.map(held);
         let pressing = self.pressing();
-        Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, cost })
+        Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, held, cost })
     }
 
     pub(crate) fn gap(&self) -> &'s Gap<'s, T> {
@@ -178,6 +181,8 @@ pub struct Pressure<'p, T: Real> {
     on: Interval<T>,
     /// The load that stands for the error of the limits.
     force: T,
+    /// That error times the strengths of the edges at a and -b, with adhesion.
+    held: [T; 2],
     cost: Cost,
 }
 
@@ -257,6 +262,11 @@ impl<T: Real> Pressure<'_, T> {
         let change = self.force / (T::pi() * self.on.edge_root(x));
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
+        // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
+        for (held, distance) in self.held.into_iter().zip([self.on.right - x, x - self.on.left]) {
+            let share = self.on.half_width() / distance;
+            estimate.error += T::of(0.5) * held * share * share.sqrt();
+        }
         Ok(estimate)
     }
 

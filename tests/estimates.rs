@@ -4,7 +4,8 @@
 mod common;
 
 use common::{power, reference, scenes};
-use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Load, Piecewise};
+use linecontact::reference::{ClosedForm, Jkr, body};
+use linecontact::{Contact, Cost, Curve, CurvePoint, Edge, Flat, Load, Piecewise};
 use std::f64::consts::PI;
 
 /// Estimate and error, and what rounding alone makes of it.
@@ -190,4 +191,33 @@ fn a_cusp_of_the_pressure_at_a_joint() {
 fn the_estimate_covers_the_error_at_a_cusp() {
     let (worst, missed) = scan_cusp();
     assert!(missed <= 1.0, "{worst:e}, {missed} times what is said");
+}
+
+#[test]
+fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
+    // Where dF/dL = 0, at L³ = R² w/κ, the limits are as uncertain as the root of the load's rounding.
+    let work: f64 = 0.01;
+    let least = work.cbrt();
+    for beyond in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6] {
+        let form = Jkr::new(1.0, work, least * (1.0 + beyond)).unwrap();
+        let body = body(&form, -1.0, 1.0).unwrap();
+        let edge = Edge::Adhesive(work);
+        let contact = Contact::new(&Flat, &body).unwrap().edges(edge, edge);
+        let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+        let pressure = solution.pressure().unwrap();
+        for share in [0.0, -0.5, 0.9, -0.999] {
+            let x = share * solution.a();
+            let exact = form.pressure(share * form.limits().right, 1.0);
+            // Where x is in the contact is as uncertain as its edges.
+            let got = pressure.estimate(x, &mut Cost::default()).unwrap();
+            let error = (got.value - exact).abs();
+            // What rounding of the load makes of the limits.
+            let rounding = f64::EPSILON / beyond * exact.abs();
+            assert!(error <= got.error, "{beyond} {share}: {error:e}, said to be {:e}", got.error);
+            assert!(
+                got.error <= 1000.0 * error.max(rounding),
+                "{beyond} {share}: {error:e} {got:?}"
+            );
+        }
+    }
 }
