@@ -211,8 +211,8 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
             // Where x is in the contact is as uncertain as its edges.
             let got = pressure.estimate(x, &mut Cost::default()).unwrap();
             let error = (got.value - exact).abs();
-            // What rounding of the load makes of the limits.
-            let rounding = f64::EPSILON / beyond * exact.abs();
+            // What rounding of the load makes of the limits, and they of P.
+            let rounding = f64::EPSILON / beyond * exact.abs() / (1.0 - share * share);
             assert!(error <= got.error, "{beyond} {share}: {error:e}, said to be {:e}", got.error);
             assert!(
                 got.error <= 1000.0 * error.max(rounding),
