@@ -74,7 +74,7 @@ mod hertz;
 mod jkr;
 mod power_law;
 mod rounded_punch;
-mod special;
+pub(crate) mod special;
 mod unequal_radii;
 mod wedge;
 mod westergaard;

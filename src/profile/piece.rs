@@ -1,6 +1,6 @@
 //! One smooth piece of a profile, checked.
 
-use super::{CurvePoint, ParametricProfile, ProfileError};
+use super::{CurvePoint, ParametricProfile, ProfileError, interval};
 use crate::Real;
 
 /// Steps in `k` at which the check looks at `X` and `X'`.
@@ -29,7 +29,7 @@ impl<'a, T: Real> Piece<'a, T> {
     /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` is not finite,
     /// [`ProfileError::TurnsBack`] where it is the same at both ends.
     pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        let k = domain(curve)?;
+        let k = interval(curve.domain())?;
         let ends = k.map(|k| curve.at(k));
         for (k, end) in k.into_iter().zip(ends) {
             if !end.x.is_finite() {
@@ -65,7 +65,7 @@ impl<'a, T: Real> Piece<'a, T> {
     /// finite (`X'` may be at the very ends), [`ProfileError::TurnsBack`],
     /// [`ProfileError::Derivative`].
     pub fn checked(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        let [from, to] = domain(curve)?;
+        let [from, to] = interval(curve.domain())?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
         let mut points = [curve.at(from); STEPS + 1];
@@ -97,16 +97,6 @@ impl<'a, T: Real> Piece<'a, T> {
             check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
         }
         Self::between(curve, [from, to], [points[0], points[STEPS]])
-    }
-}
-
-/// The range of `k`, checked.
-fn domain<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<[T; 2], ProfileError<T>> {
-    let [from, to] = curve.domain();
-    if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
-        Ok([from, to])
-    } else {
-        Err(ProfileError::Domain { from, to })
     }
 }
 
