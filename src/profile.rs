@@ -16,6 +16,7 @@
 //! | [`Crowning`] | `-C ln(1 - X²/l²)` | `X` |
 //! | [`wedge`] | two lines | joined |
 //! | [`rounded_punch`] | a flat between two half parabolas | joined |
+//! | [`Spline`] | through measured points, or near them | `X`, joined |
 //!
 //! Each lies at the origin, touching it from above where it bulges. [`Placed`] moves, turns, mirrors,
 //! flips and scales one; [`Piecewise::placed`] does so with a joined one.
@@ -31,6 +32,7 @@ mod piece;
 mod piecewise;
 mod placed;
 mod rounded_punch;
+mod spline;
 
 pub use crowning::Crowning;
 pub use curve::Curve;
@@ -44,6 +46,7 @@ pub(crate) use piece::turning_point;
 pub use piecewise::{Piecewise, PiecewiseError};
 pub use placed::{Placed, Placement};
 pub use rounded_punch::rounded_punch;
+pub use spline::{Fit, Spline, SplineError};
 
 use crate::Real;
 use std::sync::Arc;

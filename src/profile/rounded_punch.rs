@@ -3,6 +3,9 @@
 use super::{Parabola, Piecewise, PiecewiseError, Placed, Placement};
 use crate::Real;
 
+/// Half a parabola, a flat, and the other half.
+type Parts<T> = Piecewise<T, Placed<T, Parabola<T>>>;
+
 /// A punch that is flat from `-flat` to `flat` and goes on as the parabola `(abs(X) - flat)²/(2R)`,
 /// up to `abs(X) = reach`: the body of
 /// [`reference::RoundedPunch`](crate::reference::RoundedPunch).
@@ -28,11 +31,7 @@ use crate::Real;
 /// assert!((solution.a() / form.limits().right - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn rounded_punch<T: Real>(
-    flat: T,
-    radius: T,
-    reach: T,
-) -> Result<Piecewise<T, Placed<T, Parabola<T>>>, PiecewiseError<T>> {
+pub fn rounded_punch<T: Real>(flat: T, radius: T, reach: T) -> Result<Parts<T>, PiecewiseError<T>> {
     let (zero, edge) = (T::zero(), reach - flat);
     let part = |piece, curve: Result<Parabola<T>, _>, shift| {
         let placement = Placement::default().shifted(shift, zero);
