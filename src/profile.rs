@@ -35,6 +35,7 @@ mod rounded_punch;
 mod spline;
 
 pub use crowning::Crowning;
+pub(crate) use crowning::relief;
 pub use curve::Curve;
 pub use ellipse::Ellipse;
 pub use flat::Flat;

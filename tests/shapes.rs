@@ -1,12 +1,12 @@
 //! The shapes that are built in, and where they are put.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::excessive_precision)] // Values are given to 20 digits.
 
 use approx::assert_relative_eq;
 use linecontact::profile::{Crowning, Ellipse, Involute, Line, Parabola, Placed, Placement};
 use linecontact::profile::{rounded_punch, wedge};
 use linecontact::reference::{self, ClosedForm, Hertz};
 use linecontact::{
-    Contact, CurvePoint, Flat, Interval, Load, ParametricProfile, Piece, Piecewise, PiecewiseError,
+    Contact, CurvePoint, Flat, Load, ParametricProfile, Piece, Piecewise, PiecewiseError,
     ProfileError,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -109,52 +109,12 @@ fn solves_agree_with_the_closed_forms() {
     let punch = reference::RoundedPunch::new(0.4, 0.7, 1.0).unwrap();
     within(&rounded_punch(0.4, 0.7, 9.0).unwrap(), &punch);
     for half_width in [0.1, 2.0, 4.5, 4.999] {
-        let form = LundbergContact { depth: 0.01, half_length: 5.0, half_width };
+        let form = reference::Crowning::new(0.01, 5.0, half_width).unwrap();
         let roller = Crowning::new(0.01, 5.0, [-5.0, 5.0]).unwrap();
         let off = against(&roller, &form);
         // Of L/(l - L), by which an error of the load, or of x, is magnified.
         let open = 1e-14 * (1.0 + half_width / (5.0 - half_width));
         assert!(off.iter().all(|&off| off < 10.0 * open), "{half_width}: {off:?}");
-    }
-}
-
-/// The contact of logarithmic crowning on a flat. With `g = C (1/(l - x) - 1/(l + x))` and
-/// `∫ dt/((l ± t) sqrt(L² - t²)) = π/sqrt(l² - L²)` the representations in the documentation of
-/// `reference` give
-///
-/// ```text
-/// F = 2 κ C (l/sqrt(l² - L²) - 1),   P = 2 κ C l sqrt(L² - x²)/(π (l² - x²) sqrt(l² - L²))
-/// ```
-#[derive(Debug)]
-struct LundbergContact {
-    depth: f64,
-    half_length: f64,
-    half_width: f64,
-}
-
-impl LundbergContact {
-    fn root(&self, x: f64) -> f64 {
-        ((self.half_length - x) * (self.half_length + x)).sqrt()
-    }
-}
-
-impl ClosedForm<f64> for LundbergContact {
-    fn limits(&self) -> Interval<f64> {
-        Interval { left: -self.half_width, right: self.half_width }
-    }
-    fn load(&self, kappa: f64) -> f64 {
-        let (l, root) = (self.half_width, self.root(self.half_width));
-        2.0 * kappa * self.depth * l * l / (root * (self.half_length + root))
-    }
-    fn pressure(&self, x: f64, kappa: f64) -> f64 {
-        let scale = 2.0 * kappa * self.depth * self.half_length / PI;
-        scale * self.limits().edge_root(x) / (self.root(x).powi(2) * self.root(self.half_width))
-    }
-    fn height(&self, x: f64) -> f64 {
-        -self.depth * (-(x / self.half_length).powi(2)).ln_1p()
-    }
-    fn slope(&self, x: f64) -> f64 {
-        2.0 * self.depth * x / self.root(x).powi(2)
     }
 }
 

@@ -44,11 +44,6 @@ impl<T: Real> Crowning<T> {
         }
         Ok(Self { depth, half_length, domain })
     }
-
-    fn slope(&self, x: T) -> T {
-        let [left, right] = [self.half_length + x, self.half_length - x];
-        self.depth * (x / left) * (T::of(2.0) / right)
-    }
 }
 
 impl<T: Real> ParametricProfile<T> for Crowning<T> {
@@ -57,17 +52,32 @@ impl<T: Real> ParametricProfile<T> for Crowning<T> {
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
-        let share = k / self.half_length;
-        let logarithm = if share.abs() < T::of(0.5) {
-            (-share * share).ln_1p()
-        } else {
-            let [left, right] = [self.half_length + k, self.half_length - k];
-            ((left / self.half_length) * (right / self.half_length)).ln()
-        };
-        CurvePoint { x: k, y: -self.depth * logarithm, dx: T::one(), dy: self.slope(k) }
+        let y = relief::height(self.depth, self.half_length, k);
+        CurvePoint { x: k, y, dx: T::one(), dy: relief::slope(self.depth, self.half_length, k) }
     }
 
     fn slope_at(&self, x: T) -> Option<T> {
-        Some(self.slope(x))
+        Some(relief::slope(self.depth, self.half_length, x))
+    }
+}
+
+/// Height and slope at x, which the closed form has, too.
+pub(crate) mod relief {
+    use crate::Real;
+
+    pub(crate) fn height<T: Real>(depth: T, half_length: T, x: T) -> T {
+        let share = x / half_length;
+        let logarithm = if share.abs() < T::of(0.5) {
+            (-share * share).ln_1p()
+        } else {
+            let [left, right] = [half_length + x, half_length - x];
+            ((left / half_length) * (right / half_length)).ln()
+        };
+        -depth * logarithm
+    }
+
+    pub(crate) fn slope<T: Real>(depth: T, half_length: T, x: T) -> T {
+        let [left, right] = [half_length + x, half_length - x];
+        depth * (x / left) * (T::of(2.0) / right)
     }
 }
