@@ -252,6 +252,16 @@ fn placing_keeps_joints_and_known_slopes() {
     assert_relative_eq!(slopes[0], -0.1 / 1.02, epsilon = 0.0, max_relative = 1e-15);
     assert_relative_eq!(slopes[1], 0.6 / 0.95, epsilon = 0.0, max_relative = 1e-15);
 
+    // Turned by just that angle it lies on its flank, which is level but for rounding.
+    let (_, wedge) = crooked();
+    let turned = wedge.placed(Placement::default().rotated(0.2f64.atan())).unwrap();
+    let left = turned.piece(0).unwrap().ends[0];
+    assert!(left.dy.abs() < 1e-16 && left.y.abs() < 1e-15, "{left:?}");
+    let round = Ellipse::circle(-2.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&round, &turned).unwrap();
+    let ends = contact.solve(Load::PerLength(0.01)).unwrap().interval();
+    assert!(ends.left < 0.0 && ends.right > 0.0, "{ends:?}");
+
     // An infinite slope is still one, and not NaN.
     let crowning = Crowning::new(0.1, 1.0, [-1.0, 1.0]).unwrap();
     let moved = Placed::new(crowning, Placement::default().shifted(3.0, 0.0)).unwrap();

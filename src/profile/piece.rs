@@ -65,6 +65,24 @@ impl<'a, T: Real> Piece<'a, T> {
     /// finite (`X'` may be at the very ends), [`ProfileError::TurnsBack`],
     /// [`ProfileError::Derivative`].
     pub fn checked(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        let (piece, points) = Self::scanned(curve)?;
+        let [from, to] = curve.domain();
+        for place in [0.2763, 0.7236] {
+            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
+        }
+        Ok(piece)
+    }
+
+    /// As [`checked`](Self::checked), but for the derivatives: for a curve made from one that has been
+    /// checked, the heights of which may be next to nothing but rounding now.
+    pub(super) fn rising(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        Self::scanned(curve).map(|(piece, _)| piece)
+    }
+
+    /// A curve that has been looked at all along, and where.
+    fn scanned(
+        curve: &'a dyn ParametricProfile<T>,
+    ) -> Result<(Self, [CurvePoint<T>; STEPS + 1]), ProfileError<T>> {
         let [from, to] = interval(curve.domain())?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
@@ -93,10 +111,7 @@ impl<'a, T: Real> Piece<'a, T> {
                 return Err(ProfileError::TurnsBack { k, x });
             }
         }
-        for place in [0.2763, 0.7236] {
-            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
-        }
-        Self::between(curve, [from, to], [points[0], points[STEPS]])
+        Ok((Self::between(curve, [from, to], [points[0], points[STEPS]])?, points))
     }
 }
 

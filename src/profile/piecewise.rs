@@ -38,6 +38,9 @@ pub struct Piecewise<T, P> {
     smooth: Vec<(usize, usize)>,
 }
 
+/// A look at a part.
+type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Piece<'a, T>, ProfileError<T>>;
+
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place
     /// of the larger of their extent and their distance from 0.
@@ -59,11 +62,15 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if !(tolerance.is_finite() && tolerance >= T::zero()) {
             return Err(PiecewiseError::Tolerance { tolerance });
         }
+        Self::joined(parts, tolerance, |part| Piece::checked(part))
+    }
+
+    fn joined(parts: Vec<P>, tolerance: T, check: Check<T>) -> Result<Self, PiecewiseError<T>> {
         let mut ends: Vec<([T; 2], [CurvePoint<T>; 2])> = Vec::with_capacity(parts.len());
         let mut smooth = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
             let Piece { k, ends: points, .. } =
-                Piece::checked(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
+                check(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
             ends.push((k, points));
             smooth.extend((0..part.pieces().max(1)).map(|inner| (piece, inner)));
         }
@@ -115,7 +122,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if parts.first().map(middle) > parts.last().map(middle) {
             parts.reverse();
         }
-        Piecewise::with_tolerance(parts, tolerance)
+        Piecewise::joined(parts, tolerance, |part| Piece::rising(part))
     }
 }
 
