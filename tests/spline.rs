@@ -213,6 +213,11 @@ fn bad_points_are_named_by_their_row() {
         let error = Spline::fitted(&points, Fit { noise, ..Fit::default() }).map(|_| ());
         assert!(matches!(error, Err(SplineError::Noise { .. })));
     }
+    for limit in [0.0, -1.0, f64::NAN] {
+        let fit = Fit { outliers: Some(limit), ..Fit::default() };
+        let error = Spline::fitted(&points, fit).map(|_| ());
+        assert!(matches!(error, Err(SplineError::Limit { .. })), "{limit}");
+    }
     // The root mean square distance of x² from its line, 1/3, is sqrt(4/45).
     let fit = Fit { noise: 0.4, ..Fit::default() };
     match Spline::fitted(&points, fit).map(|_| ()) {

@@ -75,6 +75,12 @@ pub enum SplineError<T: Real> {
         /// The noise as given.
         noise: T,
     },
+    /// The limit for outliers is not positive.
+    #[error("Fit::outliers is {deviations:?}: give a number of standard deviations, or None")]
+    Limit {
+        /// The limit as given.
+        deviations: T,
+    },
     /// A straight line is as close to the points as the noise allows.
     #[error(
         "noise of {noise:?} leaves nothing of the points: a straight line is only {line:?} off them"
@@ -116,6 +122,10 @@ pub(super) fn check<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
 /// Refuses the point that is furthest off the curve through its neighbours, if by more than `most`
 /// standard deviations.
 pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), SplineError<T>> {
+    // Not for NaN either.
+    if most.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
+        return Err(SplineError::Limit { deviations: most });
+    }
     if points.len() < FEWEST {
         return Ok(());
     }
