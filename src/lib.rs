@@ -27,7 +27,7 @@
 //! and Example 2 of the paper has κ = π/2.
 //!
 //! # Where things are
-//! - [`profile`]: bodies, from a closure, a struct of your own, or pieces joined.
+//! - [`profile`]: bodies, from a closure, a struct of your own, shapes built in, or pieces joined.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.

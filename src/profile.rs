@@ -1,19 +1,53 @@
 //! Bodies as plane curves `[X(k), Y(k)]`.
 //!
 //! A profile is what the user writes: implement [`ParametricProfile`] for a struct, or wrap
-//! a closure in a [`Curve`]. Smooth profiles are joined by [`Piecewise`]. The only shape
-//! built in is the one that needs no curve: [`Flat`].
+//! a closure in a [`Curve`]. Smooth profiles are joined by [`Piecewise`].
+//!
+//! Shapes that many scenes need are here, with exact derivatives and with heights and slopes that
+//! keep their digits where a formula would cancel:
+//!
+//! | shape | `Y` | parameter |
+//! |---|---|---|
+//! | [`Flat`] | 0 | `X`; no ends |
+//! | [`Line`] | `m X` | `X` |
+//! | [`Parabola`] | `X²/(2R)` | `X` |
+//! | [`Ellipse`], also [`circle`](Ellipse::circle) | `B (1 - sqrt(1 - X²/A²))` | angle from the lowest point |
+//! | [`Involute`] | flank of a gear tooth | angle rolled off |
+//! | [`Crowning`] | `-C ln(1 - X²/l²)` | `X` |
+//! | [`wedge`] | two lines | joined |
+//! | [`rounded_punch`] | a flat between two half parabolas | joined |
+//! | [`Spline`] | through measured points, or near them | `X`, joined |
+//!
+//! Each lies at the origin, touching it from above where it bulges. [`Placed`] moves, turns, mirrors,
+//! flips and scales one; [`Piecewise::placed`] does so with a joined one.
 
+mod crowning;
 mod curve;
+mod ellipse;
 mod flat;
+mod involute;
+mod line;
+mod parabola;
 mod piece;
 mod piecewise;
+mod placed;
+mod rounded_punch;
+mod spline;
 
+pub use crowning::Crowning;
+pub(crate) use crowning::relief;
 pub use curve::Curve;
+pub use ellipse::Ellipse;
 pub use flat::Flat;
+pub use involute::Involute;
+pub use line::{Line, wedge};
+pub use parabola::Parabola;
 pub use piece::Piece;
 pub(crate) use piece::turning_point;
 pub use piecewise::{Piecewise, PiecewiseError};
+pub use placed::{Placed, Placement};
+pub use rounded_punch::rounded_punch;
+pub use spline::{Fit, Spline, SplineError};
 
 use crate::Real;
 use std::sync::Arc;
@@ -154,9 +188,50 @@ macro_rules! forward {
 }
 forward!(&P, Box<P>, Arc<P>);
 
+/// Refuses a parameter of a shape that `holds` does not hold for, or that is not finite.
+fn finite<T: Real>(
+    name: &'static str,
+    value: T,
+    holds: bool,
+    must: &'static str,
+) -> Result<(), ProfileError<T>> {
+    if holds && value.is_finite() {
+        Ok(())
+    } else {
+        Err(ProfileError::Parameter { name, value, must })
+    }
+}
+
+/// A range of `k`, checked.
+fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
+    if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
+        Ok([from, to])
+    } else {
+        Err(ProfileError::Domain { from, to })
+    }
+}
+
 /// What is wrong with a smooth curve.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum ProfileError<T: Real> {
+    /// A parameter has a value for which there is no such shape.
+    #[error("{name} is {value:?}: it must be {must}")]
+    Parameter {
+        /// Which parameter.
+        name: &'static str,
+        /// Its value.
+        value: T,
+        /// What it must be.
+        must: &'static str,
+    },
+    /// A profile of several pieces where a smooth one is wanted.
+    #[error(
+        "the profile is joined from {pieces} pieces, which would be lost: use Piecewise::placed"
+    )]
+    Joined {
+        /// How many it has.
+        pieces: usize,
+    },
     /// The range of `k` is empty, reversed, or not finite.
     #[error(
         "k cannot run from {from:?} to {to:?}: the domain needs two finite ends in rising order, a finite distance apart"

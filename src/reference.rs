@@ -10,6 +10,7 @@
 //! | [`UnequalRadii`] | parabola with another radius on either side | both ways, after one equation |
 //! | [`RoundedPunch`] | flat with parabolic edges | both ways, load to limits by one equation |
 //! | [`FlatPunch`] | flat with sharp edges, upright or tilted | load to limits |
+//! | [`Crowning`] | logarithmic relief, `-C ln(1 - x²/l²)` | both ways |
 //! | [`Ellipse`] | ellipse, circle | limits to load |
 //! | [`Hyperbola`] | wedge with a rounded tip | limits to load |
 //! | [`Exponential`] | `eˣ - 1 - x` | limits to load |
@@ -67,6 +68,7 @@ mod angles;
 mod biquadratic;
 mod conics;
 mod cosine;
+mod crowning;
 mod exponential;
 mod flat_punch;
 mod graph;
@@ -74,7 +76,7 @@ mod hertz;
 mod jkr;
 mod power_law;
 mod rounded_punch;
-mod special;
+pub(crate) mod special;
 mod unequal_radii;
 mod wedge;
 mod westergaard;
@@ -82,6 +84,7 @@ mod westergaard;
 pub use biquadratic::Biquadratic;
 pub use conics::{Ellipse, Hyperbola};
 pub use cosine::Cosine;
+pub use crowning::Crowning;
 pub use exponential::Exponential;
 pub use flat_punch::FlatPunch;
 pub use graph::{Graph, body};

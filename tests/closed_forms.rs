@@ -10,8 +10,8 @@ use approx::assert_relative_eq;
 use common::reference;
 use forms::{Form, KAPPA, Unrolled, forms};
 use linecontact::reference::{
-    Biquadratic, ClosedForm, Cosine, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola, Jkr,
-    PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard,
+    Biquadratic, ClosedForm, Cosine, Crowning, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola,
+    Jkr, PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard,
 };
 use linecontact::{Edge, Interval};
 use std::f64::consts::PI;
@@ -178,7 +178,7 @@ type ByHalfWidth = fn(f64) -> Box<dyn ClosedForm<f64>>;
 #[test]
 fn a_pressure_rises_from_the_edge_as_the_load_does_with_the_contact() {
     // P → F'(L)/(π L) w at either edge of a symmetric contact.
-    let cases: [(&str, f64, ByHalfWidth); 9] = [
+    let cases: [(&str, f64, ByHalfWidth); 10] = [
         ("Hertz", 0.6, |l| Box::new(Hertz::new(1.3, l).unwrap())),
         ("wedge", 0.6, |l| Box::new(Wedge::new(0.3, l).unwrap())),
         ("power", 0.6, |l| Box::new(PowerLaw::new(0.7, 2.7, l).unwrap())),
@@ -186,6 +186,7 @@ fn a_pressure_rises_from_the_edge_as_the_load_does_with_the_contact() {
         ("rounded punch", 1.01, |l| Box::new(RoundedPunch::new(1.0, 0.3, l).unwrap())),
         ("circle", 0.97, |l| Box::new(Ellipse::circle(1.0, l).unwrap())),
         ("hyperbola", 0.6, |l| Box::new(Hyperbola::new(0.4, 0.1, l).unwrap())),
+        ("crowning", 0.9, |l| Box::new(Crowning::new(0.3, 1.0, l).unwrap())),
         ("cosine", 0.6, |l| Box::new(Cosine::new(0.3, 2.0, l).unwrap())),
         ("radii", 0.6, |l| Box::new(UnequalRadii::new(2.0, 2.0, l).unwrap())),
     ];
@@ -234,6 +235,11 @@ fn a_load_gives_the_limits_back() {
             let of = if i == 6 { load + 1.0 } else { load };
             assert!(error < 8e-15 * of, "{i}: {load} {}", form.load(kappa));
         }
+    }
+    // Of one that could be flattened, only as long as it is not.
+    for load in [1e-12, 1e-3, 0.2, 5.0] {
+        let form = Crowning::under_load(10.0, 0.3, load, kappa).unwrap();
+        assert_relative_eq!(form.load(kappa), load, epsilon = 0.0, max_relative = 4e-15);
     }
     // Down to pull-off, where L⁹ᐟ² goes as the root of what is left.
     let work = 0.02;
@@ -337,6 +343,8 @@ fn parameters_that_make_no_sense_are_refused() {
         refused(FlatPunch::under_load(1.0, 0.1, wrong, 1.0), "load");
         refused(Ellipse::new(1.0, wrong, 0.5), "across");
         refused(Hyperbola::new(1.0, wrong, 0.5), "tip");
+        refused(Crowning::new(wrong, 1.0, 0.5), "depth");
+        refused(Crowning::under_load(1.0, wrong, 0.5, 1.0), "half-length");
         refused(Exponential::new(wrong, 1.0, 0.5), "length");
         refused(Cosine::new(1.0, wrong, 0.5), "wavelength");
         refused(Jkr::under_load(1.0, wrong, 0.5, 1.0), "work");
@@ -350,6 +358,8 @@ fn parameters_that_make_no_sense_are_refused() {
     refused(Biquadratic::new(1.0, -1.0, 0.5), "half-width");
     refused(Biquadratic::under_load(1.0, -1.0, 0.05, 1.0), "load");
     refused(Ellipse::circle(1.0, 1.0), "half-width");
+    refused(Crowning::new(1.0, 1.0, 1.0), "half-width");
+    refused(Crowning::under_load(1.0, 1.0, 1e20, 1.0), "load");
     refused(Exponential::new(1.0, 1.0, 360.0), "half-width");
     refused(Cosine::new(1.0, 1.0, 0.383), "half-width");
     refused(FlatPunch::under_load(1.0, f64::NAN, 1.0, 1.0), "slope");

@@ -1,6 +1,6 @@
 //! One smooth piece of a profile, checked.
 
-use super::{CurvePoint, ParametricProfile, ProfileError};
+use super::{CurvePoint, ParametricProfile, ProfileError, interval};
 use crate::Real;
 
 /// Steps in `k` at which the check looks at `X` and `X'`.
@@ -29,7 +29,7 @@ impl<'a, T: Real> Piece<'a, T> {
     /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` is not finite,
     /// [`ProfileError::TurnsBack`] where it is the same at both ends.
     pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        let k = domain(curve)?;
+        let k = interval(curve.domain())?;
         let ends = k.map(|k| curve.at(k));
         for (k, end) in k.into_iter().zip(ends) {
             if !end.x.is_finite() {
@@ -65,7 +65,25 @@ impl<'a, T: Real> Piece<'a, T> {
     /// finite (`X'` may be at the very ends), [`ProfileError::TurnsBack`],
     /// [`ProfileError::Derivative`].
     pub fn checked(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        let [from, to] = domain(curve)?;
+        let (piece, points) = Self::scanned(curve)?;
+        let [from, to] = curve.domain();
+        for place in [0.2763, 0.7236] {
+            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
+        }
+        Ok(piece)
+    }
+
+    /// As [`checked`](Self::checked), but for the derivatives: for a curve made from one that has been
+    /// checked, the heights of which may be next to nothing but rounding now.
+    pub(super) fn rising(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        Self::scanned(curve).map(|(piece, _)| piece)
+    }
+
+    /// A curve that has been looked at all along, and where.
+    fn scanned(
+        curve: &'a dyn ParametricProfile<T>,
+    ) -> Result<(Self, [CurvePoint<T>; STEPS + 1]), ProfileError<T>> {
+        let [from, to] = interval(curve.domain())?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
         let mut points = [curve.at(from); STEPS + 1];
@@ -93,20 +111,7 @@ impl<'a, T: Real> Piece<'a, T> {
                 return Err(ProfileError::TurnsBack { k, x });
             }
         }
-        for place in [0.2763, 0.7236] {
-            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
-        }
-        Self::between(curve, [from, to], [points[0], points[STEPS]])
-    }
-}
-
-/// The range of `k`, checked.
-fn domain<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<[T; 2], ProfileError<T>> {
-    let [from, to] = curve.domain();
-    if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
-        Ok([from, to])
-    } else {
-        Err(ProfileError::Domain { from, to })
+        Ok((Self::between(curve, [from, to], [points[0], points[STEPS]])?, points))
     }
 }
 

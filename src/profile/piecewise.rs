@@ -1,6 +1,6 @@
 //! The combinator that joins smooth pieces.
 
-use super::{CurvePoint, ParametricProfile, Piece, ProfileError};
+use super::{CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
 use crate::Real;
 use thiserror::Error;
 
@@ -31,11 +31,15 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
+    tolerance: T,
     /// `k` and the curve at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
     /// The smooth pieces: part, and piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
 }
+
+/// A look at a part.
+type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Piece<'a, T>, ProfileError<T>>;
 
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place
@@ -58,11 +62,15 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if !(tolerance.is_finite() && tolerance >= T::zero()) {
             return Err(PiecewiseError::Tolerance { tolerance });
         }
+        Self::joined(parts, tolerance, |part| Piece::checked(part))
+    }
+
+    fn joined(parts: Vec<P>, tolerance: T, check: Check<T>) -> Result<Self, PiecewiseError<T>> {
         let mut ends: Vec<([T; 2], [CurvePoint<T>; 2])> = Vec::with_capacity(parts.len());
         let mut smooth = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
             let Piece { k, ends: points, .. } =
-                Piece::checked(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
+                check(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
             ends.push((k, points));
             smooth.extend((0..part.pieces().max(1)).map(|inner| (piece, inner)));
         }
@@ -87,7 +95,34 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
                 return Err(PiecewiseError::Jump { joint, x: left, left: y[1], right: y_next[0] });
             }
         }
-        Ok(Self { parts, ends, smooth })
+        Ok(Self { parts, tolerance, ends, smooth })
+    }
+
+    /// The whole, put in another place. Its pieces are joined again, to within the same tolerance,
+    /// and in the reverse order where that is what the placement makes of them.
+    ///
+    /// # Errors
+    /// What [`Placed::new`] says of a piece, as [`PiecewiseError::InPiece`], with
+    /// [`ProfileError::Joined`](super::ProfileError) for a piece that is joined itself. As
+    /// [`new`](Self::new) where a piece turns back in `X` now.
+    pub fn placed(
+        self,
+        placement: Placement<T>,
+    ) -> Result<Piecewise<T, Placed<T, P>>, PiecewiseError<T>> {
+        let tolerance = self.tolerance;
+        let place = |(piece, part)| {
+            Placed::new(part, placement).map_err(|source| PiecewiseError::InPiece { piece, source })
+        };
+        let mut parts =
+            self.parts.into_iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let middle = |part: &Placed<T, P>| {
+            let [from, to] = part.domain();
+            part.x(T::of(0.5) * from + T::of(0.5) * to)
+        };
+        if parts.first().map(middle) > parts.last().map(middle) {
+            parts.reverse();
+        }
+        Piecewise::joined(parts, tolerance, |part| Piece::rising(part))
     }
 }
 

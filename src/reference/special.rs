@@ -72,7 +72,7 @@ pub(super) fn sinh_minus<T: Real>(y: T) -> T {
 }
 
 /// `sin φ - φ cos φ` for 0 ≤ φ ≤ π.
-pub(super) fn sin_minus_cos<T: Real>(phi: T) -> T {
+pub(crate) fn sin_minus_cos<T: Real>(phi: T) -> T {
     if phi > T::one() {
         return phi.sin() - phi * phi.cos();
     }

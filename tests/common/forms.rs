@@ -2,8 +2,8 @@
 #![allow(dead_code)] // Each test crate uses its own part.
 
 use linecontact::reference::{
-    Biquadratic, ClosedForm, Cosine, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola, Jkr,
-    PowerLaw, RoundedPunch, UnequalRadii, Wedge, Westergaard,
+    Biquadratic, ClosedForm, Cosine, Crowning, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola,
+    Jkr, PowerLaw, RoundedPunch, UnequalRadii, Wedge, Westergaard,
 };
 use linecontact::{Interval, Real};
 
@@ -117,6 +117,10 @@ pub fn forms<T: Real>() -> Vec<Form<T>> {
         add(&format!("circle {half_width}"), 0.99, Box::new(form));
     }
     add("ellipse", 1.9, Box::new(Ellipse::new(two, n(0.3), n(1.5)).unwrap()));
+    for half_width in [0.1, 1.0, 1.95] {
+        let form = Crowning::new(n(0.3), two, n(half_width)).unwrap();
+        add(&format!("crowning {half_width}"), 1.99, Box::new(form));
+    }
     for tip in [3.0, 0.3, 0.03] {
         let form = Hyperbola::new(n(0.6), n(tip), n(1.2)).unwrap();
         add(&format!("hyperbola {tip}"), 9.0, Box::new(form));

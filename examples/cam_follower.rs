@@ -1,0 +1,142 @@
+//! A cam and a flat follower in a simulation: the contact is solved at each step of time.
+//!
+//! Run with `cargo run --release --example cam_follower`. The cam drags a flywheel, lifts the follower
+//! against its spring, and gets back what the spring returns. Each step solves the contact from the
+//! last one with a [`Solver`] and takes the torque from where it is; from the second revolution on
+//! nothing is allocated. Lengths in mm, forces in N for each mm of width, masses in t, times in s.
+//! Checked against the contact's place, which is the derivative of the lift, against Hertz with the
+//! cam's radius of curvature there, and by the energy, which stays.
+
+use linecontact::{Contact, ContactError, CurvePoint, Flat, Load, ParametricProfile, Solver};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::f64::consts::{PI, TAU};
+use thiserror::Error;
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+const MODULUS: f64 = 115e3;
+const BASE: f64 = 20.0;
+const LIFT: f64 = 3.0;
+const FOLLOWER: f64 = 1e-5;
+const FLYWHEEL: f64 = 5.0; // moment of inertia, t mm²
+const SPRING: f64 = 10.0;
+const PRELOAD: f64 = 100.0;
+const STEP: f64 = 1e-4;
+const STEPS: usize = 2000; // two revolutions
+
+/// What can go wrong in the simulation.
+#[derive(Debug, Error)]
+enum SimulationError {
+    #[error("the contact was not found: {0}")]
+    Contact(#[from] ContactError<f64>),
+    #[error("the follower lifts off at {time} s")]
+    LiftsOff { time: f64 },
+}
+
+/// A cam turned by an angle, by its distance h(φ) from the axis to the tangent whose normal points
+/// at φ: the height of the follower when φ is on top.
+struct Cam {
+    angle: f64,
+}
+
+impl Cam {
+    /// h, h' and h''. The radius of curvature is h + h''.
+    fn support(phi: f64) -> [f64; 3] {
+        let (sin, cos) = (2.0 * phi).sin_cos();
+        [BASE + 0.5 * LIFT * (1.0 - cos), LIFT * sin, 2.0 * LIFT * cos]
+    }
+}
+
+impl ParametricProfile<f64> for Cam {
+    fn domain(&self) -> [f64; 2] {
+        [-0.2, 0.2]
+    }
+
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        let ([h, dh, ddh], (sin, cos)) = (Self::support(self.angle + k), k.sin_cos());
+        let radius = h + ddh;
+        CurvePoint {
+            x: h * sin + dh * cos,
+            y: h * cos - dh * sin,
+            dx: radius * cos,
+            dy: -radius * sin,
+        }
+    }
+}
+
+/// The state, and how far contact and energy have been off.
+struct Simulation {
+    solver: Solver<f64>,
+    angle: f64,
+    speed: f64,
+    energy: f64,
+    /// Of the half-width, of the place (in half-widths) and of the energy.
+    off: [f64; 3],
+    widest: f64,
+}
+
+impl Simulation {
+    fn new() -> Result<Self, SimulationError> {
+        let solver = Contact::new(&Cam { angle: 0.0 }, &Flat)?.solver()?;
+        let (angle, speed) = (0.0, 10.0 * TAU);
+        let energy = energy(angle, speed);
+        Ok(Self { solver, angle, speed, energy, off: [0.0; 3], widest: 0.0 })
+    }
+
+    fn step(&mut self, time: f64) -> Result<(), SimulationError> {
+        let cam = Cam { angle: self.angle };
+        let [h, dh, ddh] = Cam::support(self.angle);
+        // Spring and inertia of the follower, which the flywheel slows down as it is lifted.
+        let inertia = FOLLOWER * ddh * self.speed * self.speed;
+        let force =
+            (inertia + PRELOAD + SPRING * (h - BASE)) / (1.0 + FOLLOWER * dh * dh / FLYWHEEL);
+        if force <= 0.0 {
+            return Err(SimulationError::LiftsOff { time });
+        }
+        let contact = Contact::new(&cam, &Flat)?.contact_modulus(MODULUS);
+        let solution = self.solver.solve(&contact, Load::PerLength(force))?;
+        let (arm, half_width) = (solution.interval().centre(), solution.interval().half_width());
+
+        let hertz = (4.0 * force * (h + ddh) / (PI * MODULUS)).sqrt();
+        let energy = energy(self.angle, self.speed) / self.energy - 1.0;
+        let off = [half_width / hertz - 1.0, (arm - dh) / half_width, energy];
+        for (worst, off) in self.off.iter_mut().zip(off) {
+            *worst = worst.max(off.abs());
+        }
+        self.widest = self.widest.max(half_width);
+        self.speed -= STEP * force * arm / FLYWHEEL;
+        self.angle += STEP * self.speed;
+        Ok(())
+    }
+}
+
+fn energy(angle: f64, speed: f64) -> f64 {
+    let [h, dh, _] = Cam::support(angle);
+    let (lift, moving) = (h - BASE, FLYWHEEL + FOLLOWER * dh * dh);
+    0.5 * moving * speed * speed + PRELOAD * lift + 0.5 * SPRING * lift * lift
+}
+
+fn main() -> Result<(), SimulationError> {
+    let mut simulation = Simulation::new()?;
+    // In the first revolution the solver's memory grows to what the steps need.
+    for step in 0..STEPS / 2 {
+        simulation.step(STEP * step as f64)?;
+    }
+    let region = Region::new(ALLOCATOR);
+    for step in STEPS / 2..STEPS {
+        simulation.step(STEP * step as f64)?;
+    }
+    let change = region.change();
+    let Simulation { angle, off: [half_width, place, energy], widest, .. } = simulation;
+    println!("{:.3} revolutions, half-width up to {widest:.4} mm", angle / TAU);
+    println!("half-width off Hertz by no more than {half_width:.1e}");
+    println!("place off the derivative of the lift by {place:.1e} half-widths");
+    println!("energy kept to {energy:.1e}, {} allocations in the second half", change.allocations);
+
+    assert_eq!(change.allocations + change.reallocations, 0);
+    assert!(half_width < 1e-4 && place < 2e-3, "{half_width} {place}");
+    assert!(energy < 1e-3, "{energy}");
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! A pair of spur gears along the path of contact: how wide the contact is, and how hard it presses.
+//!
+//! Run with `cargo run --release --example gear_mesh`; half-width and peak pressure are drawn over one
+//! mesh to `target/figures/gear_mesh.svg`. Lengths in mm, pressures in MPa, load in N/mm. At each
+//! instant the two flanks are involutes that touch on the line tangent to both base circles, and are
+//! checked against Hertz with the radii of curvature there. The flanks are taken a little longer than
+//! the teeth are, so that the corners at their tips do not count; two pairs share the load equally.
+
+use kuva::prelude::*;
+use linecontact::profile::{Involute, Placed, Placement};
+use linecontact::{Contact, Load, ProfileError};
+use std::error::Error;
+use std::f64::consts::PI;
+use std::fs;
+
+const MODULE: f64 = 3.0;
+const TEETH: [f64; 2] = [20.0, 60.0];
+const PRESSURE_ANGLE: f64 = 20.0 * PI / 180.0;
+const MODULUS: f64 = 113.187e3; // E* of steel on steel
+const LOAD: f64 = 300.0; // along the line of action
+const STEPS: u32 = 240;
+
+/// The pair's line of action, by the distance s from where it leaves the pinion's base circle.
+struct Mesh {
+    base: [f64; 2],
+    /// Length of the line between the base circles: s and the rest of it are the radii of curvature.
+    line: f64,
+    /// Where contact begins, at the wheel's tip, and ends, at the pinion's.
+    path: [f64; 2],
+    /// Distance between two pairs of teeth.
+    pitch: f64,
+}
+
+impl Mesh {
+    fn new() -> Self {
+        let radii = TEETH.map(|teeth| 0.5 * MODULE * teeth);
+        let base = radii.map(|radius| radius * PRESSURE_ANGLE.cos());
+        let line = (radii[0] + radii[1]) * PRESSURE_ANGLE.sin();
+        let to_tip = [0, 1].map(|i| ((radii[i] + MODULE).powi(2) - base[i].powi(2)).sqrt());
+        let pitch = PI * MODULE * PRESSURE_ANGLE.cos();
+        Self { base, line, path: [line - to_tip[1], to_tip[0]], pitch }
+    }
+
+    fn load(&self, s: f64) -> f64 {
+        let alone = s > self.path[1] - self.pitch && s < self.path[0] + self.pitch;
+        if alone { LOAD } else { 0.5 * LOAD }
+    }
+
+    /// The two flanks that touch at s, seen from there: the pinion's below, turned by half a turn.
+    fn flanks(&self, s: f64) -> Result<[Flank; 2], ProfileError<f64>> {
+        let flank = |i: usize, arm: f64, placement| {
+            let rolled = arm / self.base[i];
+            let involute = Involute::new(self.base[i], rolled, [0.1 * rolled, rolled + 0.2])?;
+            Placed::new(involute, placement)
+        };
+        let half_turn = Placement::default().mirrored().flipped();
+        Ok([flank(0, s, half_turn)?, flank(1, self.line - s, Placement::default())?])
+    }
+}
+
+type Flank = Placed<f64, Involute<f64>>;
+
+/// Half-width and peak pressure, as solved and by Hertz.
+struct Row {
+    s: f64,
+    solved: [f64; 2],
+    hertz: [f64; 2],
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mesh = Mesh::new();
+    let [pinion, wheel] = mesh.flanks(mesh.path[0])?;
+    let mut solver = Contact::new(&pinion, &wheel)?.solver()?;
+    let (mut rows, mut off, mut least) = (Vec::new(), [0.0f64; 2], f64::INFINITY);
+    let mut share = 0.0f64;
+    for step in 0..=STEPS {
+        let s = mesh.path[0] + (mesh.path[1] - mesh.path[0]) * f64::from(step) / f64::from(STEPS);
+        let [pinion, wheel] = mesh.flanks(s)?;
+        let contact = Contact::new(&pinion, &wheel)?.contact_modulus(MODULUS);
+        let solution = solver.solve(&contact, Load::PerLength(mesh.load(s)))?;
+        let solved = [solution.interval().half_width(), solution.peak()?.pressure];
+
+        let radius = s * (mesh.line - s) / mesh.line; // 1/R = 1/s + 1/(line - s)
+        let half_width = (4.0 * mesh.load(s) * radius / (PI * MODULUS)).sqrt();
+        let hertz = [half_width, 2.0 * mesh.load(s) / (PI * half_width)];
+        // By how much the radii change over the half-width, which is what Hertz leaves out. (That of an
+        // involute, r t, changes by dX/t.)
+        let change = half_width * (mesh.base[0] / (s * s) + mesh.base[1] / (mesh.line - s).powi(2));
+        for i in 0..2 {
+            let here = (solved[i] / hertz[i] - 1.0).abs();
+            off[i] = off[i].max(here);
+            least = least.min(here);
+            share = share.max(here / (change * change));
+        }
+        rows.push(Row { s: (s - mesh.path[0]) / mesh.pitch, solved, hertz });
+    }
+    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+    println!("contact ratio {:.4}", last.s);
+    for (place, row) in [("wheel's tip", first), ("pinion's tip", last)] {
+        let [half_width, peak] = row.solved;
+        println!("at the {place}: half-width {half_width:.5} mm, peak {peak:.2} MPa");
+    }
+    println!("off Hertz by no more than {:.1e} and {:.1e}, at best {least:.0e}", off[0], off[1]);
+    println!("  and {share:.3} of the square of the change of the radii over the half-width");
+    println!("{}", draw(&rows)?);
+
+    assert!(off[0] < 0.01 && off[1] < 0.01 && share < 0.1, "{off:?} {share}");
+    Ok(())
+}
+
+/// Draws half-width and peak over the mesh, and says where.
+fn draw(rows: &[Row]) -> Result<&'static str, Box<dyn Error>> {
+    let cell = |i: usize, unit: &str| {
+        let points =
+            |value: fn(&Row) -> [f64; 2]| rows.iter().map(move |row| (row.s, value(row)[i]));
+        let solved = LinePlot::new().with_data(points(|row| row.solved).collect::<Vec<_>>());
+        let hertz: Vec<_> = points(|row| row.hertz).step_by(8).collect();
+        let plots: Vec<Plot> = vec![
+            solved.with_color("#1f5fa8").with_stroke_width(2.0).with_legend("involutes").into(),
+            ScatterPlot::new().with_data(hertz).with_color("#b5401a").with_legend("Hertz").into(),
+        ];
+        let layout = Layout::auto_from_plots(&plots).with_y_label(unit).with_y_axis_min(0.0);
+        (plots, layout.with_x_label("distance along the path of contact / base pitch"))
+    };
+    let (width, peak) = (cell(0, "half-width / mm"), cell(1, "peak pressure / MPa"));
+    let figure = Figure::new(2, 1)
+        .with_plots(vec![width.0, peak.0])
+        .with_layouts(vec![width.1.with_title("One mesh of two spur gears"), peak.1])
+        .with_cell_size(640.0, 300.0);
+    fs::create_dir_all("target/figures")?;
+    fs::write("target/figures/gear_mesh.svg", SvgBackend.render_scene(&figure.render()))?;
+    Ok("target/figures/gear_mesh.svg")
+}

@@ -1,0 +1,57 @@
+//! The parabola of Hertz.
+
+use super::{CurvePoint, ParametricProfile, ProfileError, finite, interval};
+use crate::Real;
+
+/// The parabola `Y = X²/(2R)`, with `X = k`: the body of Hertz's theory.
+///
+/// R is the radius of curvature at the vertex, which lies at the origin. It is positive for an upper
+/// body that bulges, or a lower one that is hollow, and negative for the reverse.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Flat, Load};
+///
+/// let body = Parabola::new(2.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?;
+/// let solution = contact.solve(Load::PerLength(0.01))?;
+/// assert!((solution.a() - 0.2).abs() < 1e-15); // sqrt(2 F R/κ)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parabola<T> {
+    curvature: T,
+    domain: [T; 2],
+}
+
+impl<T: Real> Parabola<T> {
+    /// With the radius R, from one abscissa to another.
+    ///
+    /// # Errors
+    /// [`ProfileError::Parameter`] unless R and 1/R are finite, [`ProfileError::Domain`].
+    pub fn new(radius: T, domain: [T; 2]) -> Result<Self, ProfileError<T>> {
+        let fits = radius.is_finite() && radius.recip().is_finite();
+        finite("the radius", radius, fits, "finite and not zero")?;
+        Self::of_curvature(radius.recip(), domain)
+    }
+
+    /// The same by its curvature, which may be zero.
+    pub(super) fn of_curvature(curvature: T, domain: [T; 2]) -> Result<Self, ProfileError<T>> {
+        Ok(Self { curvature, domain: interval(domain)? })
+    }
+}
+
+impl<T: Real> ParametricProfile<T> for Parabola<T> {
+    fn domain(&self) -> [T; 2] {
+        self.domain
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        let slope = self.curvature * k;
+        CurvePoint { x: k, y: T::of(0.5) * slope * k, dx: T::one(), dy: slope }
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        Some(self.curvature * x)
+    }
+}

@@ -1,0 +1,151 @@
+//! A body moved, turned, mirrored or scaled.
+
+use super::{CurvePoint, ParametricProfile, ProfileError, finite};
+use crate::Real;
+
+/// Where a body is put: a map of the plane that keeps angles, made step by step.
+///
+/// Each step is done after those before it, and about the origin:
+/// `Placement::default().rotated(0.1).shifted(2.0, 0.0)` turns a body and then moves it. A body to
+/// the other side of a contact is brought by [`flipped`](Self::flipped): with both bodies flipped and
+/// exchanged the contact is the same.
+///
+/// ```
+/// use linecontact::profile::{Ellipse, Placed, Placement};
+/// use linecontact::{Contact, Load};
+///
+/// // Two rollers, one above the other and 3 to its right.
+/// let roller = Ellipse::circle(10.0f64, [-1.4, 1.4])?;
+/// let above = Placed::new(roller, Placement::default().shifted(3.0, 0.0))?;
+/// let below = Placed::new(roller, Placement::default().flipped())?;
+/// let contact = Contact::new(&below, &above)?;
+/// let solution = contact.solve(Load::PerLength(0.01))?;
+/// assert!((solution.interval().centre() - 1.5).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement<T> {
+    /// `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
+    matrix: [[T; 2]; 2],
+    shift: [T; 2],
+}
+
+impl<T: Real> Default for Placement<T> {
+    fn default() -> Self {
+        let (zero, one) = (T::zero(), T::one());
+        Self { matrix: [[one, zero], [zero, one]], shift: [zero; 2] }
+    }
+}
+
+impl<T: Real> Placement<T> {
+    /// Moved by `along` in the direction of `X` and by `across` in that of `Y`.
+    pub fn shifted(mut self, along: T, across: T) -> Self {
+        self.shift[0] += along;
+        self.shift[1] += across;
+        self
+    }
+
+    /// Left and right exchanged: `X` becomes `-X`, without any rounding.
+    pub fn mirrored(mut self) -> Self {
+        self.matrix[0] = self.matrix[0].map(|entry| -entry);
+        self.shift[0] = -self.shift[0];
+        self
+    }
+
+    /// Turned upside down: `Y` becomes `-Y`, without any rounding. Mirrored and flipped is half a turn.
+    pub fn flipped(mut self) -> Self {
+        self.matrix[1] = self.matrix[1].map(|entry| -entry);
+        self.shift[1] = -self.shift[1];
+        self
+    }
+
+    /// Turned by an angle in radians, from the X axis towards the Y axis.
+    pub fn rotated(self, angle: T) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let turn = |[x, y]: [T; 2]| [cos * x - sin * y, sin * x + cos * y];
+        let [[a, b], [c, d]] = self.matrix;
+        let [[a, c], [b, d]] = [turn([a, c]), turn([b, d])];
+        Self { matrix: [[a, b], [c, d]], shift: turn(self.shift) }
+    }
+
+    /// All lengths multiplied by a factor; a negative one adds half a turn.
+    pub fn scaled(self, factor: T) -> Self {
+        let times = |row: [T; 2]| row.map(|entry| entry * factor);
+        Self { matrix: self.matrix.map(times), shift: times(self.shift) }
+    }
+
+    /// Whether `X` depends on `X` alone, and `Y` on `Y`.
+    fn is_upright(&self) -> bool {
+        self.matrix[0][1].is_zero() && self.matrix[1][0].is_zero()
+    }
+
+    fn direction(&self, [x, y]: [T; 2]) -> [T; 2] {
+        let [[a, b], [c, d]] = self.matrix;
+        // An infinite slope stays what it is.
+        if self.is_upright() { [a * x, d * y] } else { [a * x + b * y, c * x + d * y] }
+    }
+}
+
+/// A smooth body put in another place. One that is joined from pieces is put there by
+/// [`Piecewise::placed`](super::Piecewise::placed).
+///
+/// A body that is rotated too far turns back in `X`, which is reported like any other that does
+/// ([`ProfileError::TurnsBack`]).
+///
+/// ```
+/// use linecontact::ParametricProfile;
+/// use linecontact::profile::{Parabola, Placed, Placement};
+///
+/// let parabola = Parabola::new(1.0, [-1.0, 1.0])?;
+/// let moved = Placed::new(parabola, Placement::default().scaled(2.0).shifted(5.0, 0.5))?;
+/// assert_eq!([moved.x(1.0), moved.y(1.0)], [7.0, 1.5]);
+/// # Ok::<(), linecontact::ProfileError<f64>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed<T, P> {
+    curve: P,
+    placement: Placement<T>,
+}
+
+impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
+    /// The body `curve`, put where the placement says.
+    ///
+    /// # Errors
+    /// [`ProfileError::Parameter`] if a step of the placement was not finite, or a factor was zero;
+    /// [`ProfileError::Joined`] for a body of several pieces.
+    pub fn new(curve: P, placement: Placement<T>) -> Result<Self, ProfileError<T>> {
+        let [[a, b], [c, d]] = placement.matrix;
+        let size = a.hypot(b);
+        finite("the factor of a placement", size, size > T::zero(), "finite and not zero")?;
+        for value in [a, b, c, d, placement.shift[0], placement.shift[1]] {
+            finite("a shift, angle or factor of a placement", value, true, "finite")?;
+        }
+        if curve.pieces() > 0 {
+            return Err(ProfileError::Joined { pieces: curve.pieces() });
+        }
+        Ok(Self { curve, placement })
+    }
+}
+
+impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
+    fn domain(&self) -> [T; 2] {
+        self.curve.domain()
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        let CurvePoint { x, y, dx, dy } = self.curve.at(k);
+        let ([x, y], [dx, dy]) =
+            (self.placement.direction([x, y]), self.placement.direction([dx, dy]));
+        let [along, across] = self.placement.shift;
+        CurvePoint { x: x + along, y: y + across, dx, dy }
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        if !self.placement.is_upright() {
+            return None;
+        }
+        let [[a, _], [_, d]] = self.placement.matrix;
+        let slope = self.curve.slope_at((x - self.placement.shift[0]) / a)?;
+        Some(slope * (d / a))
+    }
+}

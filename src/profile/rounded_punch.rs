@@ -1,0 +1,47 @@
+//! A flat punch with rounded edges.
+
+use super::{Parabola, Piecewise, PiecewiseError, Placed, Placement};
+use crate::Real;
+
+/// Half a parabola, a flat, and the other half.
+type Parts<T> = Piecewise<T, Placed<T, Parabola<T>>>;
+
+/// A punch that is flat from `-flat` to `flat` and goes on as the parabola `(abs(X) - flat)²/(2R)`,
+/// up to `abs(X) = reach`: the body of
+/// [`reference::RoundedPunch`](crate::reference::RoundedPunch).
+///
+/// Edges that are circular arcs are joined in the same way from [`Ellipse::circle`](super::Ellipse)
+/// and a [`Line`](super::Line).
+///
+/// # Errors
+/// [`PiecewiseError::InPiece`] with [`ProfileError::Parameter`](super::ProfileError) unless R and 1/R
+/// are finite and `flat` is finite, or [`ProfileError::Domain`](super::ProfileError) unless
+/// `0 < flat < reach`.
+///
+/// ```
+/// use linecontact::profile::rounded_punch;
+/// use linecontact::reference::{ClosedForm, RoundedPunch};
+/// use linecontact::{Contact, Flat, Load};
+///
+/// let (flat, radius, load) = (1.0f64, 0.5, 0.3);
+/// let body = rounded_punch(flat, radius, 3.0)?;
+/// let contact = Contact::new(&Flat, &body)?;
+/// let solution = contact.solve(Load::PerLength(load))?;
+/// let form = RoundedPunch::under_load(flat, radius, load, 1.0)?;
+/// assert!((solution.a() / form.limits().right - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn rounded_punch<T: Real>(flat: T, radius: T, reach: T) -> Result<Parts<T>, PiecewiseError<T>> {
+    let (zero, edge) = (T::zero(), reach - flat);
+    let part = |piece, curve: Result<Parabola<T>, _>, shift| {
+        let placement = Placement::default().shifted(shift, zero);
+        curve
+            .and_then(|curve| Placed::new(curve, placement))
+            .map_err(|source| PiecewiseError::InPiece { piece, source })
+    };
+    Piecewise::new(vec![
+        part(0, Parabola::new(radius, [-edge, zero]), -flat)?,
+        part(1, Parabola::of_curvature(zero, [-flat, flat]), zero)?,
+        part(2, Parabola::new(radius, [zero, edge]), flat)?,
+    ])
+}

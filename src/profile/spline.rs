@@ -1,0 +1,180 @@
+//! A profile through measured points.
+//!
+//! Written here and not taken from a crate: those that were looked at (`csaps`, `splines`,
+//! `enterpolation`, `interpn`, `cubic_spline`) do not take any [`Real`], and the one that smooths does
+//! so through the normal equations, which lose all digits where the smoothing reaches over some ten
+//! thousand points.
+
+mod points;
+mod slopes;
+mod smooth;
+
+pub use points::SplineError;
+
+use super::{CurvePoint, ParametricProfile, Piece};
+use crate::Real;
+
+/// How points become a [`Spline`].
+///
+/// ```
+/// use linecontact::profile::{Fit, Spline};
+///
+/// // A parabola, with a ripple of 2e-6 that is none of it.
+/// let point = |i: i32| [0.01 * f64::from(i), 5e-5 * f64::from(i * i) + 2e-6 * f64::from(i % 2)];
+/// let points: Vec<_> = (-100..=100).map(point).collect();
+/// let smooth = Spline::fitted(&points, Fit { noise: 1e-6, ..Fit::default() })?;
+/// # use linecontact::ParametricProfile;
+/// assert!((smooth.slope_at(0.3).unwrap() - 0.3).abs() < 1e-3);
+/// # Ok::<(), linecontact::profile::SplineError<f64>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit<T> {
+    /// Standard deviation of the heights, in their own unit: what the measuring machine adds to
+    /// them. Of all curves that are off the points by this much (root of the mean square) the
+    /// smoothest is taken, the one with the least `∫ Y''² dX` (Reinsch, *Numer. Math.* 10, 1967,
+    /// 177). With 0, the default, the curve goes through the points.
+    pub noise: T,
+    /// How far off a point may be before it is taken for a slip of the measurement: its distance
+    /// from the cubic through its four neighbours, in standard deviations. These are estimated from
+    /// the median of all such distances, or of those of the 21 points around it if that is larger.
+    /// Default 10; `None` lets everything pass. It takes twelve points, and at the two outermost ones,
+    /// which have neighbours on one side only, a slip several times as large. A corner between two
+    /// points, or an end that is all but upright, looks the same as a slip.
+    pub outliers: Option<T>,
+}
+
+impl<T: Real> Default for Fit<T> {
+    fn default() -> Self {
+        Self { noise: T::zero(), outliers: Some(T::of(10.0)) }
+    }
+}
+
+/// A profile through points `[x, y]`, or near them: a cubic spline with two continuous derivatives,
+/// `X = k`.
+///
+/// The points are in order of rising x, at any distances. At either end the first two and the last
+/// two cubics are one (de Boor's "not a knot"), so that four points of a cubic give that cubic; a
+/// smoothed spline ends straight.
+///
+/// The third derivative jumps at the knots, which are the joints of the profile. A contact costs some
+/// ten samples for each knot in it; no curve is evaluated for them, as the slope is known.
+///
+/// ```
+/// use linecontact::profile::Spline;
+/// use linecontact::{Contact, Flat, Load};
+///
+/// let points: Vec<[f64; 2]> =
+///     (-20..=20).map(|i| 0.05 * f64::from(i)).map(|x| [x, x * x / 2.0]).collect();
+/// let body = Spline::through(&points)?;
+/// let contact = Contact::new(&Flat, &body)?;
+/// let solution = contact.solve(Load::PerLength(0.02))?;
+/// assert!((solution.a() - 0.2).abs() < 1e-14); // the parabola
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Spline<T> {
+    cubics: Vec<Cubic<T>>,
+}
+
+/// The spline between two knots.
+#[derive(Clone, Copy, Debug)]
+struct Cubic<T> {
+    x: [T; 2],
+    /// Of `Y` by the distance from the left knot, the constant first.
+    coefficients: [T; 4],
+}
+
+impl<T: Real> Spline<T> {
+    /// The spline through the points.
+    ///
+    /// # Errors
+    /// [`SplineError`], with the row of the point at fault.
+    pub fn through(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {
+        Self::fitted(points, Fit::default())
+    }
+
+    /// The spline through the points, or near them.
+    ///
+    /// # Errors
+    /// [`SplineError`], with the row of the point at fault.
+    pub fn fitted(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
+        if !(fit.noise.is_finite() && fit.noise >= T::zero()) {
+            return Err(SplineError::Noise { noise: fit.noise });
+        }
+        points::check(points)?;
+        if let Some(most) = fit.outliers {
+            points::check_outliers(points, most)?;
+        }
+        if fit.noise > T::zero() {
+            Ok(Self::of(points, &smooth::smooth(points, fit.noise)?))
+        } else {
+            let slopes = slopes::slopes(points);
+            let knots: Vec<_> =
+                points.iter().zip(slopes).map(|(&[_, y], slope)| [y, slope]).collect();
+            Ok(Self::of(points, &knots))
+        }
+    }
+
+    /// From height and slope at each knot.
+    fn of(points: &[[T; 2]], knots: &[[T; 2]]) -> Self {
+        let cubic = |(x, y): (&[[T; 2]], &[[T; 2]])| {
+            let (x, [from, to]) = ([x[0][0], x[1][0]], [y[0], y[1]]);
+            let (h, two, three) = (x[1] - x[0], T::of(2.0), T::of(3.0));
+            let chord = (to[0] - from[0]) / h;
+            let second = (three * chord - two * from[1] - to[1]) / h;
+            let third = (from[1] + to[1] - two * chord) / h / h;
+            Cubic { x, coefficients: [from[0], from[1], second, third] }
+        };
+        Self { cubics: points.windows(2).zip(knots.windows(2)).map(cubic).collect() }
+    }
+
+    fn cubic(&self, x: T) -> &Cubic<T> {
+        let index = self.cubics.partition_point(|cubic| cubic.x[1] < x);
+        &self.cubics[index.min(self.cubics.len() - 1)]
+    }
+}
+
+impl<T: Real> ParametricProfile<T> for Cubic<T> {
+    fn domain(&self) -> [T; 2] {
+        self.x
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        let (t, [a, b, c, d]) = (k - self.x[0], self.coefficients);
+        CurvePoint { x: k, y: a + t * (b + t * (c + t * d)), dx: T::one(), dy: self.slope(t) }
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        Some(self.slope(x - self.x[0]))
+    }
+}
+
+impl<T: Real> Cubic<T> {
+    fn slope(&self, t: T) -> T {
+        let [_, b, c, d] = self.coefficients;
+        b + t * (T::of(2.0) * c + T::of(3.0) * t * d)
+    }
+}
+
+impl<T: Real> ParametricProfile<T> for Spline<T> {
+    fn domain(&self) -> [T; 2] {
+        [self.cubics[0].x[0], self.cubics[self.cubics.len() - 1].x[1]]
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        self.cubic(k).at(k)
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        self.cubic(x).slope_at(x)
+    }
+
+    fn pieces(&self) -> usize {
+        self.cubics.len()
+    }
+
+    fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
+        let cubic = self.cubics.get(index)?;
+        Some(Piece { curve: cubic, k: cubic.x, ends: cubic.x.map(|x| cubic.at(x)) })
+    }
+}

@@ -1,0 +1,205 @@
+//! What points must be to become a profile.
+
+use crate::Real;
+use crate::search::SearchError;
+use std::cmp::Ordering;
+use thiserror::Error;
+
+/// Points to either side of one that tell how far off is far there.
+const AROUND: usize = 10;
+
+/// Fewest points among which an outlier can be told.
+const FEWEST: usize = 12;
+
+/// The standard deviation of a normal distribution by the median of its absolute values.
+const BY_MEDIAN: f64 = 1.4826;
+
+/// Why points do not make a profile. Rows are counted from 1, as in a file with a point on each line.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum SplineError<T: Real> {
+    /// There are not enough of them.
+    #[error("{points} points: a spline needs four or more")]
+    TooFew {
+        /// How many there are.
+        points: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("row {row}: the point [{x:?}, {y:?}] is not finite")]
+    NotFinite {
+        /// Row of the point.
+        row: usize,
+        /// Its x.
+        x: T,
+        /// Its y.
+        y: T,
+    },
+    /// Two neighbours have one x, or x so near that their distance is lost.
+    #[error("row {row}: x = {x:?} as in the row before: keep one of the two, or their mean")]
+    Duplicate {
+        /// Row of the second.
+        row: usize,
+        /// Their x.
+        x: T,
+    },
+    /// x falls from one point to the next.
+    #[error("row {row}: x = {x:?} after {before:?}: sort the points by x, or reverse them")]
+    Unsorted {
+        /// Row of the second.
+        row: usize,
+        /// Its x.
+        x: T,
+        /// x of the row before.
+        before: T,
+    },
+    /// A point is off the curve through its neighbours.
+    #[error(
+        "row {row}: y = {y:?} at x = {x:?}, where its neighbours suggest {expected:?}: {deviations:?} \
+         standard deviations off. Remove the row, or set Fit::outliers to None if the body has a \
+         corner there"
+    )]
+    Outlier {
+        /// Row of the point, the one that is furthest off.
+        row: usize,
+        /// Its x.
+        x: T,
+        /// Its y.
+        y: T,
+        /// `Y` there of the cubic through its four neighbours.
+        expected: T,
+        /// How far off it is.
+        deviations: T,
+    },
+    /// The noise is negative, NaN or infinite.
+    #[error("the noise is {noise:?}: give the standard deviation of the heights, 0 or more")]
+    Noise {
+        /// The noise as given.
+        noise: T,
+    },
+    /// The limit for outliers is not positive.
+    #[error("Fit::outliers is {deviations:?}: give a number of standard deviations, or None")]
+    Limit {
+        /// The limit as given.
+        deviations: T,
+    },
+    /// A straight line is as close to the points as the noise allows.
+    #[error(
+        "noise of {noise:?} leaves nothing of the points: a straight line is only {line:?} off them"
+    )]
+    NothingLeft {
+        /// The noise as given.
+        noise: T,
+        /// Root mean square distance of the points from the line.
+        line: T,
+    },
+    /// The smoothing that the noise asks for was not found: the squares of the numbers overflow.
+    #[error("no smoothing was found: {source}. Give the points in a unit of their own size")]
+    Smoothing {
+        /// Where the search for it stood.
+        source: SearchError<T>,
+    },
+}
+
+/// Refuses points that are too few, not finite or not in order.
+pub(super) fn check<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
+    let mut before = None;
+    for (i, &[x, y]) in points.iter().enumerate() {
+        let row = i + 1;
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(SplineError::NotFinite { row, x, y });
+        }
+        match before {
+            Some(before) if x < before => return Err(SplineError::Unsorted { row, x, before }),
+            Some(before) if x == before => return Err(SplineError::Duplicate { row, x }),
+            _ => before = Some(x),
+        }
+    }
+    if points.len() < 4 {
+        return Err(SplineError::TooFew { points: points.len() });
+    }
+    Ok(())
+}
+
+/// Refuses the point that is furthest off the curve through its neighbours, if by more than `most`
+/// standard deviations.
+pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), SplineError<T>> {
+    // Not for NaN either.
+    if most.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
+        return Err(SplineError::Limit { deviations: most });
+    }
+    if points.len() < FEWEST {
+        return Ok(());
+    }
+    let all: Vec<T> = (0..points.len()).map(|i| deviation(points, i).abs()).collect();
+    let mut sorted = Vec::with_capacity(points.len());
+    let everywhere = median(&all, &mut sorted);
+    let size = points.iter().fold(T::zero(), |size, point| size.max(point[1].abs()));
+    let rounded = T::of(64.0) * T::epsilon() * size;
+    let mut floor = rounded;
+    if everywhere <= rounded {
+        // Most points are exactly in line: heights without noise, or rounded to steps.
+        let steps = points.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
+        let step = steps.filter(|step| !step.is_zero()).reduce(|least, step| least.min(step));
+        floor = floor.max(step.unwrap_or(rounded));
+    }
+    let mut scale_at = |i: usize| {
+        let start = i.saturating_sub(AROUND).min(all.len().saturating_sub(2 * AROUND + 1));
+        let around = &all[start..(start + 2 * AROUND + 1).min(all.len())];
+        T::of(BY_MEDIAN) * median(around, &mut sorted).max(everywhere)
+    };
+    let mut worst: Option<(usize, T)> = None;
+    for (i, &off) in all.iter().enumerate() {
+        let far = off > floor && off > most * T::of(BY_MEDIAN) * everywhere;
+        if far && off > most * scale_at(i) && worst.is_none_or(|(_, worst)| off > worst) {
+            worst = Some((i, off));
+        }
+    }
+    let Some((i, off)) = worst else { return Ok(()) };
+    let deviations = off / scale_at(i).max(floor / most);
+    let i = culprit(points, i);
+    let [x, y] = points[i];
+    let (expected, _) = foretold(points, i);
+    Err(SplineError::Outlier { row: i + 1, x, y, expected, deviations })
+}
+
+/// Which point near one that is off is at fault: the one without which the others are smoothest. (At
+/// an end three of them are foretold by the same five, and equally far off.)
+fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
+    let near = i.saturating_sub(8)..(i + 9).min(points.len());
+    let rough = |left_out: &usize| {
+        let rest: Vec<_> = near.clone().filter(|j| j != left_out).map(|j| points[j]).collect();
+        (0..rest.len()).fold(T::zero(), |sum, j| sum + deviation(&rest, j).abs())
+    };
+    let candidates = i.saturating_sub(2)..(i + 3).min(points.len());
+    let order = |a: &usize, b: &usize| rough(a).partial_cmp(&rough(b)).unwrap_or(Ordering::Equal);
+    candidates.min_by(order).unwrap_or(i)
+}
+
+/// How far a point is off the cubic through its neighbours, in units such that it is the error of
+/// one height that is off by as much as all the others.
+fn deviation<T: Real>(points: &[[T; 2]], i: usize) -> T {
+    let (expected, weights) = foretold(points, i);
+    (points[i][1] - expected) / (T::one() + weights).sqrt()
+}
+
+/// The height at a point by the cubic through the four nearest others of a row of five, and the sum
+/// of the squares of the weights that they have in it.
+fn foretold<T: Real>(points: &[[T; 2]], i: usize) -> (T, T) {
+    let start = i.saturating_sub(2).min(points.len() - 5);
+    let x = points[i][0];
+    let neighbours = || (start..start + 5).filter(|&j| j != i);
+    let weight = |j: usize| {
+        let factor = |m: usize| (x - points[m][0]) / (points[j][0] - points[m][0]);
+        neighbours().filter(|&m| m != j).fold(T::one(), |product, m| product * factor(m))
+    };
+    neighbours().fold((T::zero(), T::zero()), |(height, squares), j| {
+        let weight = weight(j);
+        (height + weight * points[j][1], squares + weight * weight)
+    })
+}
+
+fn median<T: Real>(values: &[T], sorted: &mut Vec<T>) -> T {
+    sorted.clear();
+    sorted.extend_from_slice(values);
+    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
+    *sorted.select_nth_unstable_by((values.len() - 1) / 2, order).1
+}
