@@ -1,9 +1,8 @@
 //! A profile through measured points.
 //!
-//! Written here and not taken from a crate: those that were looked at (`csaps`, `splines`,
-//! `enterpolation`, `interpn`, `cubic_spline`) do not take any [`Real`], and the one that smooths does
-//! so through the normal equations, which lose all digits where the smoothing reaches over some ten
-//! thousand points.
+//! Written here and not taken from a crate: none was found that takes any [`Real`] and smooths to a
+//! given noise. `csaps` smooths by a weight between 0 and 1, through the normal equations, which lose
+//! all digits where the smoothing reaches over some ten thousand points.
 
 mod points;
 mod slopes;
