@@ -28,6 +28,8 @@
 //!
 //! # Where things are
 //! - [`profile`]: bodies, from a closure, a struct of your own, or pieces joined.
+//! - [`check_derivatives`]: whether X' and Y' written by hand are those of X and Y. With the feature
+//!   `autodiff` there is nothing to write: see `autodiff::Formula`.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
@@ -54,6 +56,8 @@
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
 
+#[cfg(feature = "autodiff")]
+pub mod autodiff;
 mod certificate;
 pub mod contact;
 mod error;
@@ -77,7 +81,7 @@ pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
-pub use profile::{Piece, ProfileError};
+pub use profile::{Piece, ProfileError, check_derivatives};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use quantities::LoadRates;
 pub use real::Real;

@@ -5,11 +5,13 @@
 //! built in is the one that needs no curve: [`Flat`].
 
 mod curve;
+mod derivatives;
 mod flat;
 mod piece;
 mod piecewise;
 
 pub use curve::Curve;
+pub use derivatives::check_derivatives;
 pub use flat::Flat;
 pub use piece::Piece;
 pub(crate) use piece::turning_point;

@@ -101,7 +101,7 @@ impl<'a, T: Real> Piece<'a, T> {
 }
 
 /// The range of `k`, checked.
-fn domain<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<[T; 2], ProfileError<T>> {
+pub(super) fn domain<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<[T; 2], ProfileError<T>> {
     let [from, to] = curve.domain();
     if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
         Ok([from, to])

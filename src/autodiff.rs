@@ -1,0 +1,158 @@
+//! Curves without hand-written derivatives (feature `autodiff`).
+//!
+//! A curve written once for numbers of any kind is evaluated on the dual numbers of
+//! [`num_dual`], which carry its derivatives along, exact to rounding.
+//!
+//! ```
+//! use linecontact::autodiff::{Autodiff, Formula};
+//! use linecontact::{Contact, Flat, Load, Real};
+//!
+//! /// The lower half of a circle, by the angle from its lowest point.
+//! struct Roller { r: f64 }
+//!
+//! impl Formula<f64> for Roller {
+//!     fn domain(&self) -> [f64; 2] {
+//!         [-1.5, 1.5]
+//!     }
+//!     fn point<N: Real>(&self, k: N) -> (N, N) {
+//!         let r = N::of(self.r);
+//!         (r * k.sin(), r * (N::one() - k.cos()))
+//!     }
+//! }
+//!
+//! let roller = Autodiff(Roller { r: 10.0 });
+//! let contact = Contact::new(&Flat, &roller)?.contact_modulus(115e3);
+//! let solution = contact.solve(Load::PerLength(500.0))?;
+//! assert!((solution.a() / 0.2354 - 1.0).abs() < 1e-3);
+//! # Ok::<(), linecontact::ContactError<f64>>(())
+//! ```
+//!
+//! Where `X` or `Y` has no derivative (the `|k|` of a wedge, the ends of `sqrt(1 - k²)`) it has none
+//! here either: make a piece of each side ([`Piecewise`](crate::Piecewise)), or take an angle for the
+//! parameter.
+
+pub use num_dual;
+
+use crate::{CurvePoint, ParametricProfile, Real};
+use num_dual::{Dual, HyperDual};
+
+/// A curve `[X(k), Y(k)]` for numbers of any kind; [`Autodiff`] makes a profile of it.
+///
+/// `T` is the number type of the solver. Constants become numbers of the kind at hand by
+/// [`Real::of`], and shape parameters of type `T` by [`Over::lift`].
+///
+/// ```
+/// use linecontact::Real;
+/// use linecontact::autodiff::{Formula, Over};
+///
+/// /// `y = x²/(2R)`, whose radius may itself be a dual number.
+/// struct Parabola<T> { radius: T }
+///
+/// impl<T: Real> Formula<T> for Parabola<T> {
+///     fn domain(&self) -> [T; 2] {
+///         [-T::one(), T::one()]
+///     }
+///     fn point<N: Over<T>>(&self, k: N) -> (N, N) {
+///         (k, k * k / (N::of(2.0) * N::lift(self.radius)))
+///     }
+/// }
+/// ```
+pub trait Formula<T: Real>: Send + Sync {
+    /// The range of `k`, both ends finite, over which `X` rises or falls strictly.
+    fn domain(&self) -> [T; 2];
+
+    /// `(X(k), Y(k))`. Where all constants are plain, `N: Real` will do for the bound.
+    fn point<N: Over<T>>(&self, k: N) -> (N, N);
+}
+
+/// Numbers of which those of type `T` are a part.
+pub trait Over<T>: Real {
+    /// The same number.
+    fn lift(value: T) -> Self;
+}
+
+impl<T: Real> Over<T> for T {
+    fn lift(value: T) -> Self {
+        value
+    }
+}
+
+/// Numbers by which a [`Formula`] can be differentiated: `f32` and `f64`, and the [`Dual`] numbers of
+/// both, so that a solution can have derivatives by parameters of such a curve.
+pub trait Differentiable: Real {
+    /// Numbers that carry one derivative more.
+    type Jet: Over<Self>;
+
+    /// The number, as that by which to differentiate.
+    fn variable(self) -> Self::Jet;
+
+    /// Value and derivative.
+    fn value_and_slope(jet: Self::Jet) -> [Self; 2];
+}
+
+/// The profile of a [`Formula`].
+#[derive(Clone, Copy, Debug)]
+pub struct Autodiff<F>(pub F);
+
+impl<T: Differentiable, F: Formula<T>> ParametricProfile<T> for Autodiff<F> {
+    fn domain(&self) -> [T; 2] {
+        self.0.domain()
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        let (x, y) = self.0.point(k.variable());
+        let ([x, dx], [y, dy]) = (T::value_and_slope(x), T::value_and_slope(y));
+        CurvePoint { x, y, dx, dy }
+    }
+
+    fn x(&self, k: T) -> T {
+        self.0.point(k).0
+    }
+
+    fn y(&self, k: T) -> T {
+        self.0.point(k).1
+    }
+}
+
+/// Plain numbers, and their dual numbers.
+macro_rules! plain {
+    ($($plain:ty),*) => {$(
+        impl Over<$plain> for Dual<$plain> {
+            fn lift(value: $plain) -> Self {
+                Self::from_re(value)
+            }
+        }
+
+        impl Differentiable for $plain {
+            type Jet = Dual<$plain>;
+
+            fn variable(self) -> Self::Jet {
+                Dual::new(self, 1.0)
+            }
+
+            fn value_and_slope(jet: Self::Jet) -> [Self; 2] {
+                [jet.re, jet.eps]
+            }
+        }
+
+        // The first derivative of a hyper-dual number is that of the dual number, the second is by k.
+        impl Over<Dual<$plain>> for HyperDual<$plain> {
+            fn lift(value: Dual<$plain>) -> Self {
+                Self::new(value.re, value.eps, 0.0, 0.0)
+            }
+        }
+
+        impl Differentiable for Dual<$plain> {
+            type Jet = HyperDual<$plain>;
+
+            fn variable(self) -> Self::Jet {
+                HyperDual::new(self.re, self.eps, 1.0, 0.0)
+            }
+
+            fn value_and_slope(jet: Self::Jet) -> [Self; 2] {
+                [Dual::new(jet.re, jet.eps1), Dual::new(jet.eps2, jet.eps1eps2)]
+            }
+        }
+    )*};
+}
+plain!(f32, f64);
