@@ -159,7 +159,8 @@ pub(super) fn with_edges<T: Real>(
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
             check_strengths(conditions, &nested, &m)?;
-            let load = load.unwrap_or(conditions.kappa * nested.on.half_width() * m.first);
+            let carried = || conditions.balance(nested.on, &m);
+            let load = load.or_else(carried).unwrap_or_else(|| conditions.load());
             return Ok(Found::new(conditions, nested.on, load, error, &m));
         }
     }
