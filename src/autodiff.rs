@@ -1,5 +1,6 @@
-//! Curves without hand-written derivatives (feature `autodiff`).
+//! Curves without hand-written derivatives, and solutions with derivatives (feature `autodiff`).
 //!
+//! # Curves
 //! A curve written once for numbers of any kind is evaluated on the dual numbers of
 //! [`num_dual`], which carry its derivatives along, exact to rounding.
 //!
@@ -29,12 +30,86 @@
 //!
 //! Where `X` or `Y` has no derivative (the `|k|` of a wedge, the ends of `sqrt(1 - k²)`) it has none
 //! here either: make a piece of each side ([`Piecewise`](crate::Piecewise)), or take an angle for the
-//! parameter.
+//! parameter. `powf` of zero is NaN in its derivative, `powi` is not.
+//!
+//! # Solutions
+//! The solver itself works on dual numbers. Give one parameter (of a shape, a load, κ, a limit, an x)
+//! the derivative 1, and whatever comes out has its derivative by that parameter:
+//!
+//! ```
+//! use linecontact::autodiff::num_dual::Dual64;
+//! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+//!
+//! let radius = Dual64::from_re(0.01).derivative();
+//! let parabola = Curve::new([-0.01, 0.01].map(Dual64::from_re), move |k| {
+//!     CurvePoint { x: k, y: k * k / (radius * 2.0), dx: Dual64::from_re(1.0), dy: k / radius }
+//! });
+//! let contact = Contact::new(&Flat, &parabola)?.contact_modulus(Dual64::from_re(115e9));
+//! let solution = contact.solve(Load::PerLength(Dual64::from_re(50e3)))?;
+//!
+//! // Hertz: a is proportional to the root of R, and the largest pressure to its reciprocal.
+//! let a = solution.a();
+//! assert!((a.eps / (a.re / (2.0 * 0.01)) - 1.0).abs() < 1e-13);
+//! let peak = solution.pressure()?.at(Dual64::from_re(0.0))?;
+//! assert!((peak.eps / (-peak.re / (2.0 * 0.01)) - 1.0).abs() < 1e-13);
+//! # Ok::<(), linecontact::ContactError<num_dual::Dual64>>(())
+//! ```
+//!
+//! [`Dual`] has one derivative, [`DualSVec`] a gradient from a single solution, [`HyperDual`] second
+//! ones. The derivatives are those of the exact solution, not of the steps that led to it: the panels
+//! are refined until the derivatives of the slope have converged too, and the limits take a step more
+//! of Newton's rule for each order, whatever search has found them. In the closed forms of
+//! [`reference`](mod@crate::reference) they come out to 1e-14, in formulas with noise to the noise of
+//! their derivatives; there is no estimate of their error. Where edges change their kind
+//! ([`Edge::UpTo`](crate::Edge::UpTo)), and where a contact gives way, there is no derivative, and what
+//! comes out is that of one side, or not finite. So is the derivative of a pressure at the limits. Of
+//! [`Solution::peak`](crate::Solution::peak) the value has its derivative, the place has not.
+//!
+//! Comparisons, and so all decisions, go by the values: these are what they are without derivatives,
+//! but for rounding.
 
 pub use num_dual;
 
 use crate::{CurvePoint, ParametricProfile, Real};
-use num_dual::{Dual, HyperDual};
+use nalgebra::RealField;
+use num_dual::{Dual, DualNumFloat, DualSVec, HyperDual};
+
+impl<F: DualNumFloat> Real for Dual<F>
+where
+    Self: RealField,
+{
+    const PARTS: usize = 2;
+    const MORE_STEPS: usize = 1;
+
+    fn part(self, index: usize) -> Self {
+        Self::from_re(if index == 0 { self.re } else { self.eps })
+    }
+}
+
+impl<F: DualNumFloat, const N: usize> Real for DualSVec<F, N>
+where
+    Self: RealField + Copy,
+{
+    const PARTS: usize = 1 + N;
+    const MORE_STEPS: usize = 1;
+
+    fn part(self, index: usize) -> Self {
+        let derivative = |i: usize| self.eps.0.map_or(F::zero(), |eps| eps[i]);
+        Self::from_re(index.checked_sub(1).map_or(self.re, derivative))
+    }
+}
+
+impl<F: DualNumFloat> Real for HyperDual<F>
+where
+    Self: RealField,
+{
+    const PARTS: usize = 4;
+    const MORE_STEPS: usize = 2;
+
+    fn part(self, index: usize) -> Self {
+        Self::from_re([self.re, self.eps1, self.eps2, self.eps1eps2][index])
+    }
+}
 
 /// A curve `[X(k), Y(k)]` for numbers of any kind; [`Autodiff`] makes a profile of it.
 ///

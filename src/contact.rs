@@ -3,6 +3,7 @@
 mod approach;
 mod edges;
 mod first_contact;
+mod further;
 mod limits;
 mod newton;
 mod peak;

@@ -1,50 +1,27 @@
 //! Curves without hand-written derivatives, against the same curves with them.
 
 mod common;
+#[path = "common/formulas.rs"]
+mod formulas;
 
 use common::paper;
-use linecontact::autodiff::{Autodiff, Formula};
+use formulas::{Lower3, Upper3};
+use linecontact::autodiff::{Autodiff, Differentiable, Formula, Over};
 use linecontact::{Contact, Flat, Load, ParametricProfile, Piecewise, Real, check_derivatives};
 use std::f64::consts::PI;
 
-/// The two bodies of the paper's Example 3, Eqs. (33), (34), without their derivatives.
-struct Lower3;
-struct Upper3;
-
-impl Formula<f64> for Lower3 {
-    fn domain(&self) -> [f64; 2] {
-        [-1.353999702552852, 0.7911938540783813]
-    }
-    fn point<N: Real>(&self, k: N) -> (N, N) {
-        let n = N::of;
-        let (s, c) = k.sin_cos();
-        let x = n(2.0) * c - n(8.0) * k * c - n(9.0) * s + n(7.0) * k * s - n(2.0);
-        let y = n(15.0) * s + n(9.0) * c - n(15.0) * k * c - n(6.0) * k * s - n(9.0);
-        (x, y * n(1e5))
-    }
-}
-
-impl Formula<f64> for Upper3 {
-    fn domain(&self) -> [f64; 2] {
-        [-1.428061671618955, 0.7623463067015128]
-    }
-    fn point<N: Real>(&self, k: N) -> (N, N) {
-        let n = N::of;
-        let (s, c) = k.sin_cos();
-        let x = n(7.0) * s - n(8.0) * c + n(3.0) * k * c - n(9.0) * k * s + n(8.0);
-        let y = n(35.0) * k * c - n(35.0) * s - n(30.0) * c + n(10.0) * k * s + n(30.0);
-        (x, y * n(1e5))
-    }
-}
+const UNIT: [f64; 2] = [1.0; 2];
+const LOWER_3: Autodiff<Lower3<f64>> = Autodiff(Lower3 { coefficient: 8.0, scale: UNIT });
+const UPPER_3: Autodiff<Upper3<f64>> = Autodiff(Upper3 { scale: UNIT });
 
 /// Derivatives are those written by hand, to the rounding of the terms that cancel in them.
 #[test]
 fn derivatives_of_example_3_are_those_of_the_paper() {
     let by_hand = paper::three();
     let pairs: [(&dyn ParametricProfile<f64>, &dyn ParametricProfile<f64>); 2] =
-        [(&*by_hand.lower, &Autodiff(Lower3)), (&*by_hand.upper, &Autodiff(Upper3))];
+        [(&*by_hand.lower, &LOWER_3), (&*by_hand.upper, &UPPER_3)];
     for (by_hand, auto) in pairs {
-        let [from, to] = by_hand.domain();
+        let [from, to] = auto.domain();
         for i in 0..=100 {
             let k = from + (to - from) * f64::from(i) / 100.0;
             let (p, q) = (by_hand.at(k), auto.at(k));
@@ -62,7 +39,7 @@ fn derivatives_of_example_3_are_those_of_the_paper() {
 fn example_3_is_solved_without_derivatives() {
     let reference = common::reference("paper_example_3_scale_one");
     let by_hand = paper::three();
-    let (lower, upper) = (Autodiff(Lower3), Autodiff(Upper3));
+    let (lower, upper) = (LOWER_3, UPPER_3);
     let load = Load::Constant(reference.c);
     let contact = Contact::new(&lower, &upper).unwrap();
     let solution = contact.solve(load).unwrap();
@@ -83,14 +60,14 @@ impl<T: Real> Formula<T> for Flank<T> {
     fn domain(&self) -> [T; 2] {
         self.range
     }
-    fn point<N: linecontact::autodiff::Over<T>>(&self, k: N) -> (N, N) {
+    fn point<N: Over<T>>(&self, k: N) -> (N, N) {
         (k, N::lift(self.slope) * k)
     }
 }
 
 #[test]
 fn pieces_are_joined_in_either_precision() {
-    fn half_width<T: Real + linecontact::autodiff::Differentiable>() -> T {
+    fn half_width<T: Differentiable>() -> T {
         let (zero, one) = (T::zero(), T::one());
         let flanks = vec![
             Autodiff(Flank { slope: -one, range: [-one, zero] }),
