@@ -29,7 +29,7 @@
 //! # Where things are
 //! - [`profile`]: bodies, from a closure, a struct of your own, or pieces joined.
 //! - [`check_derivatives`]: whether X' and Y' written by hand are those of X and Y. With the feature
-//!   `autodiff` there is nothing to write: see `autodiff::Formula`.
+//!   `autodiff` there is nothing to write, and solutions have derivatives by any parameter.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
@@ -38,7 +38,8 @@
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Certificate`]: that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
-//!   the contact and a check of the equation on request. [`Solver`]: solving again and again.
+//!   the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
+//!   feature `rayon`, `sweep`: many scenes over all cores.
 //!
 //! # Example
 //! ```
@@ -74,6 +75,8 @@ pub mod search;
 mod solution;
 mod solver;
 pub mod stress;
+#[cfg(feature = "rayon")]
+mod sweep;
 
 pub use certificate::{Certificate, Place};
 pub use contact::{Contact, Edge, EdgePressure, Load};
@@ -87,6 +90,8 @@ pub use quantities::LoadRates;
 pub use real::Real;
 pub use solution::{Peak, Pressure, Solution};
 pub use solver::Solver;
+#[cfg(feature = "rayon")]
+pub use sweep::sweep;
 
 /// Compiles and runs the README's code.
 #[cfg(doctest)]
