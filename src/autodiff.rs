@@ -154,6 +154,10 @@ impl<T: Real> Over<T> for T {
 
 /// Numbers by which a [`Formula`] can be differentiated: `f32` and `f64`, and the [`Dual`] numbers of
 /// both, so that a solution can have derivatives by parameters of such a curve.
+#[diagnostic::on_unimplemented(
+    message = "an `Autodiff` profile cannot be differentiated in numbers of type `{Self}`",
+    note = "`f32`, `f64`, `Dual<f32>` and `Dual<f64>` can; for others implement `ParametricProfile`, with X' and Y'"
+)]
 pub trait Differentiable: Real {
     /// Numbers that carry one derivative more.
     type Jet: Over<Self>;

@@ -58,6 +58,12 @@ pub struct CurvePoint<T> {
 ///     }
 /// }
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a profile: it has no `ParametricProfile<{T}>`",
+    label = "not a profile",
+    note = "implement `ParametricProfile<{T}>` for a struct, or wrap a closure: `Curve::new([from, to], closure)`",
+    note = "both bodies of a contact, its loads and edges have one number type"
+)]
 pub trait ParametricProfile<T: Real>: Send + Sync {
     /// The range of `k`, both ends finite, over which `X` rises or falls strictly.
     fn domain(&self) -> [T; 2];

@@ -8,6 +8,12 @@ use num_traits::FromPrimitive;
 ///
 /// What a number carries besides its value, as a dual number its derivatives, has to be told: the
 /// solver looks at the value for its decisions, and at all parts for whether it is done.
+#[diagnostic::on_unimplemented(
+    message = "the solver does not work in numbers of type `{Self}`",
+    label = "not a `Real`",
+    note = "use `f64` or `f32` (write `1.0`, not `1`), or with the feature `autodiff` dual numbers",
+    note = "for a `nalgebra::RealField` of your own: `impl linecontact::Real for YourType {{}}`"
+)]
 pub trait Real: RealField + Copy {
     /// Of how many plain numbers it is made: 1, and for a dual number one more for each derivative.
     const PARTS: usize = 1;
