@@ -60,10 +60,12 @@
 //! are refined until the derivatives of the slope have converged too, and the limits take a step more
 //! of Newton's rule for each order, whatever search has found them. In the closed forms of
 //! [`reference`](mod@crate::reference) they come out to 1e-14, in formulas with noise to the noise of
-//! their derivatives; there is no estimate of their error. Where edges change their kind
-//! ([`Edge::UpTo`](crate::Edge::UpTo)), and where a contact gives way, there is no derivative, and what
-//! comes out is that of one side, or not finite. So is the derivative of a pressure at the limits. Of
-//! [`Solution::peak`](crate::Solution::peak) the value has its derivative, the place has not.
+//! their derivatives; there is no estimate of their error. A kink or jump of a slope that moves with
+//! the parameter must be declared as a joint: halving finds where it is, not that it moves. Where edges
+//! change their kind ([`Edge::UpTo`](crate::Edge::UpTo)), and where a contact gives way, there is no
+//! derivative, and what comes out is that of one side, or not finite. So is the derivative of a
+//! pressure at the limits. Of [`Solution::peak`](crate::Solution::peak) the value has its derivative,
+//! the place has not.
 //!
 //! Comparisons, and so all decisions, go by the values: these are what they are without derivatives,
 //! but for rounding.

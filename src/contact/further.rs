@@ -75,7 +75,11 @@ pub(super) fn further<T: Real>(
         let other = (by_one[1] * at_a - by_one[0] * at_b) / determinant;
         on = moved(on, [one, other]);
     }
-    // What is found must still be a contact where the search has found it.
+    // What is found must still be the contact that the search has found, within its tolerance.
     let shift = (on.left - found.left).abs().max((on.right - found.right).abs());
-    Ok(if shift <= T::of(0.01) * size { on } else { found })
+    if shift <= T::of(0.25) * size {
+        Ok(on)
+    } else {
+        Err(ContactError::NoBalance { half_width: size, near: found.centre() })
+    }
 }
