@@ -3,6 +3,7 @@
 mod approach;
 mod edges;
 mod first_contact;
+mod further;
 mod limits;
 mod newton;
 mod peak;
@@ -217,7 +218,7 @@ impl<'a, T: Real> Contact<'a, T> {
     /// # Errors
     /// [`ContactError::Segments`], [`ContactError::Tolerance`].
     pub fn solver(&self) -> Result<Solver<T>, ContactError<T>> {
-        Ok(Solver::new(self.quadrature.engine()?))
+        Solver::with(self.quadrature)
     }
 
     /// The solution, if it need not be a contact or is one.

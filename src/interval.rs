@@ -1,6 +1,7 @@
 //! The contact as an interval of x.
 
 use crate::Real;
+use crate::real::same;
 
 /// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,16 @@ pub struct Interval<T> {
 }
 
 impl<T: Real> Interval<T> {
+    /// The same without derivatives, to start from.
+    pub(crate) fn plain(&self) -> Self {
+        Self { left: self.left.part(0), right: self.right.part(0) }
+    }
+
+    /// Whether it is the same in all parts of its numbers.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        same(self.left, other.left) && same(self.right, other.right)
+    }
+
     /// Half-width `L = (a + b)/2`.
     pub fn half_width(&self) -> T {
         T::of(0.5) * (self.right - self.left)

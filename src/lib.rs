@@ -28,6 +28,8 @@
 //!
 //! # Where things are
 //! - [`profile`]: bodies, from a closure, a struct of your own, shapes built in, or pieces joined.
+//! - [`check_derivatives`]: whether X' and Y' written by hand are those of X and Y. With the feature
+//!   `autodiff` there is nothing to write, and solutions have derivatives by any parameter.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
@@ -36,7 +38,8 @@
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Certificate`]: that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
-//!   the contact and a check of the equation on request. [`Solver`]: solving again and again.
+//!   the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
+//!   feature `rayon`, `sweep`: many scenes over all cores.
 //!
 //! # Example
 //! ```
@@ -54,6 +57,8 @@
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
 
+#[cfg(feature = "autodiff")]
+pub mod autodiff;
 mod certificate;
 pub mod contact;
 mod error;
@@ -70,6 +75,8 @@ pub mod search;
 mod solution;
 mod solver;
 pub mod stress;
+#[cfg(feature = "rayon")]
+mod sweep;
 
 pub use certificate::{Certificate, Place};
 pub use contact::{Contact, Edge, EdgePressure, Load};
@@ -77,12 +84,14 @@ pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
-pub use profile::{Piece, ProfileError};
+pub use profile::{Piece, ProfileError, check_derivatives};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use quantities::LoadRates;
 pub use real::Real;
 pub use solution::{Peak, Pressure, Solution};
 pub use solver::Solver;
+#[cfg(feature = "rayon")]
+pub use sweep::sweep;
 
 /// Compiles and runs the README's code.
 #[cfg(doctest)]

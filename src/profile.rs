@@ -23,6 +23,7 @@
 
 mod crowning;
 mod curve;
+mod derivatives;
 mod ellipse;
 mod flat;
 mod involute;
@@ -37,6 +38,7 @@ mod spline;
 pub use crowning::Crowning;
 pub(crate) use crowning::relief;
 pub use curve::Curve;
+pub use derivatives::check_derivatives;
 pub use ellipse::Ellipse;
 pub use flat::Flat;
 pub use involute::Involute;
@@ -90,6 +92,12 @@ pub struct CurvePoint<T> {
 ///     }
 /// }
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a profile: it has no `ParametricProfile<{T}>`",
+    label = "not a profile",
+    note = "implement `ParametricProfile<{T}>` for a struct, or wrap a closure: `Curve::new([from, to], closure)`",
+    note = "both bodies of a contact, its loads and edges have one number type"
+)]
 pub trait ParametricProfile<T: Real>: Send + Sync {
     /// The range of `k`, both ends finite, over which `X` rises or falls strictly.
     fn domain(&self) -> [T; 2];

@@ -3,11 +3,30 @@
 use nalgebra::RealField;
 use num_traits::FromPrimitive;
 
-/// A real number the solver can work in: `f32`, `f64`, and any other `Copy` type that
-/// is a [`nalgebra::RealField`].
+/// A real number the solver can work in: `f32`, `f64`, with the feature `autodiff` dual numbers, and
+/// any other `Copy` type that is a [`nalgebra::RealField`], by an empty `impl`.
 ///
-/// Implemented for every such type; there is nothing to write.
+/// What a number carries besides its value, as a dual number its derivatives, has to be told: the
+/// solver looks at the value for its decisions, and at all parts for whether it is done.
+#[diagnostic::on_unimplemented(
+    message = "the solver does not work in numbers of type `{Self}`",
+    label = "not a `Real`",
+    note = "use `f64` or `f32` (write `1.0`, not `1`), or with the feature `autodiff` dual numbers",
+    note = "for a `nalgebra::RealField` of your own: `impl linecontact::Real for YourType {{}}`"
+)]
 pub trait Real: RealField + Copy {
+    /// Of how many plain numbers it is made: 1, and for a dual number one more for each derivative.
+    const PARTS: usize = 1;
+
+    /// Steps of Newton's rule that a solution takes beyond the convergence of its value, for the
+    /// derivatives to converge: as many as the order of the highest derivative.
+    const MORE_STEPS: usize = 0;
+
+    /// One of the [`PARTS`](Self::PARTS), as a number without derivatives. The first is the value.
+    fn part(self, _index: usize) -> Self {
+        self
+    }
+
     /// The number of this type nearest to `value`.
     fn of(value: f64) -> Self {
         nalgebra::convert(value)
@@ -24,7 +43,18 @@ pub trait Real: RealField + Copy {
     }
 }
 
-impl<T: RealField + Copy> Real for T {}
+impl Real for f32 {}
+impl Real for f64 {}
+
+/// Whether two numbers are the same in all of their parts. (Dual numbers compare by their values.)
+pub(crate) fn same<T: Real>(a: T, b: T) -> bool {
+    (0..T::PARTS).all(|i| a.part(i) == b.part(i))
+}
+
+/// Whether a number is finite in all of its parts.
+pub(crate) fn is_finite<T: Real>(a: T) -> bool {
+    (0..T::PARTS).all(|i| a.part(i).is_finite())
+}
 
 /// `a b + c`, with one rounding where the processor has an instruction for it. (Without one, the exact
 /// result would take a hundred times as long.)

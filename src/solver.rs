@@ -1,7 +1,7 @@
 //! Solving again: the next load, the next time step.
 
 use crate::contact::Load;
-use crate::quadrature::Engine;
+use crate::quadrature::{Engine, Quadrature};
 use crate::solution::{Solution, Worker};
 use crate::{Contact, ContactError, Interval, Real};
 
@@ -43,12 +43,16 @@ pub struct Solver<T: Real> {
 }
 
 impl<T: Real> Solver<T> {
-    pub(crate) fn new(engine: Box<dyn Engine<T>>) -> Self {
-        Self { engine, last: None }
+    /// A solver with a quadrature of its own, where there is no scene yet to make it from.
+    ///
+    /// # Errors
+    /// [`ContactError::Segments`], [`ContactError::Tolerance`].
+    pub fn with(quadrature: &dyn Quadrature<T>) -> Result<Self, ContactError<T>> {
+        Ok(Self { engine: quadrature.engine()?, last: None })
     }
 
-    /// Solves a scene, as [`Contact::solve`] does. The quadrature is that of the scene the solver
-    /// was made from.
+    /// Solves a scene, as [`Contact::solve`] does. The quadrature is the solver's, that of the
+    /// scene it was made from.
     ///
     /// # Errors
     /// Those of [`Contact::solve`]. After an error the next scene is solved from scratch.

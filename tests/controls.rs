@@ -5,6 +5,7 @@ mod common;
 
 use approx::assert_relative_eq;
 use common::{Profile, graph, paper, parabola, power, reference};
+use linecontact::search::{Brent, Tolerance};
 use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load};
 use std::f64::consts::PI;
 
@@ -145,6 +146,31 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     let error = adhesive.solve(Load::ToPeak(0.3)).unwrap_err();
     assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
 }
+
+/// The load that a given width takes, found by a search of one unknown at a time: with an adhesive edge
+/// it is less by the pull, with a fixed one it is what the other edge asks for.
+#[test]
+fn a_width_by_a_search_takes_the_load_of_its_edges() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().search(&SEARCH);
+    let l: f64 = 0.3;
+    let (round, pull) = (l * l / 2.0, 2.0 * (0.01 * l).sqrt());
+    // With the left edge at -b and no strength at a: F = κ L (m₁ + m₀), m₀ = c, m₁ = L/2.
+    let centre = -0.2 + l;
+    let free = Edge::Free;
+    for (edges, load) in [
+        ([free, free], round),
+        ([Edge::Adhesive(0.01), Edge::Adhesive(0.01)], round - pull),
+        ([Edge::Fixed(-0.2), free], l * (l / 2.0 + centre)),
+        ([free, Edge::Fixed(0.2)], l * (l / 2.0 + centre)),
+    ] {
+        let contact = contact.clone().edges(edges[0], edges[1]);
+        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-13);
+    }
+}
+
+const SEARCH: Brent = Brent { tolerance: Tolerance::FULL };
 
 #[test]
 fn values_that_are_none() {

@@ -148,7 +148,7 @@ pub(super) fn with_edges<T: Real>(
             }
             let [left, right] = beyond(contact, nested.on, T::of(0.02));
             let stretch = Interval { left: left.max(range[0]), right: right.min(range[1]) };
-            engine.cover(gap, with_corners(conditions, stretch), false)?;
+            engine.cover(gap, with_corners(conditions, stretch.plain()), false)?;
             let start = Some(nested.on);
             (nested, load) = self::nested(contact, conditions, engine, start, cost)?;
         }
@@ -159,7 +159,8 @@ pub(super) fn with_edges<T: Real>(
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
             check_strengths(conditions, &nested, &m)?;
-            let load = load.unwrap_or(conditions.kappa * nested.on.half_width() * m.first);
+            let carried = || conditions.balance(nested.on, &m);
+            let load = load.or_else(carried).unwrap_or_else(|| conditions.load());
             return Ok(Found::new(conditions, nested.on, load, error, &m));
         }
     }
@@ -241,6 +242,7 @@ fn sketch<T: Real>(
         let Some(guess) = settle(engine, gap, conditions, begin, Effort::Sketch)? else {
             return Ok(None);
         };
+        let guess = Settled { on: guess.on.plain(), ..guess };
         on = Some(guess.on);
         let on = guess.on;
         let within = on.left >= stretch.left && on.right <= stretch.right;
@@ -277,7 +279,7 @@ fn sketch<T: Real>(
             left: inward(next.left, on.left, range[0]),
             right: -inward(-next.right, -on.right, -range[1]),
         };
-        stretch = with_corners(conditions, stretch);
+        stretch = with_corners(conditions, stretch.plain());
     }
     Ok(None)
 }
@@ -313,14 +315,14 @@ pub(super) fn in_full<T: Real>(
     let gap = &contact.gap;
     let range = gap.range();
     let half = T::of(0.5);
-    let (mut guess, mut best) = (guess, None);
+    let (mut guess, mut best) = (guess.plain(), None);
     for _ in 0..3 {
         let [left, right] = beyond(contact, guess, T::of(0.02) + doubt);
         let stretch = Interval {
             left: left.max(half * guess.left + half * range[0]),
             right: right.min(half * guess.right + half * range[1]),
         };
-        let stretch = with_corners(conditions, stretch);
+        let stretch = with_corners(conditions, stretch.plain());
         if engine.cover(gap, stretch, false)?.is_none() {
             return Ok(None);
         }
@@ -332,7 +334,7 @@ pub(super) fn in_full<T: Real>(
         if settled.on.half_width() >= T::of(0.8) * covered.half_width() {
             return Ok(Some(settled));
         }
-        (guess, best) = (settled.on, Some(settled));
+        (guess, best) = (settled.on.plain(), Some(settled));
     }
     Ok(best)
 }

@@ -22,6 +22,7 @@
 use super::Contact;
 use super::edges::{Excess, Goal};
 use super::first_contact::first_contact;
+use super::further::further;
 use super::stride::{Stride, ulps};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
@@ -89,7 +90,8 @@ pub(super) fn find<T: Real>(
     // What the quadrature leaves open, and what the search has left of the conditions.
     let Excess { at_a, at_b, .. } = trial.excess;
     let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / load.abs();
-    Ok(Nested { on: trial.on, error: trial.excess.error + missed })
+    let on = further(&goal, gap, search.engine, trial.on, None, search.cost)?;
+    Ok(Nested { on, error: trial.excess.error + missed })
 }
 
 /// The balanced contact of a given half-width.
@@ -110,7 +112,11 @@ pub(super) fn place<T: Real>(
     let mut search =
         Search { goal, gap, engine, cost, strategy, origin, range, load, near, share, stiffness };
     match search.place(half_width)? {
-        Placed::At(trial) => Ok(Nested { on: trial.on, error: trial.excess.error }),
+        Placed::At(trial) => {
+            let width = Some(half_width);
+            let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
+            Ok(Nested { on, error: trial.excess.error })
+        }
         Placed::Beyond(end) => Err(ContactError::OutsideBodies {
             x: [origin - half_width, origin + half_width][end],
             range,

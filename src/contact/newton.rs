@@ -122,12 +122,33 @@ pub(super) fn settle<T: Real>(
                 if errors[0].max(errors[1]) > T::of(0.03) {
                     return Ok(None);
                 }
-                return Ok(Some(Settled { on, load, error: errors[0].max(errors[1]), force }));
+                let error = errors[0].max(errors[1]);
+                let (on, load) = further(engine, gap, conditions, on, load)?;
+                return Ok(Some(Settled { on, load, error, force }));
             }
         }
         before = certain(size);
     }
     Ok(None)
+}
+
+/// Steps beyond the convergence of the value: from one to the next, one more derivative is exact.
+fn further<T: Real>(
+    engine: &mut dyn Engine<T>,
+    gap: &Gap<'_, T>,
+    conditions: &Conditions<T>,
+    mut on: Interval<T>,
+    mut load: T,
+) -> Result<(Interval<T>, T), ContactError<T>> {
+    for _ in 0..T::MORE_STEPS {
+        let m = engine.moments(gap, on)?;
+        let Some(system) = System::new(conditions, on, load, &m) else { break };
+        let Some(inverse) = system.matrix.try_inverse() else { break };
+        let [right, left, force] = system.step(&inverse);
+        load += force;
+        on = conditions.moved(on, [right, left], T::one());
+    }
+    Ok((on, load))
 }
 
 /// At an edge that is not fixed the bodies open: `g(a) > 0 > g(-b)`. A step that goes too far for

@@ -72,6 +72,30 @@ pub(crate) fn peak<T: Real>(
     Ok(top)
 }
 
+/// A contact of given half-width, and its largest pressure.
+fn attempt<T: Real>(
+    contact: &Contact<'_, T>,
+    wanted: T,
+    half_width: T,
+    last: Option<Interval<T>>,
+    engine: &mut dyn Engine<T>,
+    cost: &mut Cost,
+) -> Result<(Found<T>, T), ContactError<T>> {
+    let (kappa, edges, gap) = (contact.kappa, contact.checked_edges()?, &contact.gap);
+    let conditions = Conditions { kappa, edges, control: Control::HalfWidth(half_width) };
+    let found = approach::find(contact, conditions, engine, last, cost)?;
+    engine.prepare(gap, found.interval)?;
+    engine.complete(gap)?;
+    let pressing = Pressing { kappa, load: found.load, free: found.free };
+    let [_, pressure] = peak(engine, gap, &pressing, found.interval)?;
+    if pressure.is_finite() && found.free == [true; 2] {
+        Ok((found, pressure))
+    } else {
+        let found = if pressure.is_finite() { T::one() / T::zero() } else { pressure };
+        Err(ContactError::NoPeak { wanted, half_width, found })
+    }
+}
+
 /// Finds the contact with a given peak pressure.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
@@ -80,26 +104,38 @@ pub(super) fn find<T: Real>(
     warm: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
-    let (kappa, edges) = (contact.kappa, contact.checked_edges()?);
-    let gap = &contact.gap;
+    let found = by_search(contact, wanted, engine, warm, cost)?;
+    if T::MORE_STEPS == 0 {
+        return Ok(found);
+    }
+    // The derivatives of the half-width, by a few steps with its rate from a difference.
+    let on = found.interval.plain();
+    let mut half_width = on.half_width();
+    let mut try_out = |half_width| attempt(contact, wanted, half_width, Some(on), engine, cost);
+    let step = T::of(1e-5) * half_width;
+    let rate = ((try_out(half_width)?.1 - try_out(half_width - step)?.1) / step).part(0);
+    for _ in 0..super::further::STEPS {
+        half_width -= (try_out(half_width)?.1 - wanted) / rate;
+    }
+    Ok(try_out(half_width)?.0)
+}
+
+fn by_search<T: Real>(
+    contact: &Contact<'_, T>,
+    wanted: T,
+    engine: &mut dyn Engine<T>,
+    warm: Option<Interval<T>>,
+    cost: &mut Cost,
+) -> Result<Found<T>, ContactError<T>> {
     let mut last = warm;
     let mut attempt = |half_width: T| -> Result<(Found<T>, T), ContactError<T>> {
-        let conditions = Conditions { kappa, edges, control: Control::HalfWidth(half_width) };
-        let found = approach::find(contact, conditions, engine, last, cost)?;
-        last = Some(found.interval);
-        engine.prepare(gap, found.interval)?;
-        engine.complete(gap)?;
-        let pressing = Pressing { kappa, load: found.load, free: found.free };
-        let [_, pressure] = peak(engine, gap, &pressing, found.interval)?;
-        let bounded = pressure.is_finite() && found.free == [true; 2];
-        if bounded {
-            Ok((found, pressure))
-        } else {
-            let found = if pressure.is_finite() { T::one() / T::zero() } else { pressure };
-            Err(ContactError::NoPeak { wanted, half_width, found })
+        let trial = attempt(contact, wanted, half_width, last, engine, cost);
+        if let Ok((found, _)) = &trial {
+            last = Some(found.interval);
         }
+        trial
     };
-    let range = gap.range();
+    let range = contact.gap.range();
     let start = warm.or(contact.start).map(|on| on.half_width());
     let mut half_width = start.unwrap_or(T::of(1.0 / 64.0) * (range[1] - range[0]));
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);

@@ -12,6 +12,7 @@
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, turning_point};
+use crate::real::is_finite;
 use crate::search::{Bracket, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
@@ -221,7 +222,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
             let [one, other] = [&row[left], &row[right]];
             let [from_left, to_right] = [target - one.x, other.x - target];
             let nearer = if from_left < to_right { one } else { other };
-            if self.is_near(i, nearer) && nearer.slope.is_finite() {
+            if self.is_near(i, nearer) && is_finite(nearer.slope) {
                 knots[i] = *nearer;
                 continue;
             }

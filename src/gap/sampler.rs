@@ -158,7 +158,13 @@ impl<T: Real> Sampler<T> {
                 Err(source) => return Err(ContactError::Inversion { body, x, source }),
             }
         };
-        let found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
+        let mut found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
+        for _ in 0..T::MORE_STEPS {
+            let step = (x - found.point.x) / found.point.dx;
+            if step.is_finite() {
+                found = at(found.k + step);
+            }
+        }
         if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
             let source = ProfileError::TurnsBack { k, x: point.x };
             return Err(ContactError::Profile { body, source });

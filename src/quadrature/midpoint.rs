@@ -40,7 +40,7 @@
 use super::moments::moments;
 use super::{Engine, Estimate, Moments, Pressing, Quadrature};
 use crate::gap::{Cost, Gap, Sampler, Side};
-use crate::real::Sum;
+use crate::real::{Sum, same};
 use crate::{ContactError, Interval, Real};
 use std::sync::OnceLock;
 
@@ -354,9 +354,10 @@ impl<T: Real> Level<T> {
     fn at(&self, pole: &mut Pole<'_, T>) -> Result<[T; 3], ContactError<T>> {
         let (n, on) = (T::count(self.n), pole.on);
         let place = n * ((pole.x - on.left) / (on.right - on.left));
-        let nearest = (place - self.first).round();
-        let delta = (place - self.first) - nearest;
-        let index = nalgebra::try_convert::<T, f64>(nearest).filter(|&i| i >= 0.0);
+        let nearest =
+            nalgebra::try_convert::<T, f64>(place - self.first).unwrap_or(f64::NAN).round();
+        let delta = (place - self.first) - T::of(nearest);
+        let index = Some(nearest).filter(|&i| i >= 0.0);
         let index = index.map(|i| i as usize).filter(|&i| i < self.h.len());
         let near = index.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
 
@@ -378,8 +379,8 @@ impl<T: Real> Level<T> {
         let mut sums = [of_g.value(), of_one, of_t];
         let factor = match near {
             // On the grid of the midpoint rule, or at a left-out point: nothing is missing.
-            None if delta.abs() == T::of(0.5) => return Ok(sums),
-            Some(_) if self.trapezoidal && delta.is_zero() => return Ok(sums),
+            None if same(delta.abs(), T::of(0.5)) => return Ok(sums),
+            Some(_) if self.trapezoidal && same(delta, T::zero()) => return Ok(sums),
             None => -T::pi() / (T::pi() * delta).tan(),
             Some(_) => pole_remainder(delta),
         };
@@ -437,7 +438,7 @@ fn pole_remainder<T: Real>(delta: T) -> T {
         return delta.recip() - T::pi() / y.tan();
     }
     if delta.is_zero() {
-        return T::zero();
+        return T::pi() * y / T::of(3.0);
     }
     let y2 = y * y;
     let series = [-1.0 / 45360.0, 1.0 / 840.0, -1.0 / 30.0, 1.0 / 3.0]

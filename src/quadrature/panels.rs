@@ -136,7 +136,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
                 return Err(ContactError::OutsideBodies { x, range });
             }
         }
-        if let Some((_, m)) = self.moments.filter(|(last, _)| *last == on) {
+        if let Some((_, m)) = self.moments.filter(|(last, _)| last.is_same(&on)) {
             return Ok(m);
         }
         if self.fall.is_some() {

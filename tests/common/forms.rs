@@ -79,10 +79,15 @@ impl<T: Real> ClosedForm<T> for Unrolled<T> {
 
 /// Forms of half-widths near 1.
 pub fn forms<T: Real>() -> Vec<Form<T>> {
-    let (n, kappa) = (T::of, T::of(KAPPA));
+    forms_of(&T::of)
+}
+
+/// The same with parameters made by a function.
+pub fn forms_of<T: Real>(n: &dyn Fn(f64) -> T) -> Vec<Form<T>> {
+    let kappa = n(KAPPA);
     let mut forms = Vec::new();
     let mut add = |name: &str, reach: f64, form: Box<dyn ClosedForm<T>>| {
-        forms.push(Form { name: name.into(), form, reach: n(reach) });
+        forms.push(Form { name: name.into(), form, reach: T::of(reach) });
     };
     let [half, one, two] = [0.5, 1.0, 2.0].map(n);
     add("Hertz", 9.0, Box::new(Hertz::new(n(1.3), n(0.7)).unwrap()));
@@ -92,7 +97,7 @@ pub fn forms<T: Real>() -> Vec<Form<T>> {
         add(&format!("wedge 0.3, {right}"), 9.0, Box::new(form));
     }
     for exponent in [1.0, 1.2, 1.5, 2.0, 2.6, 3.0, 3.5, 4.0, 6.3, 11.0, 30.5] {
-        let form = PowerLaw::new(n(0.4), n(exponent), n(0.9)).unwrap();
+        let form = PowerLaw::new(n(0.4), T::of(exponent), n(0.9)).unwrap();
         add(&format!("power {exponent}"), 2.0, Box::new(form));
     }
     for quartic in [0.5, -0.1, 0.0] {

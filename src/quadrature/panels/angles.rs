@@ -29,7 +29,10 @@ pub(super) struct HalfAngle<T> {
 impl<T: Real> HalfAngle<T> {
     pub fn of(on: Interval<T>, x: T) -> Self {
         let width = on.right - on.left;
-        let share = |distance: T| (distance.max(T::zero()) / width).sqrt();
+        // At an edge itself the root of zero, which has no derivative, is none.
+        let share = |distance: T| {
+            if distance > T::zero() { (distance / width).sqrt() } else { T::zero() }
+        };
         Self { cos: share(x - on.left), sin: share(on.right - x) }
     }
 

@@ -166,7 +166,8 @@ impl<T: Real> Conjugate<T> {
         let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
         let jump = value_at(&series[..terms], z / (on.right - on.left));
         if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + *last_tail) {
-            series[0] -= jump;
+            // A derivative may jump where the slope does not.
+            series[0] -= jump.part(0);
         }
         Change { joint: Joint::new(panel, on, panel.x[0]), series, terms }
     }

@@ -20,7 +20,12 @@ const LEVELS_OF_A_TIP: usize = 40;
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
 
-/// What a panel has met.
+/// How often a stretch is halved for the sake of derivatives alone, which may have a kink where the
+/// slope has none.
+const DERIVATIVE_LEVELS: usize = 12;
+
+/// What a panel has met, in one part of its numbers.
+#[derive(Clone, Copy)]
 struct Seen<T> {
     /// The largest slope of the gap.
     slope: T,
@@ -44,6 +49,8 @@ struct Trial<T> {
     allowed: T,
     /// How often the stretch has been halved.
     level: usize,
+    /// The share of its size by which a derivative is off that calls for a split, or zero.
+    derivatives: T,
 }
 
 /// Whether a panel can be halved: it is longer than a few units in the last place.
@@ -67,6 +74,10 @@ pub(crate) struct Cover<T> {
     pub rough: bool,
     pub tolerance: T,
     pub cost: Cost,
+    /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
+    /// first.
+    derivatives: Vec<Seen<T>>,
+    derivative_sizes: Vec<T>,
 }
 
 impl<T: Real> Cover<T> {
@@ -80,6 +91,8 @@ impl<T: Real> Cover<T> {
             rough: false,
             tolerance,
             cost: Cost::default(),
+            derivatives: Vec::new(),
+            derivative_sizes: Vec::new(),
         }
     }
 
@@ -87,6 +100,7 @@ impl<T: Real> Cover<T> {
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
         self.size = T::zero();
+        self.derivative_sizes.clear();
         if !same_bodies {
             self.traces.iter_mut().for_each(Trace::clear);
         }
@@ -183,7 +197,8 @@ impl<T: Real> Cover<T> {
         let mut next = Some(self.trial(gap, x, 0)?);
         if let Some(panel) = neighbour {
             let allowed = self.tolerance * self.size;
-            self.waiting.push(Trial { panel, split: false, allowed, level: 0 });
+            let derivatives = T::zero();
+            self.waiting.push(Trial { panel, split: false, allowed, level: 0, derivatives });
         }
         let mut splits = 0;
         while let Some(trial) = next.take().or_else(|| self.waiting.pop()) {
@@ -199,7 +214,10 @@ impl<T: Real> Cover<T> {
                 // too, if it is no longer faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
                 let as_much = |half: &Trial<T>| {
-                    half.split && half.panel.tail >= T::of(0.8) * trial.panel.tail
+                    let by_value = half.panel.tail >= T::of(0.8) * trial.panel.tail;
+                    let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
+                    let derived = half.derivatives > T::zero();
+                    half.split && if derived { by_derivative } else { by_value }
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     (one.split, other.split) = (false, false);
@@ -273,18 +291,28 @@ impl<T: Real> Cover<T> {
                 Verdict::Split(tail) => (tail, None, true),
             };
             panel.tail = tail;
+            let (mut next, mut split, mut derivatives) = (next, split, T::zero());
+            // More samples do nothing for the derivatives of what must be split anyway.
+            if T::PARTS > 1 && (next.is_some() || !split) {
+                let noisy = matches!(verdict, Verdict::Noise(_));
+                let (more, off) = self.judge_derivatives(&panel, level);
+                next = next.max(more);
+                if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
+                    (split, derivatives) = (true, off);
+                }
+            }
             match next {
                 Some(next) if !self.rough => n = next,
                 _ if self.rough => {
                     // A short panel may be continued a long way.
                     panel.drop_noise(T::epsilon() * bodies);
-                    return Ok(Trial { panel, split: false, allowed, level });
+                    return Ok(Trial { panel, split: false, allowed, level, derivatives });
                 }
                 _ => {
                     if !split {
                         self.check_slopes()?;
                     }
-                    return Ok(Trial { panel, split, allowed, level });
+                    return Ok(Trial { panel, split, allowed, level, derivatives });
                 }
             }
         }
@@ -294,6 +322,33 @@ impl<T: Real> Cover<T> {
     /// the panel.
     fn misses_a_tip(&self, missed: T, noise: T) -> bool {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
+    }
+
+    /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they
+    /// should have, or, where more would not do, the share of their size by which they are off.
+    fn judge_derivatives(&mut self, panel: &Panel<T>, level: usize) -> (Option<usize>, T) {
+        let (mut next, mut worst) = (None, T::zero());
+        for (i, seen) in self.derivatives.iter().enumerate() {
+            if self.derivative_sizes.len() <= i {
+                self.derivative_sizes.push(T::zero());
+            }
+            let largest = &mut self.derivative_sizes[i];
+            if level == 0 {
+                *largest = largest.max(seen.slope);
+            }
+            let size = largest.max(seen.slope);
+            let allowed = (self.tolerance * size).max(seen.noise);
+            let series = panel.series.map(|a| a.part(i + 1));
+            match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
+                Verdict::Good(_) if seen.off > allowed => {
+                    next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
+                }
+                Verdict::Take(more, _) => next = next.max(Some(more)),
+                Verdict::Split(tail) => worst = worst.max(tail / size),
+                Verdict::Good(_) | Verdict::Noise(_) => {}
+            }
+        }
+        (next, worst)
     }
 
     /// Samples one panel with n nodes.
@@ -326,26 +381,44 @@ impl<T: Real> Cover<T> {
         let wanted = offsets.map(|offset| reach + offset);
         let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
         let mut slopes = [zero; MOST];
-        let off = [(&lower, 0), (&upper, 1)]
-            .map(|(slopes, i)| left_open(&nodes, &self.traces[i], reach, slopes, self.rough));
-        let missed = [(&lower, 0), (&upper, 1)]
-            .map(|(slopes, i)| missed_at_ends(x, &self.traces[i], slopes, self.rough));
-        let mut seen = Seen {
-            slope: zero,
-            bodies: zero,
-            noise: zero,
-            off: off[0].max(off[1]),
-            missed: missed[0].max(missed[1]),
-        };
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
-            seen.slope = seen.slope.max(slopes[i].abs());
+        }
+        let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
+            seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.rough));
+        }
+        self.derivatives.clear();
+        for part in 1..T::PARTS {
+            let [lower, upper] =
+                [&lower, &upper].map(|slopes| slopes.map(|slope| slope.part(part)));
+            let seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+            self.derivatives.push(seen);
+        }
+        Ok((Panel::new(x, N, table.coefficients(N, &slopes)), seen))
+    }
+
+    /// What the slopes of the two bodies at the nodes say.
+    fn seen<const N: usize>(
+        &self,
+        x: [T; 2],
+        nodes: &[T; N],
+        reach: T,
+        [lower, upper]: [&[T; N]; 2],
+    ) -> Seen<T> {
+        let zero = T::zero();
+        let off = [(lower, 0), (upper, 1)]
+            .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.rough));
+        let off = off[0].max(off[1]);
+        let mut seen = Seen { slope: zero, bodies: zero, noise: zero, off, missed: zero };
+        for i in 0..N {
+            seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
         }
         let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
-        seen.noise = rounded * (bend(&lower) + bend(&upper)) / (nodes[N - 1] - nodes[0]);
-        Ok((Panel::new(x, N, table.coefficients(N, &slopes)), seen))
+        seen.noise = rounded * (bend(lower) + bend(upper)) / (nodes[N - 1] - nodes[0]);
+        seen
     }
 
     /// Whether the heights of the last points agree with the slopes there, to a third: a wrong

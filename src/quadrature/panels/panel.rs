@@ -1,6 +1,7 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
 use super::chebyshev::{Row, SIZES, expand, size_for, value_at};
+use crate::real::same;
 use crate::{Interval, Real};
 
 /// The slope of the gap over an interval without joints, as a Chebyshev series.
@@ -19,19 +20,18 @@ pub(crate) struct Panel<T> {
 
 impl<T: Real> Panel<T> {
     pub fn new(x: [T; 2], n: usize, series: Row<T>) -> Self {
-        let largest = series[..n].iter().fold(T::zero(), |max, a| max.max(a.abs()));
-        let nothing = T::of(0.125) * T::epsilon() * largest;
-        let counts = |a: &T| a.abs() > nothing;
-        let counting = series[..n].iter().rposition(counts).map_or(2, |last| (last + 1).max(2));
+        let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
+        let counting = counting(&series[..n], 0..T::PARTS, rounding);
         Self { x, n, series, counting, tail: T::zero() }
     }
 
     /// Leaves out the coefficients that are no more than noise of this level: they say nothing of the
     /// slope, and add up at the ends of the panel.
     pub fn drop_noise(&mut self, level: T) {
-        let counts = |a: &T| a.abs() > T::of(4.0) * level;
-        let last = self.coefficients().iter().rposition(counts);
-        self.counting = last.map_or(2, |last| (last + 1).max(2));
+        let by_value = counting(self.coefficients(), 0..1, |_| T::of(4.0) * level);
+        // In derivatives the noise is another.
+        let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
+        self.counting = counting(self.coefficients(), 1..T::PARTS, rounding).max(by_value);
     }
 
     /// The place of `x` in the panel, from -1 to 1; exact at both ends.
@@ -63,12 +63,29 @@ impl<T: Real> Panel<T> {
 
     /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`, and how many of the coefficients count.
     pub fn over(&self, on: Interval<T>) -> (Row<T>, usize) {
-        if self.x == [on.left, on.right] {
+        if same(self.x[0], on.left) && same(self.x[1], on.right) {
             return (self.series, self.counting);
         }
         let ends = [self.local(on.left), self.local(on.right)];
         (expand(self.coefficients(), ends), size_for(self.counting))
     }
+}
+
+/// How many coefficients there are, two at least, up to the last that is more than nothing in any of
+/// these parts, given what is nothing beside the largest.
+fn counting<T: Real>(
+    series: &[T],
+    parts: std::ops::Range<usize>,
+    nothing: impl Fn(T) -> T,
+) -> usize {
+    let mut counting = 2;
+    for part in parts {
+        let size = |a: &T| a.part(part).abs();
+        let nothing = nothing(series.iter().fold(T::zero(), |max, a| max.max(size(a))));
+        let last = series.iter().rposition(|a| size(a) > nothing);
+        counting = last.map_or(2, |last| last + 1).max(counting);
+    }
+    counting
 }
 
 /// Those of the panels that an interval lies on. The outermost of them may have to be continued a

@@ -1,0 +1,85 @@
+//! The derivatives of limits that a search of one unknown at a time has found.
+//!
+//! Such a search ends when the limits have converged, and knows nothing of what they carry besides
+//! their values. A few steps with a fixed Jacobian, from differences, make up for that: each leaves
+//! a share of what is missing that is as small as the differences are good. Plain numbers need none.
+
+use super::edges::Goal;
+use crate::gap::{Cost, Gap};
+use crate::quadrature::Engine;
+use crate::{ContactError, Interval, Real};
+
+/// Steps taken; each gains three to five digits.
+pub(super) const STEPS: usize = 6;
+
+/// The step of the differences, as a share of the half-width.
+const SHARE: f64 = 1e-5;
+
+/// The limits, or with a given half-width the place, of a contact that meets its conditions.
+pub(super) fn further<T: Real>(
+    goal: &Goal<T>,
+    gap: &Gap<'_, T>,
+    engine: &mut dyn Engine<T>,
+    found: Interval<T>,
+    half_width: Option<T>,
+    cost: &mut Cost,
+) -> Result<Interval<T>, ContactError<T>> {
+    if T::MORE_STEPS == 0 {
+        return Ok(found);
+    }
+    let (zero, half) = (T::zero(), T::of(0.5));
+    let size = found.half_width().part(0);
+    let [left_given, right_given] = goal.limits();
+    let start = found.plain();
+    let start = match half_width {
+        Some(half_width) => {
+            let centre = start.centre();
+            Interval { left: centre - half_width, right: centre + half_width }
+        }
+        None => Interval {
+            left: left_given.unwrap_or(start.left),
+            right: right_given.unwrap_or(start.right),
+        },
+    };
+    // What the unknowns do to the two limits: inward, so as not to leave the bodies.
+    let ways: [[T; 2]; 2] = match (half_width, left_given, right_given) {
+        (Some(_), ..) => [[-size, -size], [zero; 2]],
+        (None, Some(_), _) => [[zero, -size], [zero; 2]],
+        (None, _, Some(_)) => [[size, zero], [zero; 2]],
+        (None, None, None) => [[size, zero], [zero, -size]],
+    };
+    let moved = |on: Interval<T>, [one, other]: [T; 2]| Interval {
+        left: on.left + one * ways[0][0] + other * ways[1][0],
+        right: on.right + one * ways[0][1] + other * ways[1][1],
+    };
+    let both = ways[1] != [zero; 2];
+    let mut missed = |on: Interval<T>| -> Result<[T; 2], ContactError<T>> {
+        let excess = goal.excess(gap, on, engine, cost)?;
+        let (at_a, at_b) = (excess.at_a, excess.at_b);
+        Ok(match (both, half_width) {
+            (true, _) => [at_a, at_b],
+            (false, Some(_)) => [at_a - at_b, zero],
+            (false, None) => [half * (at_a + at_b), zero],
+        })
+    };
+    let share = T::of(SHARE);
+    let at_start = missed(start)?;
+    let rate = |there: [T; 2]| [0, 1].map(|i| ((there[i] - at_start[i]) / share).part(0));
+    let by_one = rate(missed(moved(start, [share, zero]))?);
+    let by_other = if both { rate(missed(moved(start, [zero, share]))?) } else { [zero, T::one()] };
+    let determinant = by_one[0] * by_other[1] - by_other[0] * by_one[1];
+    let mut on = start;
+    for _ in 0..STEPS {
+        let [at_a, at_b] = missed(on)?;
+        let one = (by_other[0] * at_b - by_other[1] * at_a) / determinant;
+        let other = (by_one[1] * at_a - by_one[0] * at_b) / determinant;
+        on = moved(on, [one, other]);
+    }
+    // What is found must still be the contact that the search has found, within its tolerance.
+    let shift = (on.left - found.left).abs().max((on.right - found.right).abs());
+    if shift <= T::of(0.25) * size {
+        Ok(on)
+    } else {
+        Err(ContactError::NoBalance { half_width: size, near: found.centre() })
+    }
+}

@@ -1,0 +1,230 @@
+//! Whether derivatives written by hand are those of their functions.
+//!
+//! Differences at single points would need a step, and its choice would depend on how steep and how
+//! noisy the curve is. So the change of X over a short range of k is compared with the integral of X'
+//! over it (Gauss, eight nodes), and likewise for Y. The domain is looked at in 64 ranges; one that
+//! does not agree is divided into sixteen:
+//!
+//! - a wrong derivative disagrees in nearly all of the sixteen, with one sign, and goes on to do so in
+//!   the sixteenths of a typical one;
+//! - what the nodes have not resolved (waves, steep places) vanishes;
+//! - an undeclared kink, or an end like a square root, stays in one or two of the sixteen;
+//! - what rounding makes of a formula changes its sign, and its sum does not grow with their number.
+
+use super::interval;
+use super::{ParametricProfile, ProfileError};
+use crate::Real;
+use crate::quadrature::Gauss;
+
+/// Ranges into which the domain is divided at first.
+const RANGES: usize = 64;
+/// Parts into which a range that does not agree is divided.
+const PARTS: usize = 16;
+/// How many of them have to disagree with the same sign.
+const MOST_PARTS: usize = 12;
+/// How often a range is divided.
+const LEVELS: usize = 4;
+
+/// Compares `X'` and `Y'` with `X` and `Y` all over the domain: for profiles whose derivatives are
+/// written by hand. A compound profile is looked at piece by piece.
+///
+/// The derivatives may be off by the square root of the rounding unit (1.5e-8 in `f64`, 3.5e-4 in
+/// `f32`), as a share of their mean size over about a thousandth of the domain, or by what the rounding
+/// of the formulas hides. Kinks, jumps and infinite ends are no fault. It takes about 600 evaluations
+/// for each smooth piece, more where something does not agree at once. A fault in less than
+/// 1/500 of the domain can pass.
+///
+/// ```
+/// use linecontact::{Curve, CurvePoint, ProfileError, check_derivatives};
+///
+/// let wrong = Curve::new([-1.0, 1.0], |k: f64| {
+///     let (sin, cos) = k.sin_cos();
+///     CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: -sin } // the sign of Y'
+/// });
+/// match check_derivatives(&wrong) {
+///     Err(ProfileError::Derivative { quantity, given, difference, .. }) => {
+///         assert_eq!(quantity, "Y'");
+///         assert!((given / difference + 1.0).abs() < 1e-3);
+///     }
+///     other => panic!("{other:?}"),
+/// }
+/// ```
+///
+/// # Errors
+/// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none),
+/// [`ProfileError::Domain`], [`ProfileError::NotFinite`].
+pub fn check_derivatives<T: Real>(
+    profile: &dyn ParametricProfile<T>,
+) -> Result<(), ProfileError<T>> {
+    if profile.piece(0).is_none() {
+        return check(profile);
+    }
+    (0..profile.pieces())
+        .filter_map(|index| profile.piece(index))
+        .try_for_each(|piece| check(piece.curve))
+}
+
+fn check<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<(), ProfileError<T>> {
+    let ranges = ranges(curve, interval(curve.domain())?, RANGES)?;
+    for (i, quantity) in ["X'", "Y'"].into_iter().enumerate() {
+        let mut worst: Option<Fault<T>> = None;
+        for range in &ranges {
+            if let Some(fault) = range.fault(curve, i, LEVELS)? {
+                let worse = worst.is_none_or(|worst| fault.share > worst.share);
+                worst = if worse { Some(fault) } else { worst };
+            }
+        }
+        if let Some(Fault { k, missed, .. }) = worst {
+            let at = curve.at(k);
+            let given = if i == 0 { at.dx } else { at.dy };
+            return Err(ProfileError::Derivative {
+                quantity,
+                k,
+                given,
+                difference: given - missed,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A short range of k, with what holds for X and for Y.
+#[derive(Clone, Copy)]
+struct Range<T> {
+    k: [T; 2],
+    /// By how much the integral of the derivative exceeds the change.
+    missed: [T; 2],
+    /// The integral of the absolute value of the derivative.
+    size: [T; 2],
+    /// What rounding leaves open of the change.
+    rounding: [T; 2],
+}
+
+/// A derivative that is wrong.
+#[derive(Clone, Copy)]
+struct Fault<T> {
+    k: T,
+    /// By how much the derivative is too large.
+    missed: T,
+    /// The same as a share of its size.
+    share: T,
+}
+
+/// The ranges, all of the same length, that make up another.
+fn ranges<T: Real>(
+    curve: &dyn ParametricProfile<T>,
+    [from, to]: [T; 2],
+    count: usize,
+) -> Result<Vec<Range<T>>, ProfileError<T>> {
+    let k = |i: usize| {
+        let share = T::count(i) / T::count(count);
+        if i == count { to } else { from + (to - from) * share }
+    };
+    let ends = |k: T| -> Result<[T; 2], ProfileError<T>> {
+        let point = curve.at(k);
+        Ok([finite("X", k, point.x)?, finite("Y", k, point.y)?])
+    };
+    let mut ranges = Vec::with_capacity(count);
+    let mut left = ends(from)?;
+    for i in 0..count {
+        let right = ends(k(i + 1))?;
+        ranges.push(Range::new(curve, [k(i), k(i + 1)], [left, right])?);
+        left = right;
+    }
+    Ok(ranges)
+}
+
+impl<T: Real> Range<T> {
+    fn new(
+        curve: &dyn ParametricProfile<T>,
+        k: [T; 2],
+        ends: [[T; 2]; 2],
+    ) -> Result<Self, ProfileError<T>> {
+        let half = T::of(0.5);
+        let (centre, reach) = (half * k[0] + half * k[1], half * (k[1] - k[0]));
+        let rule = Gauss::coarsest();
+        let (mut sum, mut size) = ([T::zero(); 2], [T::zero(); 2]);
+        for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
+            let k = centre + reach * T::of(node);
+            let point = curve.at(k);
+            let slopes = [finite("X'", k, point.dx)?, finite("Y'", k, point.dy)?];
+            for i in 0..2 {
+                let term = reach * T::of(weight) * slopes[i];
+                sum[i] += term;
+                size[i] += term.abs();
+            }
+        }
+        let missed = std::array::from_fn(|i| sum[i] - (ends[1][i] - ends[0][i]));
+        // Of both ends, and of k where the curve is steep.
+        let rounding = std::array::from_fn(|i| {
+            let by_k = size[i] * (centre / reach).abs();
+            T::of(4.0) * T::epsilon() * (ends[0][i].abs().max(ends[1][i].abs()) + by_k + size[i])
+        });
+        Ok(Self { k, missed, size, rounding })
+    }
+
+    /// Whether the derivative seems to be off here.
+    fn is_off(&self, i: usize) -> bool {
+        self.missed[i].abs() > T::epsilon().sqrt() * self.size[i] + self.rounding[i]
+    }
+
+    /// The fault of the derivative within this range, if it has one.
+    fn fault(
+        &self,
+        curve: &dyn ParametricProfile<T>,
+        i: usize,
+        levels: usize,
+    ) -> Result<Option<Fault<T>>, ProfileError<T>> {
+        let wide = self.k[1] - self.k[0] > T::of(1e3) * T::epsilon() * self.k[1].abs();
+        if !self.is_off(i) || levels == 0 || !wide {
+            return Ok(None);
+        }
+        let parts = ranges(curve, self.k, PARTS)?;
+        let worse = |a: &Self, b: &Self| a.missed[i].abs() > b.missed[i].abs();
+        let worst =
+            parts.iter().fold(parts[0], |max, part| if worse(part, &max) { *part } else { max });
+        if is_wrong(&parts, i) {
+            // A typical one: that at the end of a body may have troubles of its own.
+            let typical = typical(&parts, i);
+            if is_wrong(&ranges(curve, typical.k, PARTS)?, i) {
+                return Ok(Some(typical.as_fault(i)));
+            }
+        }
+        worst.fault(curve, i, levels - 1)
+    }
+
+    /// By how much the derivative is off, as a share of its size.
+    fn share(&self, i: usize) -> T {
+        self.missed[i].abs() / self.size[i]
+    }
+
+    fn as_fault(&self, i: usize) -> Fault<T> {
+        let half = T::of(0.5);
+        Fault {
+            k: half * self.k[0] + half * self.k[1],
+            missed: self.missed[i] / (self.k[1] - self.k[0]),
+            share: self.share(i),
+        }
+    }
+}
+
+/// The part that is off by the median share.
+fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
+    let mut parts = parts.to_vec();
+    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+    parts.sort_by(|a, b| order(&a.share(i), &b.share(i)));
+    parts[parts.len() / 2]
+}
+
+/// Whether the parts of a range disagree as they do where the derivative is wrong.
+fn is_wrong<T: Real>(parts: &[Range<T>], i: usize) -> bool {
+    let sum = parts.iter().fold(T::zero(), |sum, part| sum + part.missed[i]);
+    let total = parts.iter().fold(T::zero(), |sum, part| sum + part.missed[i].abs());
+    let agrees =
+        |part: &&Range<T>| part.is_off(i) && (part.missed[i] > T::zero()) == (sum > T::zero());
+    parts.iter().filter(agrees).count() >= MOST_PARTS && sum.abs() >= T::of(0.5) * total
+}
+
+fn finite<T: Real>(quantity: &'static str, k: T, value: T) -> Result<T, ProfileError<T>> {
+    if value.is_finite() { Ok(value) } else { Err(ProfileError::NotFinite { quantity, k, value }) }
+}

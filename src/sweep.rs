@@ -1,0 +1,69 @@
+//! Many scenes at once, over all cores (feature `rayon`).
+
+use crate::quadrature::Quadrature;
+use crate::{ContactError, Real, Solver};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Most scenes that one solver takes in a row.
+const MOST_IN_A_ROW: usize = 32;
+/// Rows into which even a short slice is divided, so that there is work for all cores.
+const ROWS: usize = 64;
+
+/// Solves each scene of a slice, over all cores, and returns the results in the order of the scenes.
+///
+/// A scene is whatever `solve` can make a contact of: a load, a set of parameters, a time. It is handed
+/// a [`Solver`] that has solved the scenes before it, and keeps what it wants of the solution. A scene
+/// that fails fails alone. `progress` is told how often scenes have been done, from whatever
+/// thread has done the last; two calls may overlap.
+///
+/// The results do not depend on the number of threads, bit for bit: the slice is cut into rows of up to
+/// 32 scenes, by its length alone, and each row starts with a new solver, from nothing. Within a row
+/// each scene starts from the contact before, so neighbours should be alike. The threads are
+/// those of rayon's current pool.
+///
+/// ```
+/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, sweep};
+///
+/// let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
+/// let contact = Contact::new(&Flat, &parabola)?;
+/// let loads = [0.02, -1.0, 0.08];
+/// let half_widths: Vec<Result<f64, ContactError<f64>>> = sweep(
+///     &Panels::FULL,
+///     &loads,
+///     |solver, &load| Ok(solver.solve(&contact, Load::PerLength(load))?.a()),
+///     |done| eprintln!("{done} of {}", loads.len()),
+/// );
+/// assert!((half_widths[0].as_ref().unwrap() - 0.2).abs() < 1e-15);
+/// assert!(matches!(half_widths[1], Err(ContactError::Load { .. })));
+/// assert!((half_widths[2].as_ref().unwrap() - 0.4).abs() < 1e-15);
+/// # Ok::<(), ContactError<f64>>(())
+/// ```
+pub fn sweep<T, S, R, E>(
+    quadrature: &dyn Quadrature<T>,
+    scenes: &[S],
+    solve: impl Fn(&mut Solver<T>, &S) -> Result<R, E> + Sync,
+    progress: impl Fn(usize) + Sync,
+) -> Vec<Result<R, E>>
+where
+    T: Real,
+    S: Sync,
+    R: Send,
+    E: From<ContactError<T>> + Send,
+{
+    let row = scenes.len().div_ceil(ROWS).clamp(1, MOST_IN_A_ROW);
+    let done = AtomicUsize::new(0);
+    let one = |solver: &mut Result<Solver<T>, ContactError<T>>, scene: &S| {
+        let result = match solver {
+            Ok(solver) => solve(solver, scene),
+            Err(error) => Err(error.clone().into()),
+        };
+        progress(1 + done.fetch_add(1, Ordering::Relaxed));
+        result
+    };
+    let in_a_row = |row: &'_ [S]| -> Vec<Result<R, E>> {
+        let mut solver = Solver::with(quadrature);
+        row.iter().map(|scene| one(&mut solver, scene)).collect()
+    };
+    scenes.par_chunks(row).flat_map_iter(in_a_row).collect()
+}

@@ -1,0 +1,217 @@
+//! `check_derivatives`: finds what is wrong, and nothing where nothing is.
+
+mod common;
+
+use common::paper;
+use linecontact::profile::Piece;
+use linecontact::{
+    Curve, CurvePoint, ParametricProfile, Piecewise, ProfileError, check_derivatives,
+};
+
+type Profile = Box<dyn ParametricProfile<f64>>;
+
+/// A profile with its derivatives changed.
+struct Changed<P, C> {
+    of: P,
+    change: C,
+}
+
+impl<P, C> ParametricProfile<f64> for Changed<P, C>
+where
+    P: ParametricProfile<f64>,
+    C: Fn(f64, CurvePoint<f64>) -> CurvePoint<f64> + Send + Sync,
+{
+    fn domain(&self) -> [f64; 2] {
+        self.of.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        (self.change)(k, self.of.at(k))
+    }
+}
+
+fn pieces(profile: &dyn ParametricProfile<f64>) -> Vec<Piece<'_, f64>> {
+    if profile.piece(0).is_none() {
+        vec![Piece::new(profile).unwrap()]
+    } else {
+        (0..profile.pieces()).map(|i| profile.piece(i).unwrap()).collect()
+    }
+}
+
+/// Curves that are right: those of the paper, and some that are hard to differentiate.
+fn right() -> Vec<(String, Profile)> {
+    let mut all: Vec<(String, Profile)> = Vec::new();
+    for (i, example) in [paper::one(), paper::two(), paper::three(), paper::four(), paper::five()]
+        .into_iter()
+        .enumerate()
+    {
+        all.push((format!("example {} lower", i + 1), example.lower));
+        all.push((format!("example {} upper", i + 1), example.upper));
+    }
+    let mut graph = |name: &str, from: f64, to: f64, y: fn(f64) -> [f64; 2]| {
+        let curve = Curve::new([from, to], move |k| {
+            let [y, dy] = y(k);
+            CurvePoint { x: k, y, dx: 1.0, dy }
+        });
+        all.push((name.into(), Box::new(curve)));
+    };
+    graph("|x|^1.5", -1.0, 1.0, |x| [x.abs().powf(1.5), 1.5 * x.abs().sqrt() * x.signum()]);
+    graph("|x|^20", -1.0, 1.0, |x| [x.powi(20), 20.0 * x.powi(19)]);
+    graph("kink", -1.0, 1.1, |x| [x.abs(), if x < 0.0 { -1.0 } else { 1.0 }]);
+    graph("kink off the grid", -1.0, 1.0, |x| {
+        [(x - 0.3123).abs() * 1e3, if x < 0.3123 { -1e3 } else { 1e3 }]
+    });
+    graph("a step of tanh", -1.0, 1.0, |x| {
+        let t = (1e5 * (x - 0.1234)).tanh();
+        [t, 1e5 * (1.0 - t * t)]
+    });
+    graph("waves", -1.0, 1.0, |x| {
+        [x * x + 1e-5 * (1e3 * x).cos(), 2.0 * x - 1e-2 * (1e3 * x).sin()]
+    });
+    graph("fine waves", -1.0, 1.0, |x| {
+        [x * x + 1e-8 * (1e5 * x).cos(), 2.0 * x - 1e-3 * (1e5 * x).sin()]
+    });
+    graph("noise of 1e-8", -1.0, 1.0, |x| [(x * x + 1e8) - 1e8, 2.0 * x]);
+    graph("far off", 1e6, 1e6 + 1.0, |x| {
+        let x = x - 1e6;
+        [x * x / 2.0, x]
+    });
+    graph("logarithm", 0.0, 1.0, |x| [if x > 0.0 { x * x.ln() - x } else { 0.0 }, x.ln()]);
+    graph("cube root", -1.0, 1.0, |x| [x.cbrt(), x.cbrt().powi(-2) / 3.0]);
+    graph("tiny", -1.0, 1.0, |x| [1e-200 * x * x, 2e-200 * x]);
+    graph("flat", -1.0, 1.0, |_| [5.0, 0.0]);
+    all.push((
+        "circle to its very ends".into(),
+        Box::new(Curve::new([-1.0, 1.0], |k: f64| {
+            let root = (1.0 - k * k).sqrt();
+            CurvePoint { x: 2.0 * k, y: -root, dx: 2.0, dy: k / root }
+        })),
+    ));
+    all
+}
+
+#[test]
+fn no_alarm_where_the_derivatives_are_right() {
+    for (name, profile) in right() {
+        check_derivatives(&*profile).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
+
+#[test]
+fn no_alarm_in_single_precision() {
+    let arc = Curve::new([-1.5, 1.5], |k: f32| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: 10.0 * sin, y: 10.0 * (1.0 - cos), dx: 10.0 * cos, dy: 10.0 * sin }
+    });
+    check_derivatives(&arc).unwrap();
+    let wrong = Curve::new([-1.5, 1.5], |k: f32| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: 10.0 * sin, y: 10.0 * (1.0 - cos), dx: 10.0 * cos, dy: 10.02 * sin }
+    });
+    assert!(matches!(
+        check_derivatives(&wrong),
+        Err(ProfileError::Derivative { quantity: "Y'", .. })
+    ));
+}
+
+/// The fault found, as quantity, k, and what the derivative is as a share of what it should be.
+fn fault(profile: &dyn ParametricProfile<f64>) -> Option<(&'static str, f64, f64)> {
+    match check_derivatives(profile) {
+        Ok(()) => None,
+        Err(ProfileError::Derivative { quantity, k, given, difference }) => {
+            Some((quantity, k, given / difference))
+        }
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// Wrong sign and wrong factors, in either derivative of every curve of the paper, except where noise
+/// or a height of zero hides them.
+#[test]
+fn factors_and_signs_are_found_in_every_curve_of_the_paper() {
+    for example in [paper::one(), paper::two(), paper::three(), paper::four(), paper::five()] {
+        for profile in [&*example.lower, &*example.upper] {
+            for Piece { curve, .. } in pieces(profile) {
+                for factor in [-1.0, 1.001, 0.9999, 1.0 + 1e-6, 0.0] {
+                    let dx = Changed {
+                        of: curve,
+                        change: |_, p: CurvePoint<f64>| CurvePoint { dx: factor * p.dx, ..p },
+                    };
+                    let (quantity, _, seen) = fault(&dx).expect("the fault of X'");
+                    assert_eq!(quantity, "X'");
+                    assert!(
+                        (seen - factor).abs() < 1e-2 * (1.0 - factor).abs(),
+                        "{seen} for {factor}"
+                    );
+                    let dy = Changed {
+                        of: curve,
+                        change: |_, p: CurvePoint<f64>| CurvePoint { dy: factor * p.dy, ..p },
+                    };
+                    let (quantity, _, seen) = fault(&dy).expect("the fault of Y'");
+                    assert_eq!(quantity, "Y'");
+                    assert!(
+                        (seen - factor).abs() < 1e-2 * (1.0 - factor).abs(),
+                        "{seen} for {factor}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A fault in a small range of k only is found, and placed there.
+#[test]
+fn a_fault_in_a_small_range_is_found_where_it_is() {
+    for width in [0.3, 0.03, 0.006] {
+        for from in [-0.99, -0.3, 0.05123, 0.777] {
+            for factor in [-1.0, 1.01] {
+                let curve = Curve::new([-1.0, 1.0], move |k: f64| {
+                    let wrong = k > from && k < from + width;
+                    let dy = if wrong { factor * k.sinh() } else { k.sinh() };
+                    CurvePoint { x: 3.0 * k, y: k.cosh(), dx: 3.0, dy }
+                });
+                let (quantity, k, seen) = fault(&curve).expect("a fault");
+                assert_eq!(quantity, "Y'");
+                assert!(k > from && k < from + width, "{k} in {from} + {width}");
+                assert!((seen - factor).abs() < 0.01 * (1.0 - factor).abs(), "{seen} for {factor}");
+            }
+        }
+    }
+}
+
+/// An additive fault, where the right derivative vanishes.
+#[test]
+fn a_term_too_much_is_found() {
+    let curve =
+        Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 1e-9 * k * k });
+    assert!(matches!(fault(&curve), Some(("Y'", _, seen)) if seen.abs() > 1e3));
+}
+
+#[test]
+fn compound_profiles_are_looked_at_piece_by_piece() {
+    let piece = |from: f64, to: f64, factor: f64| {
+        Curve::new([from, to], move |k: f64| CurvePoint {
+            x: k,
+            y: k * k,
+            dx: 1.0,
+            dy: 2.0 * factor * k,
+        })
+    };
+    let right = Piecewise::new(vec![piece(-1.0, 0.0, 1.0), piece(0.0, 1.0, 1.0)]).unwrap();
+    assert_eq!(check_derivatives(&right), Ok(()));
+    let wrong = Piecewise::new(vec![piece(-1.0, 0.0, 1.0), piece(0.0, 1.0, 1.002)]).unwrap();
+    let (_, k, seen) = fault(&wrong).unwrap();
+    assert!(k > 0.0 && (seen - 1.002).abs() < 1e-5);
+}
+
+#[test]
+fn what_is_not_finite_is_reported() {
+    let pole = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
+        x: k,
+        y: 1.0 / k,
+        dx: 1.0,
+        dy: -1.0 / (k * k),
+    });
+    assert!(matches!(check_derivatives(&pole), Err(ProfileError::NotFinite { quantity: "Y", .. })));
+    let empty = Curve::new([1.0, 1.0], |k: f64| CurvePoint { x: k, y: k, dx: 1.0, dy: 1.0 });
+    assert!(matches!(check_derivatives(&empty), Err(ProfileError::Domain { .. })));
+}
