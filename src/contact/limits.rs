@@ -23,7 +23,7 @@ use super::first_contact::first_contact;
 use super::stride::{Stride, ulps};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
-use crate::search::{Bracket, LimitSearch};
+use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
@@ -372,8 +372,16 @@ impl<T: Real> Search<'_, T> {
         let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
         let [mut lo, mut hi] = [bracket.lo, bracket.hi];
+        let on = best.on;
+        let inside = |x: T| {
+            if x >= bracket.lo && x <= bracket.hi {
+                return Ok(());
+            }
+            let source = SearchError::Astray { x, lo: bracket.lo, hi: bracket.hi };
+            Err(ContactError::LimitSearch { best: on, source })
+        };
         let found = strategy.find(
-            &mut |unknown| match attempt(self, unknown) {
+            &mut |unknown| match inside(unknown).and_then(|()| attempt(self, unknown)) {
                 Ok(trial) => {
                     *best = nearer(trial, *best, condition);
                     let value = condition(&trial.excess);
