@@ -1,7 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Moments, Pressing};
+use crate::quadrature::{Engine, Pressing};
 use crate::{ContactError, Interval, Real};
 
 /// What becomes of one edge of the contact.
@@ -65,21 +65,6 @@ impl<T: Real> Conditions<T> {
             Edge::Adhesive(work) => (self.kappa * work * half_width).sqrt(),
             _ => T::zero(),
         })
-    }
-
-    /// The load under which the edges that are not fixed are as they should be, on an average;
-    /// `None` if both are fixed.
-    pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
-        let half_width = on.half_width();
-        let (mut sum, mut count) = (T::zero(), 0);
-        let signs = [-T::one(), T::one()];
-        for ((edge, pull), sign) in self.edges.iter().zip(self.pull(half_width)).zip(signs) {
-            if edge.limit().is_none() {
-                sum += self.kappa * half_width * (m.first + sign * m.mean) - pull - pull;
-                count += 1;
-            }
-        }
-        (count > 0).then(|| sum / T::count(count))
     }
 
     /// The interval, with those limits that are given.
@@ -216,7 +201,7 @@ pub(super) struct Excess<T> {
     /// Up to this, shift and spread are zero to rounding, or to the tolerances.
     floor: T,
     /// The load that the contact carries, where that is known.
-    carried: Option<T>,
+    pub carried: Option<T>,
     /// By what factor the width of a round body should change, whose load goes with its square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
@@ -342,9 +327,16 @@ impl<T: Real> Goal<T> {
                         (at_a - balance, at_b + balance, load + half * (pull[0] + pull[1]), carried)
                     }
                 };
-                // By roots, so as not to underflow.
-                let growing = borne > T::zero() && needed > T::zero();
-                let growth = if growing { needed.sqrt() / borne.sqrt() } else { two };
+                let ratio = needed / borne;
+                let least = T::epsilon().powi(5);
+                let growth = if !(borne > T::zero() && needed > T::zero()) {
+                    two
+                } else if ratio > least && ratio < least.recip() {
+                    ratio.sqrt()
+                } else {
+                    // By roots, so as not to underflow.
+                    needed.sqrt() / borne.sqrt()
+                };
                 Ok(Excess {
                     at_a,
                     at_b,

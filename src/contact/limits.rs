@@ -75,6 +75,7 @@ pub(super) fn find<T: Real>(
         load,
         share: T::of(0.5),
         stiffness: None,
+        unbalance: Excess::rough_shift,
     };
     let trial = search.widen(half_width)?;
     if trial.cornered {
@@ -104,10 +105,27 @@ pub(super) fn place<T: Real>(
     let (origin, range) = (first?, gap.range());
     let load = T::one();
     let (strategy, share, stiffness) = (contact.strategy(), T::of(0.5), None);
-    let mut search =
-        Search { goal, gap, engine, cost, strategy, origin, range, load, share, stiffness };
+    // The load is not known, and tells nothing of how well the contact has to be in balance.
+    let unbalance = Excess::shift;
+    let mut search = Search {
+        goal,
+        gap,
+        engine,
+        cost,
+        strategy,
+        origin,
+        range,
+        load,
+        share,
+        stiffness,
+        unbalance,
+    };
     match search.place(half_width)? {
-        Placed::At(trial) => Ok(Nested { on: trial.on, error: trial.excess.error }),
+        Placed::At(trial) => {
+            let Excess { at_a, at_b, carried, error, .. } = trial.excess;
+            let missed = carried.map_or(T::zero(), |carried| T::of(0.5) * (at_a - at_b) / carried);
+            Ok(Nested { on: trial.on, error: error + missed.abs() })
+        }
         Placed::Beyond(end) => Err(ContactError::OutsideBodies {
             x: [origin - half_width, origin + half_width][end],
             range,
@@ -149,6 +167,8 @@ struct Search<'s, T: Real> {
     share: T,
     /// By how much the shift fell the last time for each unit of length moved to the right.
     stiffness: Option<T>,
+    /// What has to vanish where a contact of given width sits.
+    unbalance: fn(&Excess<T>) -> T,
 }
 
 impl<T: Real> Search<'_, T> {
@@ -290,7 +310,7 @@ impl<T: Real> Search<'_, T> {
         let widest = T::of(0.125) * width;
         let mut factor = T::of(2.0);
         let [low, high] = loop {
-            let shift = trial.excess.rough_shift();
+            let shift = (self.unbalance)(&trial.excess);
             if shift == zero {
                 return Ok(self.placed(trial, width));
             }
@@ -315,7 +335,7 @@ impl<T: Real> Search<'_, T> {
             }
             let before = trial;
             trial = self.attempt(on(next))?;
-            let moved = trial.excess.rough_shift();
+            let moved = (self.unbalance)(&trial.excess);
             right = next;
             if moved != zero {
                 let stiffness = (shift - moved) / (trial.on.right - before.on.right);
@@ -326,12 +346,12 @@ impl<T: Real> Search<'_, T> {
             }
             factor *= T::of(4.0);
         };
+        let unbalance = self.unbalance;
         let ends = Bracket::new(low.on.right - origin, high.on.right - origin)
-            .values(low.excess.rough_shift(), high.excess.rough_shift());
-        let mut best = nearer(low, high, Excess::rough_shift);
-        let trial = self.run(&ends, &mut best, Excess::rough_shift, |search, right| {
-            search.attempt(on(right))
-        })?;
+            .values(unbalance(&low.excess), unbalance(&high.excess));
+        let mut best = nearer(low, high, unbalance);
+        let trial =
+            self.run(&ends, &mut best, unbalance, |search, right| search.attempt(on(right)))?;
         Ok(self.placed(trial, width))
     }
 

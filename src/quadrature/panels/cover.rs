@@ -192,8 +192,10 @@ impl<T: Real> Cover<T> {
                 // Noise is what both halves have as much of. A wave that is not resolved yet has,
                 // too, if it is no longer faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
+                // Much more is no noise: fewer nodes have given up earlier.
                 let as_much = |half: &Trial<T>| {
-                    half.split && half.panel.tail >= T::of(0.8) * trial.panel.tail
+                    let ratio = half.panel.tail / trial.panel.tail;
+                    half.split && ratio >= T::of(0.8) && ratio <= T::of(16.0)
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     (one.split, other.split) = (false, false);
