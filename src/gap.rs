@@ -253,6 +253,15 @@ impl<'a, T: Real> Gap<'a, T> {
         (index, surface.piece(index))
     }
 
+    /// The slope of a body at a point of it, by a central difference.
+    pub(crate) fn difference(&self, body: Body, x: T, k: T) -> T {
+        let (_, piece) = self.piece_at(body, x, Side::Left);
+        let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
+        let step = T::epsilon().cbrt() * (to - from);
+        let [one, other] = [(k - step).max(from), (k + step).min(to)].map(|k| piece.curve.at(k));
+        (other.y - one.y) / (other.x - one.x)
+    }
+
     pub(crate) fn inversion(&self) -> &dyn LimitSearch<T> {
         self.inversion
     }

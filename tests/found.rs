@@ -4,7 +4,8 @@
 mod common;
 
 use common::{Profile, graph, join};
-use linecontact::{Contact, Flat, Load};
+use linecontact::search::Brent;
+use linecontact::{Contact, Flat, Interval, Load, Panels};
 
 /// The slope t + c x, and j more to the right of x₀.
 fn with_jump(j: f64, x0: f64, c: f64, t: f64) -> Profile {
@@ -74,5 +75,51 @@ fn halves_of_a_panel_that_is_all_but_resolved() {
             let residual = solution.residual(on.centre() + half_width * z).unwrap();
             assert!(residual.abs() < 1e-12, "{half_width} {z}: {residual:e}");
         }
+    }
+}
+
+/// A wave on both bodies is not in the gap; few nodes do for that, but not for the wave.
+#[test]
+fn a_wave_on_both_bodies_is_no_wrong_derivative() {
+    let wave = |x: f64| {
+        let (sin, cos) = (3.4229738164748196 * x).sin_cos();
+        [-0.795571308622995 / 3.4229738164748196 * cos, 0.795571308622995 * sin]
+    };
+    let upper = graph(-4.188255260300484, 4.614434906737044, move |x| {
+        let [y, dy] = wave(x);
+        [y + 0.25 * x * x, dy + 0.5 * x]
+    });
+    let lower = graph(-4.188255260300484, 4.614434906737044, wave);
+    let contact = Contact::new(&*lower, &*upper).unwrap();
+    let (brent, coarse) = (Brent::default(), Panels { tolerance: 1e-3 });
+    for contact in [contact.clone(), contact.clone().search(&brent), contact.quadrature(&coarse)] {
+        for (left, right) in [(-0.611, -0.6105), (2.0, 2.001), (-3.0, 3.0), (-4.0, -3.9)] {
+            let contact = contact.clone().start(Interval { left, right });
+            let solution = contact.solve(Load::ToHalfWidth(0.8)).unwrap();
+            assert!((solution.load() / 0.16 - 1.0).abs() < 1e-12, "{solution:?}");
+        }
+    }
+}
+
+/// A loose tolerance, and a slope whose largest part is a straight line: four nodes see a huge fall
+/// of the coefficients, which does not go on.
+#[test]
+fn a_steep_line_before_a_series() {
+    let at = |x: f64| {
+        [
+            2f64.powi(24) * x * x + 3.0 * (2.0 * x).exp() / 2.0,
+            2f64.powi(25) * x + 3.0 * (2.0 * x).exp(),
+        ]
+    };
+    let body = graph(-3.0, 3.0, at);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let exact = contact.solve(Load::ToHalfWidth(1.0)).unwrap().interval();
+    for tolerance in [1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6] {
+        let rule = Panels { tolerance };
+        let coarse = contact.clone().quadrature(&rule);
+        let solution = coarse.solve(Load::ToHalfWidth(1.0)).unwrap();
+        let off = (solution.a() - exact.right).abs();
+        let estimate = solution.limits_error().unwrap();
+        assert!(off <= estimate, "{tolerance}: {off:e} > {estimate:e}");
     }
 }
