@@ -195,7 +195,8 @@ impl<T: Real> Cover<T> {
                 // Much more is no noise: fewer nodes have given up earlier.
                 let as_much = |half: &Trial<T>| {
                     let ratio = half.panel.tail / trial.panel.tail;
-                    half.split && ratio >= T::of(0.8) && ratio <= T::of(16.0)
+                    let fewer = half.panel.n < trial.panel.n;
+                    half.split && ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0))
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     (one.split, other.split) = (false, false);
