@@ -159,7 +159,7 @@ impl<'a, T: Real> Contact<'a, T> {
     }
 
     /// Edges where the pressure has given values at given distances from the limits: the paper's
-    /// Eq. (6), in place of [`edges`](Self::edges).
+    /// Eq. (6), in place of [`edges`](Self::edges), under a given load.
     pub fn edge_pressure(self, wanted: EdgePressure<T>) -> Self {
         Self { edge_pressure: Some(wanted), ..self }
     }
@@ -197,7 +197,8 @@ impl<'a, T: Real> Contact<'a, T> {
     ///
     /// # Errors
     /// [`ContactError::Load`], [`ContactError::Scale`], [`ContactError::Limits`],
-    /// [`ContactError::Adhesion`], [`ContactError::EdgePressure`], [`ContactError::Control`],
+    /// [`ContactError::Adhesion`], [`ContactError::EdgePressure`],
+    /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`],
     /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
     /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
     /// [`ContactError::NoBalance`], [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for
@@ -253,6 +254,10 @@ impl<'a, T: Real> Contact<'a, T> {
         }
         if let Some(start) = self.start {
             check(start)?;
+        }
+        let by_load = matches!(load, Load::PerLength(_) | Load::Constant(_));
+        if self.edge_pressure.is_some() && !by_load {
+            return Err(ContactError::EdgePressureLoad);
         }
         let mut cost = Cost::default();
         let mut found = match load {

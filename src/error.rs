@@ -298,6 +298,22 @@ pub enum ContactError<T: Real> {
         /// What stands in the way.
         why: &'static str,
     },
+    /// Conditions at the edges by the paper's Eq. (6) leave nothing else to be asked for than a load.
+    #[error(
+        "with edge pressures by Eq. (6) the load must be given, not the half-width or the peak: give \
+         it, or use edges()"
+    )]
+    EdgePressureLoad,
+    /// There is not one place for each pressure.
+    #[error(
+        "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"
+    )]
+    Lengths {
+        /// Number of abscissae.
+        x: usize,
+        /// Number of places for pressures.
+        pressures: usize,
+    },
     /// An integral over the pressure has not converged.
     #[error(
         "an integral over the pressure for x = {x:?} has not converged in {panels} panels: the \

@@ -18,7 +18,7 @@ pub use sampler::Sampler;
 
 use crate::profile::Piece;
 use crate::search::LimitSearch;
-use crate::{Body, ContactError, ParametricProfile, Real};
+use crate::{Body, ContactError, ParametricProfile, ProfileError, Real};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The slope of the gap between two bodies, not yet sampled.
@@ -36,13 +36,31 @@ pub struct Gap<'a, T: Real> {
 #[derive(Clone)]
 enum Surface<'a, T: Real> {
     Smooth(Piece<'a, T>),
-    Joined(&'a dyn ParametricProfile<T>),
+    /// With the number of pieces, and the first.
+    Joined(&'a dyn ParametricProfile<T>, usize, Piece<'a, T>),
 }
 
 impl<'a, T: Real> Surface<'a, T> {
     fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
-        if profile.piece(0).is_some() {
-            return Ok(Self::Joined(profile));
+        if let Some(first) = profile.piece(0) {
+            let count = profile.pieces();
+            let mut end = None;
+            for index in 0..count.max(1) {
+                let follows = |piece: &Piece<'_, T>| {
+                    let [from, to] = piece.x();
+                    // Ends may miss each other by a tolerance that only the profile knows.
+                    let extent = (to - from).max(from.abs()).max(to.abs());
+                    let meets = |end: T| to > end && (from - end).abs() < T::of(0.5) * extent;
+                    from < to && end.is_none_or(meets)
+                };
+                let piece = profile.piece(index).filter(|piece| index < count && follows(piece));
+                let Some(piece) = piece else {
+                    let source = ProfileError::Pieces { count, index };
+                    return Err(ContactError::Profile { body, source });
+                };
+                end = Some(piece.x()[1]);
+            }
+            return Ok(Self::Joined(profile, count, first));
         }
         match Piece::new(profile) {
             Ok(piece) => Ok(Self::Smooth(piece)),
@@ -53,16 +71,15 @@ impl<'a, T: Real> Surface<'a, T> {
     fn len(&self) -> usize {
         match self {
             Self::Smooth(_) => 1,
-            Self::Joined(profile) => profile.pieces(),
+            Self::Joined(_, count, _) => *count,
         }
     }
 
     fn piece(&self, index: usize) -> Piece<'_, T> {
         match self {
             Self::Smooth(piece) => *piece,
-            Self::Joined(profile) => {
-                profile.piece(index).expect("a profile has as many pieces as it says")
-            }
+            // Each of them has been there.
+            Self::Joined(profile, _, first) => profile.piece(index).unwrap_or(*first),
         }
     }
 
@@ -120,8 +137,8 @@ impl std::ops::Add for Cost {
 
 impl std::ops::AddAssign for Cost {
     fn add_assign(&mut self, other: Self) {
-        self.samples += other.samples;
-        self.evaluations += other.evaluations;
+        self.samples = self.samples.saturating_add(other.samples);
+        self.evaluations = self.evaluations.saturating_add(other.evaluations);
     }
 }
 
@@ -234,6 +251,15 @@ impl<'a, T: Real> Gap<'a, T> {
         let surface = &self.bodies[body as usize];
         let index = surface.index_at(x, side);
         (index, surface.piece(index))
+    }
+
+    /// The slope of a body at a point of it, by a central difference.
+    pub(crate) fn difference(&self, body: Body, x: T, k: T) -> T {
+        let (_, piece) = self.piece_at(body, x, Side::Left);
+        let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
+        let step = T::epsilon().cbrt() * (to - from);
+        let [one, other] = [(k - step).max(from), (k + step).min(to)].map(|k| piece.curve.at(k));
+        (other.y - one.y) / (other.x - one.x)
     }
 
     pub(crate) fn inversion(&self) -> &dyn LimitSearch<T> {

@@ -41,7 +41,9 @@ impl<T: Real> Interval<T> {
     /// `sqrt((x + b)(a - x))`, from the distances to the two ends so that it keeps its
     /// relative accuracy next to either.
     pub fn edge_root(&self, x: T) -> T {
-        ((x - self.left).sqrt()) * ((self.right - x).sqrt())
+        // In shares of the width, whose roots are the same in any unit.
+        let width = self.right - self.left;
+        width * (((x - self.left) / width).sqrt() * ((self.right - x) / width).sqrt())
     }
 
     /// The angle of `x = c + L cos θ`, from 0 at `a` to π at `-b`.

@@ -285,4 +285,15 @@ pub enum ProfileError<T: Real> {
         /// `X` there.
         x: T,
     },
+    /// A compound profile does not have the pieces that it says it has.
+    #[error(
+        "of {count} pieces, piece {index} (from 0, left to right) is missing, or does not start where \
+         the one before ends: check piece() and pieces()"
+    )]
+    Pieces {
+        /// How many pieces it says it has.
+        count: usize,
+        /// The first piece at fault.
+        index: usize,
+    },
 }

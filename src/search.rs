@@ -215,10 +215,10 @@ pub enum SearchError<T: Real> {
         /// The best point so far.
         best: Root<T>,
     },
-    /// A strategy has returned a point that is not in the bracket it was given.
-    #[error("the strategy returned {x:?}, which is not in the bracket [{lo:?}, {hi:?}]")]
+    /// A strategy has looked at, or returned, a point that is not in the bracket it was given.
+    #[error("the strategy went to {x:?}, which is not in the bracket [{lo:?}, {hi:?}]")]
     Astray {
-        /// What it returned.
+        /// Where it went.
         x: T,
         /// Lower end of the bracket.
         lo: T,

@@ -210,11 +210,11 @@ impl<T: Real> Pressure<'_, T> {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
-    ///
-    /// # Panics
-    /// If the two slices are not of the same length.
+    /// [`ContactError::Lengths`] if the two slices are not of the same length.
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        assert_eq!(x.len(), pressures.len(), "one pressure for each x");
+        if x.len() != pressures.len() {
+            return Err(ContactError::Lengths { x: x.len(), pressures: pressures.len() });
+        }
         let mut cost = Cost::default();
         // Without a way out of the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {

@@ -1,6 +1,7 @@
 //! A solver that has been used before allocates nothing.
 //!
-//! The count is that of the whole program, so there is one test in this file.
+//! The count is that of the whole program, so there is one test in this file, and one to be run by
+//! itself.
 #![allow(missing_docs)]
 
 use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Solver};
@@ -113,4 +114,26 @@ fn nothing_is_allocated_after_the_first_solve() {
         }
     });
     assert_eq!(moved, 0, "a body of three pieces on one that moves");
+}
+
+/// `cargo test --release --test allocation -- --ignored`
+#[test]
+#[ignore = "takes half a minute, and counts what other tests allocate"]
+fn nothing_grows_over_a_million_solves() {
+    let (blunt, below) = (three_pieces(), roller(0.1, -2.0));
+    let contact = Contact::new(&below, &blunt).unwrap();
+    let mut solver = contact.solver().unwrap();
+    let load =
+        |i: u32| Load::PerLength(0.01 + 1e-3 * f64::from(i.wrapping_mul(2_654_435_761) >> 26));
+    for i in 0..1000 {
+        solver.solve(&contact, load(i)).unwrap();
+    }
+    let region = Region::new(ALLOCATOR);
+    for i in 0..1_000_000 {
+        assert!(solver.solve(&contact, load(i)).unwrap().a() > 0.0);
+    }
+    let change = region.change();
+    println!("{change:?}");
+    assert_eq!(change.allocations + change.reallocations, 0);
+    assert_eq!(change.bytes_allocated, change.bytes_deallocated);
 }

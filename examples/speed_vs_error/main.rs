@@ -28,6 +28,8 @@
 #[path = "../../tests/common/mod.rs"]
 mod common;
 mod diagrams;
+#[path = "../../tests/common/kept.rs"]
+mod kept;
 mod measure;
 mod methods;
 mod scenes;

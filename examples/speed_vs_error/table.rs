@@ -1,5 +1,6 @@
 //! The table of counts and errors: written, and compared with the one kept in `tests/data`.
 
+use crate::kept::{counts_agree, errors_agree};
 use crate::measure::Outcome;
 use crate::methods::Way;
 use crate::scenes::Scene;
@@ -18,15 +19,6 @@ pub struct Row {
 
 pub const HEADING: &str = "scene\tmethod\tsetting\tinversion\tlimits\tsamples\tevaluations\t\
     for_limits\terror_a\terror_b\terror_P\terror_P_edge";
-
-/// Counts are the same wherever sin, cos and pow are; elsewhere a search may end a step sooner
-/// or later.
-const SAME_LIBRARY: bool =
-    cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"));
-const SLACK: f64 = if SAME_LIBRARY { 0.0 } else { 0.1 };
-/// An error of a few units in the last place may be another few elsewhere.
-const ERROR_FACTOR: f64 = 10.0;
-const ERROR_FLOOR: f64 = 2e-15;
 
 impl Row {
     pub fn new(scene: &Scene, way: Way, outcome: Option<Outcome>, micros: Option<f64>) -> Self {
@@ -73,12 +65,8 @@ fn agree(kept: &str, found: &str) -> bool {
         && kept.into_iter().zip(found).enumerate().all(|(i, (kept, found))| {
             let numbers = (kept.parse::<f64>(), found.parse::<f64>());
             match (i, numbers) {
-                (5..=7, (Ok(kept), Ok(found))) => (found - kept).abs() <= SLACK * kept,
-                // Only more is a fault.
-                (8.., (Ok(kept), Ok(found))) => {
-                    found <= (ERROR_FACTOR * kept).max(ERROR_FLOOR)
-                        || kept.is_nan() && found.is_nan()
-                }
+                (5..=7, (Ok(kept), Ok(found))) => counts_agree(kept, found),
+                (8.., (Ok(kept), Ok(found))) => errors_agree(kept, found),
                 _ => kept == found,
             }
         })

@@ -10,7 +10,7 @@
 
 use super::edges::{Conditions, Control, Edge, Goal};
 use super::limits::{self, Nested};
-use super::newton::{Effort, Settled, settle};
+use super::newton::{Effort, Settled, load_of, settle};
 use super::{Contact, Found, pull};
 use crate::gap::Cost;
 use crate::quadrature::{Engine, Moments};
@@ -214,8 +214,7 @@ pub(super) fn contact_of<T: Real>(
     let m = engine.moments(&contact.gap, on)?;
     let load = match conditions.control {
         Control::Load(_) => load,
-        // What the last step has made of it is linear only.
-        Control::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(load),
+        Control::HalfWidth(_) => load_of(conditions, on, load, &m),
     };
     Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
 }

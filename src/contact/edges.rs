@@ -216,7 +216,7 @@ pub(super) struct Excess<T> {
     /// Up to this, shift and spread are zero to rounding, or to the tolerances.
     floor: T,
     /// The load that the contact carries, where that is known.
-    carried: Option<T>,
+    pub carried: Option<T>,
     /// By what factor the width of a round body should change, whose load goes with its square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
@@ -342,9 +342,16 @@ impl<T: Real> Goal<T> {
                         (at_a - balance, at_b + balance, load + half * (pull[0] + pull[1]), carried)
                     }
                 };
-                // By roots, so as not to underflow.
-                let growing = borne > T::zero() && needed > T::zero();
-                let growth = if growing { needed.sqrt() / borne.sqrt() } else { two };
+                let ratio = needed / borne;
+                let least = T::epsilon().powi(5);
+                let growth = if !(borne > T::zero() && needed > T::zero()) {
+                    two
+                } else if ratio > least && ratio < least.recip() {
+                    ratio.sqrt()
+                } else {
+                    // By roots, so as not to underflow.
+                    needed.sqrt() / borne.sqrt()
+                };
                 Ok(Excess {
                     at_a,
                     at_b,

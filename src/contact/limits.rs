@@ -26,7 +26,7 @@ use super::further::further;
 use super::stride::{Stride, ulps};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
-use crate::search::{Bracket, LimitSearch};
+use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
@@ -79,6 +79,7 @@ pub(super) fn find<T: Real>(
         near: 1,
         share: T::of(0.5),
         stiffness: None,
+        unbalance: Excess::rough_shift,
     };
     let trial = search.widen(half_width)?;
     if trial.cornered {
@@ -108,14 +109,29 @@ pub(super) fn place<T: Real>(
     *cost += sampler.cost;
     let (origin, range) = (first?, gap.range());
     let load = T::one();
-    let (strategy, near, share, stiffness) = (contact.strategy(), 1, T::of(0.5), None);
-    let mut search =
-        Search { goal, gap, engine, cost, strategy, origin, range, load, near, share, stiffness };
+    // The load is not known, and tells nothing of how well the contact has to be in balance.
+    let unbalance = Excess::shift;
+    let mut search = Search {
+        goal,
+        gap,
+        engine,
+        cost,
+        strategy: contact.strategy(),
+        origin,
+        range,
+        load,
+        near: 1,
+        share: T::of(0.5),
+        stiffness: None,
+        unbalance,
+    };
     match search.place(half_width)? {
         Placed::At(trial) => {
+            let Excess { at_a, at_b, carried, error, .. } = trial.excess;
+            let missed = carried.map_or(T::zero(), |carried| T::of(0.5) * (at_a - at_b) / carried);
             let width = Some(half_width);
             let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
-            Ok(Nested { on, error: trial.excess.error })
+            Ok(Nested { on, error: error + missed.abs() })
         }
         Placed::Beyond(end) => Err(ContactError::OutsideBodies {
             x: [origin - half_width, origin + half_width][end],
@@ -160,6 +176,8 @@ struct Search<'s, T: Real> {
     share: T,
     /// By how much the shift fell the last time for each unit of length moved to the right.
     stiffness: Option<T>,
+    /// What has to vanish where a contact of given width sits.
+    unbalance: fn(&Excess<T>) -> T,
 }
 
 impl<T: Real> Search<'_, T> {
@@ -307,7 +325,7 @@ impl<T: Real> Search<'_, T> {
         let widest = T::of(0.125) * width;
         let mut factor = T::of(2.0);
         let [low, high] = loop {
-            let shift = trial.excess.rough_shift();
+            let shift = (self.unbalance)(&trial.excess);
             if shift == zero {
                 return Ok(self.placed(trial, width));
             }
@@ -333,7 +351,7 @@ impl<T: Real> Search<'_, T> {
             }
             let before = trial;
             trial = self.attempt(on(next))?;
-            let moved = trial.excess.rough_shift();
+            let moved = (self.unbalance)(&trial.excess);
             reach = next;
             if moved != zero {
                 let rightward = reached(&trial) - reached(&before);
@@ -346,12 +364,12 @@ impl<T: Real> Search<'_, T> {
             }
             factor *= T::of(4.0);
         };
+        let unbalance = self.unbalance;
         let ends = Bracket::new(reached(&low), reached(&high))
-            .values(low.excess.rough_shift(), high.excess.rough_shift());
-        let mut best = nearer(low, high, Excess::rough_shift);
-        let trial = self.run(&ends, &mut best, Excess::rough_shift, |search, reach| {
-            search.attempt(on(reach))
-        })?;
+            .values(unbalance(&low.excess), unbalance(&high.excess));
+        let mut best = nearer(low, high, unbalance);
+        let trial =
+            self.run(&ends, &mut best, unbalance, |search, reach| search.attempt(on(reach)))?;
         Ok(self.placed(trial, width))
     }
 
@@ -396,8 +414,16 @@ impl<T: Real> Search<'_, T> {
         let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
         let [mut lo, mut hi] = [bracket.lo, bracket.hi];
+        let on = best.on;
+        let inside = |x: T| {
+            if x >= bracket.lo && x <= bracket.hi {
+                return Ok(());
+            }
+            let source = SearchError::Astray { x, lo: bracket.lo, hi: bracket.hi };
+            Err(ContactError::LimitSearch { best: on, source })
+        };
         let found = strategy.find(
-            &mut |unknown| match attempt(self, unknown) {
+            &mut |unknown| match inside(unknown).and_then(|()| attempt(self, unknown)) {
                 Ok(trial) => {
                     *best = nearer(trial, *best, condition);
                     let value = condition(&trial.excess);

@@ -151,6 +151,22 @@ fn further<T: Real>(
     Ok((on, load))
 }
 
+/// The load of a contact of given width that has settled. By one more step, since the last was linear
+/// only, and not from the moments alone: those of limits that are rounded close to a jump of the
+/// slope are not those of a contact.
+pub(super) fn load_of<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    load: T,
+    m: &Moments<T>,
+) -> T {
+    let more = System::new(conditions, on, load, m).and_then(|system| {
+        let [.., more] = system.step(&system.matrix.try_inverse()?);
+        Some(load + more)
+    });
+    more.filter(|load| load.is_finite()).unwrap_or(load)
+}
+
 /// At an edge that is not fixed the bodies open: `g(a) > 0 > g(-b)`. A step that goes too far for
 /// that is cut short, a tenth before the place where the slope changes its sign.
 fn opening<T: Real>(

@@ -339,7 +339,16 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
         let bracket = bracket.guess(newton(left, right, target));
         let (mut best, mut failed) = (None, None);
+        let (low, high) = (lo.k, hi.k);
+        let astray = |k: T| {
+            let source = SearchError::Astray { x: k, lo: low, hi: high };
+            ContactError::Inversion { body, x: target, source }
+        };
         let mut f = |k: T| {
+            if !(k >= low && k <= high) {
+                failed = Some(astray(k));
+                return (T::of(f64::NAN), T::zero());
+            }
             cost.evaluations += 1;
             let knot = Knot::new(k, self.piece.curve.at(k));
             if let Err(error) = self.check(&knot) {
@@ -351,10 +360,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         };
         match (self.gap.inversion().find_with_slope(&mut f, &bracket), failed) {
             (_, Some(error)) => Err(error),
-            (Ok(root), None) if !(root.x >= lo.k && root.x <= hi.k) => {
-                let source = SearchError::Astray { x: root.x, lo: lo.k, hi: hi.k };
-                Err(ContactError::Inversion { body, x: target, source })
-            }
+            (Ok(root), None) if !(root.x >= low && root.x <= high) => Err(astray(root.x)),
             (Ok(root), None) => match best.filter(|best| best.k == root.x) {
                 Some(knot) => Ok(knot),
                 None => {

@@ -6,7 +6,7 @@
 
 use super::{Cost, Gap, Side};
 use crate::profile::Piece;
-use crate::search::{Bracket, SearchError};
+use crate::search::{Bracket, Root, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
 /// Takes values of the gap's slope, and keeps count.
@@ -135,27 +135,35 @@ impl<T: Real> Sampler<T> {
                     piece.k[0] + along * (piece.k[1] - piece.k[0])
                 }
             };
+            let ends = [(piece.k[0], ends[0] - x), (piece.k[1], ends[1] - x)];
+            let [(lo, f_lo), (hi, f_hi)] =
+                if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
+            let mut strayed = None;
             let mut f = |k: T| {
+                if !(k >= lo && k <= hi) {
+                    strayed = Some(k);
+                    return (T::of(f64::NAN), T::zero());
+                }
                 let here = at(k);
                 last = Some(here);
                 turned = turned.or(last.filter(turns));
                 (here.point.x - x, here.point.dx)
             };
-            let ends = [(piece.k[0], ends[0] - x), (piece.k[1], ends[1] - x)];
-            let [(lo, f_lo), (hi, f_hi)] =
-                if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
             let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
-            match gap.inversion().find_with_slope(&mut f, &bracket) {
-                Ok(root) if root.x >= lo && root.x <= hi => root.x,
-                Ok(root) => {
-                    let source = SearchError::Astray { x: root.x, lo, hi };
+            let root = gap.inversion().find_with_slope(&mut f, &bracket);
+            let outside = |root: &Root<T>| !(root.x >= lo && root.x <= hi);
+            let strayed = strayed.or(root.ok().filter(outside).map(|root| root.x));
+            match (root, strayed) {
+                (_, Some(k)) => {
+                    let source = SearchError::Astray { x: k, lo, hi };
                     return Err(ContactError::Inversion { body, x, source });
                 }
-                Err(SearchError::NotFinite { x: k, value }) => {
+                (Ok(root), None) => root.x,
+                (Err(SearchError::NotFinite { x: k, value }), _) => {
                     let source = ProfileError::NotFinite { quantity: "X", k, value };
                     return Err(ContactError::Profile { body, source });
                 }
-                Err(source) => return Err(ContactError::Inversion { body, x, source }),
+                (Err(source), _) => return Err(ContactError::Inversion { body, x, source }),
             }
         };
         let mut found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
@@ -169,7 +177,13 @@ impl<T: Real> Sampler<T> {
             let source = ProfileError::TurnsBack { k, x: point.x };
             return Err(ContactError::Profile { body, source });
         }
-        self.missed = self.missed.max((found.point.x - x).abs());
+        let missed = found.point.x - x;
+        // What a strategy leaves shows in the estimates, unless it leaves almost everything.
+        if missed.abs() > T::of(0.1) * (ends[1] - ends[0]) {
+            let source = SearchError::Missed { x: k, residual: missed };
+            return Err(ContactError::Inversion { body, x, source });
+        }
+        self.missed = self.missed.max(missed.abs());
         self.near[body as usize] = Some(found);
         Ok(found)
     }

@@ -185,7 +185,7 @@ impl<T: Real> Conjugate<T> {
         if self.changes.is_empty() {
             return sum;
         }
-        let roots = [edges.left.map(|x| x.sqrt()), edges.right.map(|x| x.sqrt())];
+        let roots = [edges.left, edges.right].map(|side| side.map(|x| (x * share).sqrt()));
         for Change { joint, series, terms } in &self.changes {
             let change = values(&series[..*terms], &z);
             let logs = joint.logarithms(change, x, &roots, self.on, self.rounding);
@@ -231,10 +231,16 @@ fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, int
     }
 }
 
+/// The distances of a point to the two edges, as shares of the width.
+pub(super) fn shares<T: Real>(on: Interval<T>, x: T) -> [T; 2] {
+    let share = T::one() / (on.right - on.left);
+    [(x - on.left) * share, (on.right - x) * share]
+}
+
 /// The start of a panel, as the place of a logarithm.
 pub(super) struct Joint<T> {
     x: T,
-    /// Square roots of its distances to the two edges.
+    /// Square roots of its distances to the two edges, as shares of the width.
     roots: [T; 2],
     /// What a series cannot tell from it.
     closest: T,
@@ -242,12 +248,12 @@ pub(super) struct Joint<T> {
 
 impl<T: Real> Joint<T> {
     pub fn new(panel: &Panel<T>, on: Interval<T>, x: T) -> Self {
-        let roots = [(x - on.left).sqrt(), (on.right - x).sqrt()];
+        let roots = shares(on, x).map(|share| share.sqrt());
         Self { x, roots, closest: panel.half() / T::count(panel.n * panel.n) }
     }
 
     /// `change Λ(x, t)`, t the joint, at points with the roots of the distances from the edges to
-    /// them.
+    /// them, as shares of the width.
     #[inline(always)]
     pub fn logarithms<const W: usize>(
         &self,
@@ -257,7 +263,7 @@ impl<T: Real> Joint<T> {
         on: Interval<T>,
         rounding: Rounding<T>,
     ) -> [T; W] {
-        let share = T::one() / (on.right - on.left);
+        let width = on.right - on.left;
         // What is rounding, or an end that the series do not resolve, has no logarithm closer than
         // the series can see.
         let distance: [T; W] = std::array::from_fn(|i| {
@@ -269,7 +275,7 @@ impl<T: Real> Joint<T> {
         let m = left.map(|left| self.roots[1] * left);
         let n = right.map(|right| self.roots[0] * right);
         let quotient: [T; W] =
-            std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * share / distance[i]);
+            std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * (width / distance[i]));
         let comparable = |i: usize| m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]);
         // Mostly all of them are plain.
         if (0..W).fold(true, |all, i| all & comparable(i) & !distance[i].is_zero()) {

@@ -7,7 +7,7 @@
 
 use super::angles::{Arc, Gauss, HalfAngle};
 use super::chebyshev::{MOST, Row, value_at};
-use super::conjugate::{Joint, Rounding};
+use super::conjugate::{Joint, Rounding, shares};
 use super::panel::Panel;
 use crate::real::Sum;
 use crate::{Interval, Real};
@@ -51,7 +51,7 @@ impl<T: Real> Far<T> {
     /// `π² R` at a point.
     pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
         let (mut sum, mut log, mut before) = (Sum::new(), Sum::new(), None);
-        let roots = [[(x - on.left).sqrt()], [(on.right - x).sqrt()]];
+        let roots = shares(on, x).map(|share| [share.sqrt()]);
         for (j, part) in self.parts.iter().enumerate() {
             let s = part.panel.local(x);
             let value = if s.abs() <= part.reach {

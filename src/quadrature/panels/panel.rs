@@ -140,7 +140,9 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let doubt = T::of(if pairs < 4 { 10.0 } else { 1.0 });
     let enough = pairs >= 4 || allowed >= T::of(400.0) * rounded;
     if error * doubt <= allowed && enough {
-        return Verdict::Good(error.max(rounded));
+        // Nor do they fall on for ever as they have: a large constant may stand before a series.
+        let seen = if pairs < 4 { T::of(0.25) * last } else { rounded };
+        return Verdict::Good(error.max(rounded).max(seen));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
     // one third of them to the next.

@@ -1,0 +1,234 @@
+//! Strategies and quadratures that give up, or lie.
+
+use super::answers::ask_all;
+use super::*;
+
+#[test]
+fn budgets_of_searches() {
+    let mut table = Table::new("Contact::solve with a small budget");
+    let (upper, load) = (power(3.0), Load::PerLength(0.05));
+    let inverted = body();
+    let rule = Midpoint::default();
+    for max_evaluations in [0, 1, 2] {
+        let [one, two, three, four] = strategies(Tolerance { max_evaluations, ..Tolerance::FULL });
+        for (i, strategy) in [&one, &two, &three, &four].into_iter().enumerate() {
+            let contact =
+                Contact::new(&Flat, &*inverted).unwrap().inversion(&**strategy).quadrature(&rule);
+            table.row(&format!("inversion {i}, {max_evaluations}"), 40, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::Inversion { body: Body::Upper, x, source: SearchError::Budget { best } })
+                    if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
+            });
+            let contact = Contact::new(&Flat, &*upper).unwrap().search(&**strategy);
+            table.outcome(
+                &format!("search {i}, {max_evaluations}"),
+                0,
+                || Ok(contact.solve(load).map(|_| ())?),
+                |outcome| {
+                    matches!(
+                        outcome,
+                        Ok(_)
+                            | Err(Wrong::Contact(ContactError::LimitSearch {
+                                source: SearchError::Budget { .. },
+                                ..
+                            }))
+                    )
+                },
+            );
+        }
+    }
+    table.finish();
+}
+
+/// A strategy that does not do what it says: it may look somewhere, and then says what it likes.
+struct Liar(fn(&mut dyn FnMut(f64) -> f64, &Bracket<f64>) -> Result<Root<f64>, SearchError<f64>>);
+
+impl LimitSearch<f64> for Liar {
+    fn find(
+        &self,
+        f: &mut dyn FnMut(f64) -> f64,
+        bracket: &Bracket<f64>,
+    ) -> Result<Root<f64>, SearchError<f64>> {
+        self.0(f, bracket)
+    }
+}
+
+fn root(x: f64) -> Result<Root<f64>, SearchError<f64>> {
+    Ok(Root { x, residual: 0.0, bracket: [x, x], evaluations: usize::MAX })
+}
+
+#[test]
+fn strategies_that_lie() {
+    let mut table = Table::new("Contact::solve by a strategy that lies");
+    let upper = body();
+    let contact = Contact::new(&Flat, &*upper).unwrap();
+    let exact = 0.1f64.sqrt();
+    let rule = Midpoint::default();
+    let liars: [(&str, Liar); 10] = [
+        ("says nothing was looked at", Liar(|_, b| root(b.lo))),
+        (
+            "says the other end",
+            Liar(|f, b| {
+                f(b.hi);
+                root(b.hi)
+            }),
+        ),
+        (
+            "the middle as the root",
+            Liar(|f, b| {
+                let x = b.lo + 0.37 * (b.hi - b.lo);
+                f(x);
+                root(x)
+            }),
+        ),
+        ("NaN", Liar(|_, _| root(NAN))),
+        ("infinite", Liar(|_, _| root(INF))),
+        (
+            "beyond",
+            Liar(|f, b| {
+                let x = b.hi + 7.0 * (b.hi - b.lo);
+                f(x);
+                root(x)
+            }),
+        ),
+        (
+            "looks at NaN",
+            Liar(|f, b| {
+                f(NAN);
+                root(b.lo)
+            }),
+        ),
+        (
+            "looks at infinity",
+            Liar(|f, b| {
+                f(INF);
+                f(-INF);
+                root(b.lo)
+            }),
+        ),
+        (
+            "looks far away",
+            Liar(|f, b| {
+                f(1e300);
+                f(-1e300);
+                root(b.hi)
+            }),
+        ),
+        ("an error of its own", Liar(|_, b| Err(SearchError::NotFinite { x: b.lo, value: NAN }))),
+    ];
+    for (name, liar) in &liars {
+        for (how, contact, most) in [
+            ("inversion", contact.clone().inversion(liar).quadrature(&rule), 40_000),
+            ("inversion, panels", contact.clone().inversion(liar), 40_000),
+            ("search", contact.clone().search(liar), 4_000),
+            ("search, half-width", contact.clone().search(liar), 4_000),
+        ] {
+            let load = if how.contains("width") {
+                Load::ToHalfWidth(exact)
+            } else {
+                Load::PerLength(0.05)
+            };
+            let mut off = None;
+            table.outcome(
+                &format!("{how}: {name}"),
+                most,
+                || {
+                    let solution = contact.solve(load)?;
+                    let error =
+                        (solution.a() - exact).abs().max((solution.b() - exact).abs()) / exact;
+                    off = Some((error, solution.limits_error().unwrap_or(0.0)));
+                    Ok(())
+                },
+                |outcome| match outcome {
+                    Ok(_) => true,
+                    Err(Wrong::Contact(error)) => matches!(
+                        error,
+                        ContactError::Inversion { .. }
+                            | ContactError::Profile { .. }
+                            | ContactError::LimitSearch { .. }
+                            | ContactError::OutsideBodies { .. }
+                            | ContactError::Overflow { .. }
+                    ),
+                    Err(_) => false,
+                },
+            );
+            if let Some((error, estimate)) = off {
+                assert!(error <= 3.0 * estimate + 4e-16, "{how}: {name}: {error:e} > {estimate:e}");
+            }
+        }
+    }
+    table.finish();
+}
+
+/// A quadrature whose values are all the same, such as NaN.
+struct Same(f64);
+
+impl Quadrature<f64> for Same {
+    fn engine(&self) -> Result<Box<dyn Engine<f64>>, ContactError<f64>> {
+        Ok(Box::new(Same(self.0)))
+    }
+}
+
+impl Engine<f64> for Same {
+    fn reset(&mut self, _: bool) {}
+    fn moments(
+        &mut self,
+        _: &Gap<f64>,
+        _: Interval<f64>,
+    ) -> Result<Moments<f64>, ContactError<f64>> {
+        let Self(value) = *self;
+        Ok(Moments {
+            mean: value,
+            first: value,
+            size: value,
+            error: value,
+            inversion: value,
+            trend: None,
+        })
+    }
+    fn prepare(&mut self, _: &Gap<f64>, _: Interval<f64>) -> Result<(), ContactError<f64>> {
+        Ok(())
+    }
+    fn estimate(
+        &self,
+        _: &Gap<f64>,
+        _: &Pressing<f64>,
+        _: f64,
+        _: &mut Cost,
+    ) -> Result<Estimate<f64>, ContactError<f64>> {
+        Ok(Estimate { value: self.0, error: self.0 })
+    }
+    fn cost(&self) -> Cost {
+        Cost { samples: usize::MAX, evaluations: usize::MAX }
+    }
+}
+
+#[test]
+fn quadratures_that_lie() {
+    let mut table = Table::new("Contact::solve by a quadrature that lies");
+    let upper = body();
+    for value in [NAN, INF, -INF, 0.0, 1.0, -1.0, TINY, f64::MAX] {
+        let lie = Same(value);
+        let contact = Contact::new(&Flat, &*upper).unwrap().quadrature(&lie);
+        let fixed = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.2));
+        let corner = contact.clone().edges(Edge::UpTo(-0.1), Edge::UpTo(0.2));
+        let by_brent = contact.clone().search(&Brent { tolerance: Tolerance::FULL });
+        for (how, contact) in
+            [("free", &contact), ("corners", &corner), ("searched", &by_brent), ("fixed", &fixed)]
+        {
+            for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+                table.outcome(
+                    &format!("{how}, {value:e}, {load:?}"),
+                    40_000,
+                    || {
+                        let solution = contact.solve(load)?;
+                        assert!(solution.a() + solution.b() > 0.0);
+                        ask_all(&solution);
+                        Ok(())
+                    },
+                    |_| true,
+                );
+            }
+        }
+    }
+    table.finish();
+}

@@ -1,0 +1,166 @@
+//! Everything that a user can get wrong, function by function: each row has the error expected, with
+//! its place and values, and how many evaluations of the curves it may take.
+#![allow(missing_docs)]
+#![allow(clippy::type_complexity)] // Rows of a table hold functions.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod answers;
+mod liars;
+mod panics;
+mod profiles;
+mod references;
+mod scene;
+mod searches;
+
+use common::{Profile, power};
+use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
+use linecontact::search::{
+    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, Tolerance,
+};
+use linecontact::stress::Stress;
+use linecontact::{
+    Body, Contact, ContactError, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents,
+    Flat, Gap, Interval, Load, Midpoint, Panels, ParametricProfile, Piece, Piecewise,
+    PiecewiseError, ProfileError, Solution,
+};
+use std::cell::Cell;
+use std::f64::consts::PI;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+const NAN: f64 = f64::NAN;
+
+const INF: f64 = f64::INFINITY;
+
+const TINY: f64 = 5e-324;
+
+thread_local! {
+    static EVALUATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// A curve whose evaluations are counted.
+fn curve(domain: [f64; 2], at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'static) -> Profile {
+    Box::new(Curve::new(domain, move |k| {
+        EVALUATIONS.set(EVALUATIONS.get() + 1);
+        at(k)
+    }))
+}
+
+/// A parabola that is not quite one, so that it is inverted: x = k + k³/5, y = x²/2.
+fn point(k: f64) -> CurvePoint<f64> {
+    let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
+    CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+}
+
+fn body() -> Profile {
+    curve([-1.0, 1.0], point)
+}
+
+/// Any error of the crate.
+#[derive(Debug)]
+enum Wrong {
+    Contact(ContactError<f64>),
+    Search(SearchError<f64>),
+    Profile(ProfileError<f64>),
+    Joint(PiecewiseError<f64>),
+}
+
+macro_rules! from {
+    ($($variant:ident($error:ident)),*) => {$(
+        impl From<$error<f64>> for Wrong {
+            fn from(error: $error<f64>) -> Self {
+                Self::$variant(error)
+            }
+        }
+    )*};
+}
+
+from!(Contact(ContactError), Search(SearchError), Profile(ProfileError), Joint(PiecewiseError));
+
+type Outcome = Result<String, Wrong>;
+
+struct Table {
+    function: &'static str,
+    wrong: Vec<String>,
+    rows: usize,
+}
+
+impl Table {
+    fn new(function: &'static str) -> Self {
+        Self { function, wrong: Vec::new(), rows: 0 }
+    }
+
+    fn row<R: std::fmt::Debug>(
+        &mut self,
+        name: &str,
+        most: usize,
+        call: impl FnOnce() -> Result<R, Wrong>,
+        expected: impl Fn(&Wrong) -> bool,
+    ) {
+        self.outcome(name, most, call, |outcome| outcome.as_ref().is_err_and(&expected));
+    }
+
+    fn outcome<R: std::fmt::Debug>(
+        &mut self,
+        name: &str,
+        most: usize,
+        call: impl FnOnce() -> Result<R, Wrong>,
+        expected: impl Fn(&Outcome) -> bool,
+    ) {
+        EVALUATIONS.set(0);
+        self.rows += 1;
+        let row = format!("{}, {name}", self.function);
+        let outcome = catch_unwind(AssertUnwindSafe(|| call().map(|good| format!("{good:?}"))));
+        let took = EVALUATIONS.get();
+        match outcome {
+            Err(_) => self.wrong.push(format!("{row}: panics")),
+            Ok(outcome) if !expected(&outcome) => self.wrong.push(format!("{row}: {outcome:?}")),
+            Ok(_) if took > most => self.wrong.push(format!("{row}: {took} evaluations")),
+            // What an error says is said in a line or three.
+            Ok(Err(wrong)) if message(&wrong).len() > 500 => {
+                self.wrong.push(format!("{row}: {}", message(&wrong)))
+            }
+            Ok(_) => {}
+        }
+    }
+
+    fn finish(self) {
+        assert!(self.rows > 0 && self.wrong.is_empty(), "\n{}", self.wrong.join("\n"));
+    }
+}
+
+fn message(wrong: &Wrong) -> String {
+    match wrong {
+        Wrong::Contact(error) => error.to_string(),
+        Wrong::Search(error) => error.to_string(),
+        Wrong::Profile(error) => error.to_string(),
+        Wrong::Joint(error) => error.to_string(),
+    }
+}
+
+/// The numbers are the same, or both NaN.
+fn same(one: f64, other: f64) -> bool {
+    one == other || one.is_nan() && other.is_nan()
+}
+
+macro_rules! contact_error {
+    ($pattern:pat $(if $guard:expr)?) => {
+        |wrong: &Wrong| matches!(wrong, Wrong::Contact($pattern) $(if $guard)?)
+    };
+}
+use contact_error;
+
+fn solve(upper: &dyn ParametricProfile<f64>, load: Load<f64>) -> Result<(), Wrong> {
+    Contact::new(&Flat, upper)?.solve(load)?;
+    Ok(())
+}
+
+fn strategies(tolerance: Tolerance) -> [Box<dyn LimitSearch<f64>>; 4] {
+    [
+        Box::new(Bisection { tolerance }),
+        Box::new(Secant { tolerance }),
+        Box::new(Brent { tolerance }),
+        Box::new(Newton { tolerance }),
+    ]
+}

@@ -1,0 +1,334 @@
+//! Curves and pieces that are none.
+
+use super::*;
+
+#[test]
+fn bodies() {
+    let mut table = Table::new("Contact::new and Piece::checked");
+    let domains = [
+        [NAN, 1.0],
+        [-1.0, NAN],
+        [-INF, 1.0],
+        [-1.0, INF],
+        [1.0, -1.0],
+        [0.5, 0.5],
+        [-1.5e308, 1.5e308],
+    ];
+    for domain in domains {
+        let wanted = move |source: &ProfileError<f64>| matches!(source, ProfileError::Domain { from, to } if same(*from, domain[0]) && same(*to, domain[1]));
+        let name = format!("domain {domain:?}");
+        table.row(&name, 0, || Ok(Contact::new(&Flat, &*curve(domain, point)).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source }) if wanted(source))
+        });
+        let below = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Lower, source }) if wanted(source));
+        let lower = curve(domain, point);
+        table.row(&name, 2, || Ok(Contact::new(&*lower, &*body()).map(|_| ())?), below);
+        let checked = |wrong: &Wrong| matches!(wrong, Wrong::Profile(source) if wanted(source));
+        table.row(&name, 0, || Ok(Piece::checked(&*curve(domain, point)).map(|_| ())?), checked);
+        table.row(&name, 0, || Ok(Piece::new(&*curve(domain, point)).map(|_| ())?), checked);
+        let joined = |wrong: &Wrong| matches!(wrong, Wrong::Joint(PiecewiseError::InPiece { piece: 1, source }) if wanted(source));
+        let pieces = vec![curve([-2.0, -1.0], point), curve(domain, point)];
+        table.row(&name, 39, || Ok(Piecewise::new(pieces).map(|_| ())?), joined);
+    }
+    // A domain of one step between neighbouring numbers cannot be wrong, only narrow.
+    let narrow = curve([0.0, TINY], |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 });
+    table.row(
+        "a subnormal domain",
+        100,
+        || solve(&*narrow, Load::PerLength(1.0)),
+        contact_error!(ContactError::NoFirstContact { .. }),
+    );
+    for value in [NAN, INF, -INF] {
+        let end = curve([-1.0, 1.0], move |k| CurvePoint {
+            x: if k == 1.0 { value } else { k },
+            ..point(k)
+        });
+        let wanted = |source: &ProfileError<f64>| matches!(source, ProfileError::NotFinite { quantity: "X", k: 1.0, value: v } if same(*v, value));
+        table.row(&format!("X({value}) at the end"), 2, || Ok(Contact::new(&Flat, &*end).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Profile { source, .. }) if wanted(source))
+        });
+        table.row(
+            &format!("X({value}) at the end"),
+            39,
+            || Ok(Piece::checked(&*end).map(|_| ())?),
+            |wrong| matches!(wrong, Wrong::Profile(source) if wanted(source)),
+        );
+    }
+    let still = curve([-1.0, 1.0], |k| CurvePoint { x: 0.25, y: k, dx: 0.0, dy: 1.0 });
+    table.row(
+        "X stands still",
+        3,
+        || Ok(Contact::new(&Flat, &*still).map(|_| ())?),
+        contact_error!(ContactError::Profile {
+            source: ProfileError::TurnsBack { k: 0.0, x: 0.25 },
+            ..
+        }),
+    );
+    let beside = curve([-3.0, -1.0], |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 });
+    table.row(
+        "one end in common",
+        4,
+        || {
+            Ok(Contact::new(&*beside, &*curve([-1.0, 1.0], |k| CurvePoint { x: k, ..point(k) }))
+                .map(|_| ())?)
+        },
+        contact_error!(ContactError::Apart { lower: [-3.0, -1.0], upper: [-1.0, 1.0] }),
+    );
+    table.finish();
+}
+
+/// A compound profile as a user might write it.
+struct Compound {
+    says: usize,
+    has: usize,
+    parts: Vec<Profile>,
+}
+
+impl ParametricProfile<f64> for Compound {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.parts[0].at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.says
+    }
+    fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
+        self.parts[..self.has].get(index).map(|part| Piece::new(part).expect("a good piece"))
+    }
+}
+
+#[test]
+fn compound_profiles_that_are_none() {
+    let mut table = Table::new("a profile of pieces");
+    let at = |from: f64, to: f64| {
+        curve([from, to], |k| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k })
+    };
+    let parts = || vec![at(-1.0, 0.0), at(0.0, 1.0), at(1.0, 2.0)];
+    let bad = [
+        ("no pieces but one", 0, 1, parts(), 0),
+        ("more pieces than it has", 9, 3, parts(), 3),
+        ("the wrong order", 2, 2, vec![at(0.0, 1.0), at(-1.0, 0.0)], 1),
+        ("pieces apart", 2, 2, vec![at(-1.0, -0.5), at(0.5, 1.0)], 1),
+    ];
+    for (name, says, has, parts, fault) in bad {
+        let compound = Compound { says, has, parts };
+        table.row(name, 100, || solve(&compound, Load::PerLength(0.02)), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper,
+                source: ProfileError::Pieces { count, index } }) if (*count, *index) == (says, fault))
+        });
+    }
+    let compound = Compound { says: 3, has: 3, parts: parts() };
+    table.outcome(
+        "as it should be",
+        200,
+        || solve(&compound, Load::PerLength(0.02)),
+        Result::is_ok,
+    );
+    table.finish();
+}
+
+#[test]
+fn joints() {
+    let mut table = Table::new("Piecewise::new");
+    let line = |from: f64, to: f64, up: f64| {
+        curve([from, to], move |k| CurvePoint { x: k, y: up, dx: 1.0, dy: 0.0 })
+    };
+    table.row(
+        "no pieces",
+        0,
+        || Ok(Piecewise::<f64, Profile>::new(vec![]).map(|_| ())?),
+        |wrong| matches!(wrong, Wrong::Joint(PiecewiseError::NoPieces)),
+    );
+    for tolerance in [NAN, INF, -INF, -1.0, -TINY] {
+        let pieces = || vec![line(-1.0, 0.0, 0.0), line(0.0, 1.0, 0.0)];
+        table.row(&format!("tolerance {tolerance}"), 0, || Ok(Piecewise::with_tolerance(pieces(), tolerance).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Joint(PiecewiseError::Tolerance { tolerance: t }) if same(*t, tolerance))
+        });
+    }
+    let mut pair = |name: &str, right: Profile, expected: fn(&PiecewiseError<f64>) -> bool| {
+        let pieces = vec![line(-1.0, 0.0, 0.0), right];
+        table.row(
+            name,
+            78,
+            || Ok(Piecewise::new(pieces).map(|_| ())?),
+            |wrong| matches!(wrong, Wrong::Joint(error) if expected(error)),
+        );
+    };
+    pair("a gap", line(0.5, 1.0, 0.0), |error| {
+        *error == PiecewiseError::Gap { joint: 0, left: 0.0, right: 0.5 }
+    });
+    pair("an overlap", line(-0.5, 1.0, 0.0), |error| {
+        *error == PiecewiseError::Overlap { joint: 0, left: 0.0, right: -0.5 }
+    });
+    pair("a jump", line(0.0, 1.0, 3.0), |error| {
+        *error == PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 3.0 }
+    });
+    pair("Y that is NaN", line(0.0, 1.0, NAN), |error| {
+        matches!(
+            error,
+            PiecewiseError::InPiece {
+                piece: 1,
+                source: ProfileError::NotFinite { quantity: "Y", k: 0.0, .. }
+            }
+        )
+    });
+    pair("Y that is infinite", line(0.0, 1.0, INF), |error| {
+        matches!(
+            error,
+            PiecewiseError::InPiece {
+                piece: 1,
+                source: ProfileError::NotFinite { quantity: "Y", k: 0.0, .. }
+            }
+        )
+    });
+    table.finish();
+}
+
+#[test]
+fn curves() {
+    let mut table = Table::new("Contact::solve");
+    let at = |name: &'static str,
+              upper: Profile,
+              expected: &dyn Fn(&ProfileError<f64>) -> bool,
+              table: &mut Table| {
+        for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+            table.row(name, 40_000, || solve(&*upper, load), |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source }) if expected(source))
+            });
+        }
+    };
+    let inside = |k: f64| (0.11..0.3).contains(&k);
+    let hole = move |source: &ProfileError<f64>| matches!(source, ProfileError::NotFinite { k, value, .. } if inside(*k) && !value.is_finite());
+    for value in [NAN, INF, -INF] {
+        let with = move |k: f64| if inside(k) { value } else { 1.0 };
+        at(
+            "X is not finite in places",
+            curve([-1.0, 1.0], move |k| CurvePoint { x: point(k).x * with(k), ..point(k) }),
+            &hole,
+            &mut table,
+        );
+        at(
+            "Y' is not finite in places",
+            curve([-1.0, 1.0], move |k| CurvePoint { dy: point(k).dy * with(k), ..point(k) }),
+            &hole,
+            &mut table,
+        );
+    }
+    let with = move |k: f64| if inside(k) { NAN } else { 1.0 };
+    at(
+        "X' is NaN in places",
+        curve([-1.0, 1.0], move |k| CurvePoint { dx: point(k).dx * with(k), ..point(k) }),
+        &hole,
+        &mut table,
+    );
+    at(
+        "X' is zero in places",
+        curve([-1.0, 1.0], move |k| CurvePoint {
+            dx: if inside(k) { 0.0 } else { point(k).dx },
+            ..point(k)
+        }),
+        &hole,
+        &mut table,
+    );
+    at(
+        "all is NaN but the ends",
+        curve([-1.0, 1.0], |k| {
+            let nan = if k.abs() == 1.0 { 1.0 } else { NAN };
+            CurvePoint { x: k * nan, y: nan, dx: nan, dy: k * nan }
+        }),
+        &|source| matches!(source, ProfileError::NotFinite { k, .. } if k.abs() < 1.0),
+        &mut table,
+    );
+    at(
+        "x runs to and fro",
+        curve([-1.0, 1.0], |k| {
+            let (x, dx) = (k * k * k - k / 4.0, 3.0 * k * k - 0.25);
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        }),
+        &|source| matches!(source, ProfileError::TurnsBack { k, .. } if k.abs() < 0.9),
+        &mut table,
+    );
+    // tan has a pole at π/2, which is no number: a huge value, and a change of sign.
+    at(
+        "a pole inside",
+        curve([-0.5, 2.0], |k| {
+            let (x, dx) = (k.tan(), 1.0 + k.tan().powi(2));
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        }),
+        &|_| true,
+        &mut table,
+    );
+    at(
+        "a pole at a number",
+        curve([-0.5, 2.0], |k| {
+            let (x, dx) = ((1.0 - k).recip() - 1.0, (1.0 - k).powi(-2));
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        }),
+        &|_| true,
+        &mut table,
+    );
+    for (name, fx, fy) in [
+        ("X' twice", 2.0, 1.0),
+        ("X' half", 0.5, 1.0),
+        ("Y' of the wrong sign", 1.0, -1.0),
+        ("Y' twice", 1.0, 2.0),
+    ] {
+        let wrong = curve([-1.0, 1.0], move |k| {
+            let CurvePoint { x, y, dx, dy } = point(k);
+            CurvePoint { x, y, dx: fx * dx, dy: fy * dy }
+        });
+        table.row(name, 40, || Ok(Piece::checked(&*wrong).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Profile(ProfileError::Derivative { k, given, difference, .. }) if k.abs() < 1.0 && given != difference)
+        });
+    }
+    table.finish();
+}
+
+#[test]
+fn curves_that_change_between_calls() {
+    // What comes out cannot be right; that it comes out is what counts.
+    let mut table = Table::new("Contact::solve on a curve that changes");
+    for seed in 0..12u32 {
+        for size in [1e-12, 1e-6, 1e-2, 1.0] {
+            let changing = curve([-1.0, 1.0], move |k| {
+                let mut bits = (EVALUATIONS.get() as u64 + 1)
+                    .wrapping_mul(0x9E37_79B9_7F4A_7C15 ^ u64::from(seed));
+                let mut noise = || {
+                    bits ^= bits >> 29;
+                    bits = bits.wrapping_mul(0xBF58_476D_1CE4_E5B9);
+                    1.0 + size * ((bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+                };
+                let CurvePoint { x, y, dx, dy } = point(k);
+                CurvePoint { x: x * noise(), y: y * noise(), dx: dx * noise(), dy: dy * noise() }
+            });
+            for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+                let name = format!("{load:?} with {size:e}, seed {seed}");
+                let mut seen = None;
+                table.outcome(
+                    &name,
+                    400_000,
+                    || {
+                        let contact = Contact::new(&Flat, &*changing)?;
+                        let solution = contact.solve(load)?;
+                        seen = Some((solution.interval(), solution.limits_error()));
+                        Ok(())
+                    },
+                    |_| true,
+                );
+                if let Some((on, error)) = seen {
+                    assert!(on.left < on.right && on.right.is_finite(), "{name}: {on:?}");
+                    // The estimate owns up to what the change does to the limits.
+                    let exact =
+                        if matches!(load, Load::PerLength(_)) { 0.1f64.sqrt() } else { 0.3 };
+                    if !matches!(load, Load::ToPeak(_)) {
+                        let off = (on.half_width() / exact - 1.0).abs();
+                        assert!(off <= 30.0 * error.unwrap() + 3e-15, "{name}: {off:e}, {error:?}");
+                    }
+                }
+            }
+        }
+    }
+    table.finish();
+}

@@ -1,0 +1,120 @@
+//! Parameters of closed forms, and places, that are none.
+
+use super::*;
+use linecontact::reference::{
+    Biquadratic, ClosedForm, Cosine, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola, Jkr,
+    PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard, body as body_of,
+};
+
+type Form = Box<dyn ClosedForm<f64>>;
+type Made = Result<Form, ReferenceError<f64>>;
+
+fn boxed<F: ClosedForm<f64> + 'static>(form: Result<F, ReferenceError<f64>>) -> Made {
+    form.map(|form| Box::new(form) as Form)
+}
+
+/// Every constructor, by a row of numbers; one that takes fewer leaves the rest.
+const CONSTRUCTORS: [(&str, usize, fn([f64; 4]) -> Made); 22] = [
+    ("Hertz", 2, |[a, b, ..]| boxed(Hertz::new(a, b))),
+    ("Hertz under load", 3, |[a, b, c, _]| boxed(Hertz::under_load(a, b, c))),
+    ("wedge", 2, |[a, b, ..]| boxed(Wedge::new(a, b))),
+    ("wedge, unequal", 3, |[a, b, c, _]| boxed(Wedge::unequal(a, b, c))),
+    ("wedge under load", 4, |[a, b, c, d]| boxed(Wedge::under_load(a, b, c, d))),
+    ("power", 3, |[a, b, c, _]| boxed(PowerLaw::new(a, b, c))),
+    ("power under load", 4, |[a, b, c, d]| boxed(PowerLaw::under_load(a, b, c, d))),
+    ("biquadratic", 3, |[a, b, c, _]| boxed(Biquadratic::new(a, b, c))),
+    ("biquadratic under load", 4, |[a, b, c, d]| boxed(Biquadratic::under_load(a, b, c, d))),
+    ("radii", 3, |[a, b, c, _]| boxed(UnequalRadii::new(a, b, c))),
+    ("radii under load", 4, |[a, b, c, d]| boxed(UnequalRadii::under_load(a, b, c, d))),
+    ("rounded punch", 3, |[a, b, c, _]| boxed(RoundedPunch::new(a, b, c))),
+    ("rounded punch under load", 4, |[a, b, c, d]| boxed(RoundedPunch::under_load(a, b, c, d))),
+    ("flat punch", 4, |[a, b, c, d]| boxed(FlatPunch::under_load(a, b, c, d))),
+    ("ellipse", 3, |[a, b, c, _]| boxed(Ellipse::new(a, b, c))),
+    ("circle", 2, |[a, b, ..]| boxed(Ellipse::circle(a, b))),
+    ("hyperbola", 3, |[a, b, c, _]| boxed(Hyperbola::new(a, b, c))),
+    ("exponential", 3, |[a, b, c, _]| boxed(Exponential::new(a, b, c))),
+    ("cosine", 3, |[a, b, c, _]| boxed(Cosine::new(a, b, c))),
+    ("JKR", 3, |[a, b, c, _]| boxed(Jkr::new(a, b, c))),
+    ("JKR under load", 4, |[a, b, c, d]| boxed(Jkr::under_load(a, b, c, d))),
+    ("JKR of no work", 2, |[a, b, ..]| boxed(Jkr::new(a, 0.0, b))),
+];
+
+/// What only NaN and infinities are refused for, and what may be zero or negative as well.
+const EXTREMES: [f64; 12] =
+    [NAN, INF, -INF, 0.0, -0.0, -1.0, TINY, -TINY, f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX];
+
+#[test]
+fn parameters_and_places() {
+    let mut wrong = Vec::new();
+    for (name, count, make) in CONSTRUCTORS {
+        for good in [[0.4, 0.8, 1.2, 0.7], [1.3, 0.6, 0.5, 1.1], [0.5, 2.6, 0.6, 0.9]] {
+            for i in 0..count {
+                for value in EXTREMES {
+                    let mut numbers = good;
+                    numbers[i] = value;
+                    let asked = || {
+                        let made = make(numbers);
+                        if let Ok(form) = &made {
+                            everywhere(&**form);
+                        }
+                        made.map(|_| ())
+                    };
+                    let row = format!("{name}{:?}", &numbers[..count]);
+                    match catch_unwind(asked) {
+                        Err(_) => wrong.push(format!("{row}: panics")),
+                        Ok(Ok(())) if !value.is_finite() => wrong.push(format!("{row}: accepted")),
+                        Ok(Err(ReferenceError::Parameter { must: "", .. })) => {
+                            wrong.push(format!("{row}: says nothing"))
+                        }
+                        Ok(_) => {}
+                    }
+                }
+            }
+        }
+    }
+    for value in EXTREMES {
+        for numbers in [[value, 1.0, 0.3], [0.1, value, 0.3], [0.1, 1.0, value]] {
+            let made = Westergaard::new(numbers[0], numbers[1], numbers[2]);
+            let under = Westergaard::under_load(numbers[0], numbers[1], numbers[2], 1.0);
+            if !value.is_finite() && (made.is_ok() || under.is_ok()) {
+                wrong.push(format!("Westergaard{numbers:?}: accepted"));
+            }
+            for form in [made, under].into_iter().flatten() {
+                let _ = (
+                    form.limits(),
+                    form.load(1.0),
+                    form.pressure(NAN, 1.0),
+                    form.pressure(INF, 1.0),
+                );
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// Asks a form for everything, wherever that is. NaN gives NaN, or zero.
+fn everywhere(form: &dyn ClosedForm<f64>) {
+    let Interval { left, right } = form.limits();
+    for x in
+        EXTREMES.into_iter().chain([left, right, left.next_up(), right.next_down(), 2.0 * right])
+    {
+        let _ = (form.pressure(x, 1.0), form.height(x), form.slope(x), form.slope_left(x));
+    }
+    for kappa in EXTREMES {
+        let _ = (form.load(kappa), form.pressure(0.5 * right, kappa));
+    }
+    let _ = (form.joints(), form.edges());
+}
+
+#[test]
+fn ranges_of_bodies() {
+    let mut table = Table::new("reference::body");
+    let form = Hertz::new(1.0, 0.3).unwrap();
+    for (from, to) in [(NAN, 1.0), (-1.0, NAN), (-INF, 1.0), (-1.0, INF), (1.0, -1.0), (0.2, 0.2)] {
+        table.row(&format!("{from} to {to}"), 0, || Ok(body_of(&form, from, to).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Joint(PiecewiseError::InPiece { piece: 0, source: ProfileError::Domain { from: f, to: t } })
+                if same(*f, from) && same(*t, to))
+        });
+    }
+    table.finish();
+}

@@ -1,0 +1,232 @@
+//! What a scene is set to.
+
+use super::*;
+
+#[test]
+fn loads_scales_and_edges() {
+    let mut table = Table::new("Contact::solve");
+    let (upper, good) = (body(), Load::PerLength(0.05));
+    let contact = Contact::new(&Flat, &*upper).unwrap();
+    let ways: [(&str, fn(f64) -> Load<f64>); 4] = [
+        ("PerLength", Load::PerLength),
+        ("Constant", Load::Constant),
+        ("ToHalfWidth", Load::ToHalfWidth),
+        ("ToPeak", Load::ToPeak),
+    ];
+    for value in [NAN, INF, -INF, 0.0, -0.0, -1.0, -TINY] {
+        for (name, way) in ways {
+            let given = if name == "Constant" { value / PI } else { value };
+            table.row(&format!("{name}({value:e})"), 0, || Ok(contact.solve(way(value)).map(|_| ())?), |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::Load { load }) if same(*load, given))
+            });
+        }
+        table.row(&format!("κ = {value:e}"), 0, || Ok(contact.clone().kappa(value).solve(good).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Scale { kappa }) if same(*kappa, value))
+        });
+        table.row(&format!("E* = {value:e}"), 0, || Ok(contact.clone().contact_modulus(value).solve(good).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Scale { kappa }) if same(*kappa, value * PI / 2.0))
+        });
+        if value != 0.0 {
+            let adhesive = contact.clone().edges(Edge::Free, Edge::Adhesive(value));
+            table.row(&format!("w = {value:e}"), 0, || Ok(adhesive.solve(good).map(|_| ())?), |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::Adhesion { work }) if same(*work, value))
+            });
+        }
+    }
+    // Loads that are numbers, however small or large, give a contact or a reason, and no NaN.
+    for value in [TINY, 1e-310, f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX] {
+        for (name, way) in ways {
+            for kappa in [1.0, TINY, f64::MAX] {
+                let mut found = None;
+                table.outcome(
+                    &format!("{name}({value:e}), κ = {kappa:e}"),
+                    40_000,
+                    || {
+                        let contact = contact.clone().kappa(kappa);
+                        let solution = contact.solve(way(value))?;
+                        found = Some((solution.interval(), solution.load()));
+                        Ok(())
+                    },
+                    |outcome| match outcome {
+                        Ok(_) => true,
+                        Err(Wrong::Contact(error)) => {
+                            matches!(
+                                error,
+                                ContactError::TooShort { .. }
+                                    | ContactError::Overflow { .. }
+                                    | ContactError::NoPeak { .. }
+                                    | ContactError::NoBalance { .. }
+                                    | ContactError::OutsideBodies { .. }
+                            ) || (name == "Constant" && *error == ContactError::Load { load: 0.0 })
+                        }
+                        Err(_) => false,
+                    },
+                );
+                if let Some((on, load)) = found {
+                    let sound =
+                        on.left < on.right && on.half_width().is_finite() && load.is_finite();
+                    assert!(sound, "{name}({value:e}), κ = {kappa:e}: {on:?} {load:e}");
+                }
+            }
+        }
+    }
+    for x in [NAN, INF, -INF] {
+        for edges in [
+            [Edge::Fixed(x), Edge::Free],
+            [Edge::Free, Edge::UpTo(x)],
+            [Edge::UpTo(x), Edge::Fixed(0.1)],
+        ] {
+            let [left, right] = edges;
+            let contact = contact.clone().edges(left, right);
+            for load in [good, Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+                table.row(&format!("{edges:?}, {load:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
+                    matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, x) || same(interval.right, x))
+                });
+            }
+        }
+    }
+    for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, left) && same(interval.right, right));
+        for load in [good, Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+            let contact = contact.clone().start(Interval { left, right });
+            table.row(
+                &format!("start {left} to {right}"),
+                0,
+                || Ok(contact.solve(load).map(|_| ())?),
+                is_it,
+            );
+        }
+        if left.is_finite() && right.is_finite() {
+            let contact = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
+            table.row(
+                &format!("fixed at {left} and {right}"),
+                0,
+                || Ok(contact.solve(good).map(|_| ())?),
+                is_it,
+            );
+        }
+    }
+    for (left, right, beyond) in [(-1.5, 0.1, -1.5), (-0.1, 2.0, 2.0)] {
+        let fixed = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
+        table.row("fixed beyond the bodies", 0, || Ok(fixed.solve(good).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::OutsideBodies { x, range: [-1.2, 1.2] }) if *x == beyond)
+        });
+    }
+    let both = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
+    for load in [Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+        table.row(
+            &format!("both limits and {load:?}"),
+            0,
+            || Ok(both.solve(load).map(|_| ())?),
+            |wrong| {
+                matches!(
+                    wrong,
+                    Wrong::Contact(ContactError::Control {
+                        interval: Interval { left: -0.1, right: 0.1 }
+                    })
+                )
+            },
+        );
+        let by_pressure = contact.clone().edge_pressure(EdgePressure::zero(1e-3, 1e-6));
+        table.row(
+            &format!("Eq. (6) and {load:?}"),
+            0,
+            || Ok(by_pressure.solve(load).map(|_| ())?),
+            contact_error!(ContactError::EdgePressureLoad),
+        );
+    }
+    table.finish();
+}
+
+#[test]
+fn edge_pressures_rules_and_tolerances() {
+    let mut table = Table::new("Contact::solve");
+    let (upper, load) = (body(), Load::PerLength(0.05));
+    let contact = Contact::new(&Flat, &*upper).unwrap();
+    let good = EdgePressure::zero(1e-3, 1e-6);
+    for value in [NAN, INF, -INF, 0.0, -1.0] {
+        let all = [
+            ("A", EdgePressure { at_a: value, ..good }),
+            ("B", EdgePressure { at_b: value, ..good }),
+            ("ε_a", EdgePressure { distance_a: value, ..good }),
+            ("ε_b", EdgePressure { distance_b: value, ..good }),
+            ("ε₁", EdgePressure { tolerance_a: value, ..good }),
+            ("ε₂", EdgePressure { tolerance_b: value, ..good }),
+        ];
+        for (wrong_one, edges) in all {
+            if value.is_finite() && ["A", "B"].contains(&wrong_one) {
+                continue;
+            }
+            let contact = contact.clone().edge_pressure(edges);
+            table.row(&format!("{wrong_one} = {value}"), 0, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::EdgePressure { name, value: v }) if *name == wrong_one && same(*v, value))
+            });
+        }
+        let by_pressure = contact.clone().edge_pressure(good);
+        table.row(&format!("Eq. (6) under {value}"), 0, || Ok(by_pressure.solve(Load::PerLength(value)).map(|_| ())?), |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Load { load }) if same(*load, value))
+        });
+    }
+    let far = contact.clone().edge_pressure(EdgePressure::zero(2.4, 1e-6));
+    table.row(
+        "ε_a as long as the bodies",
+        100,
+        || Ok(far.solve(load).map(|_| ())?),
+        |wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::EdgePressure { name: "ε_a", value: 2.4 }))
+        },
+    );
+    for (segments, extrapolations) in [
+        (0, 0),
+        (0, 2),
+        (usize::MAX, 0),
+        (1 << 24, 0),
+        (9, 40),
+        (9, u32::MAX),
+        (usize::MAX, u32::MAX),
+    ] {
+        let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
+        let contact = contact.clone().quadrature(&rule);
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Segments { segments: s, extrapolations: e }) if (*s, *e) == (segments, extrapolations));
+        table.row(&format!("{rule:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), is_it);
+        table.row(&format!("solver of {rule:?}"), 0, || Ok(contact.solver().map(|_| ())?), is_it);
+    }
+    for tolerance in [NAN, INF, -INF, -1.0, -TINY, 1.0, 7.0] {
+        let panels = Panels { tolerance };
+        let contact_by = contact.clone().quadrature(&panels);
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Tolerance { tolerance: t }) if same(*t, tolerance));
+        table.row(&format!("{panels:?}"), 0, || Ok(contact_by.solve(load).map(|_| ())?), is_it);
+        table.row(
+            &format!("solver of {panels:?}"),
+            0,
+            || Ok(contact_by.solver().map(|_| ())?),
+            is_it,
+        );
+        // Of a search in use, of either kind.
+        if tolerance >= 0.0 && tolerance.is_finite() {
+            continue;
+        }
+        let rule = Midpoint::default();
+        for tolerance in [
+            Tolerance { absolute: tolerance, ..Tolerance::FULL },
+            Tolerance { relative: tolerance, ..Tolerance::FULL },
+            Tolerance { residual: tolerance, ..Tolerance::FULL },
+        ] {
+            let given = [tolerance.absolute, tolerance.relative, tolerance.residual];
+            let bad = given.into_iter().find(|&v| v != 0.0).unwrap();
+            let [one, two, three, four] = strategies(tolerance);
+            for strategy in [&one, &two, &three, &four] {
+                let inverting = contact.clone().inversion(&**strategy).quadrature(&rule);
+                table.row(&format!("inversion by {tolerance:?}"), 200, || Ok(inverting.solve(load).map(|_| ())?), |wrong| {
+                    matches!(wrong, Wrong::Contact(ContactError::Inversion { source: SearchError::Tolerance { value }, .. }) if same(*value, bad))
+                });
+                let searching = contact.clone().search(&**strategy);
+                table.row(&format!("search by {tolerance:?}"), 200, || Ok(searching.solve(load).map(|_| ())?), |wrong| {
+                    matches!(wrong, Wrong::Contact(ContactError::LimitSearch { best, source: SearchError::Tolerance { value } })
+                        if same(*value, bad) && best.left < best.right)
+                });
+            }
+        }
+    }
+    table.finish();
+}
