@@ -43,22 +43,13 @@ enum Surface<'a, T: Real> {
 impl<'a, T: Real> Surface<'a, T> {
     fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
         if let Some(first) = profile.piece(0) {
+            // The others are looked at where they are used: there may be very many.
             let count = profile.pieces();
-            let mut end = None;
-            for index in 0..count.max(1) {
-                let follows = |piece: &Piece<'_, T>| {
-                    let [from, to] = piece.x();
-                    // Ends may miss each other by a tolerance that only the profile knows.
-                    let extent = (to - from).max(from.abs()).max(to.abs());
-                    let meets = |end: T| to > end && (from - end).abs() < T::of(0.5) * extent;
-                    from < to && end.is_none_or(meets)
-                };
-                let piece = profile.piece(index).filter(|piece| index < count && follows(piece));
-                let Some(piece) = piece else {
-                    let source = ProfileError::Pieces { count, index };
-                    return Err(ContactError::Profile { body, source });
-                };
-                end = Some(piece.x()[1]);
+            let last = count.checked_sub(1).and_then(|last| profile.piece(last));
+            let rising = last.is_some_and(|last| first.x()[0] < last.x()[1]);
+            if !rising {
+                let source = ProfileError::Pieces { count, index: count.saturating_sub(1) };
+                return Err(ContactError::Profile { body, source });
             }
             return Ok(Self::Joined(profile, count, first));
         }
@@ -78,7 +69,7 @@ impl<'a, T: Real> Surface<'a, T> {
     fn piece(&self, index: usize) -> Piece<'_, T> {
         match self {
             Self::Smooth(piece) => *piece,
-            // Each of them has been there.
+            // One that is missing is noticed where it is used: the first is not in its place.
             Self::Joined(profile, _, first) => profile.piece(index).unwrap_or(*first),
         }
     }
@@ -251,6 +242,27 @@ impl<'a, T: Real> Gap<'a, T> {
         let surface = &self.bodies[body as usize];
         let index = surface.index_at(x, side);
         (index, surface.piece(index))
+    }
+
+    /// The same, where the curve is to be evaluated: with pieces as they should be, one that has `x`.
+    pub(crate) fn piece_with(
+        &self,
+        body: Body,
+        x: T,
+        side: Side,
+    ) -> Result<(usize, Piece<'_, T>), ContactError<T>> {
+        let (index, piece) = self.piece_at(body, x, side);
+        let surface = &self.bodies[body as usize];
+        let (count, [from, to]) = (surface.len(), piece.x());
+        // Ends may miss each other by a tolerance that only the profile knows.
+        let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
+        let apart = |before: usize| from - surface.piece(before).x()[1] >= allowed;
+        let misses = x < from && index.checked_sub(1).is_some_and(apart);
+        if from >= to || misses || (x > to && index + 1 < count) {
+            let source = ProfileError::Pieces { count, index };
+            return Err(ContactError::Profile { body, source });
+        }
+        Ok((index, piece))
     }
 
     /// The slope of a body at a point of it, by a central difference.

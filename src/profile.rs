@@ -293,7 +293,7 @@ pub enum ProfileError<T: Real> {
     Pieces {
         /// How many pieces it says it has.
         count: usize,
-        /// The first piece at fault.
+        /// A piece at fault.
         index: usize,
     },
 }

@@ -148,7 +148,7 @@ impl<T: Real> Subsurface<'_, T> {
         Ok(Self { friction: coefficient, ..self })
     }
 
-    /// The stress at any x, at any depth from zero on.
+    /// The stress at any x, at any depth from zero on. Depths below ε⁵ L are taken for zero.
     ///
     /// # Errors
     /// [`ContactError::AboveSurface`] for a negative depth, and what is not finite;
@@ -158,7 +158,8 @@ impl<T: Real> Subsurface<'_, T> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(ContactError::AboveSurface { x, depth });
         }
-        if depth.is_zero() {
+        // Where all digits of the depth are lost.
+        if depth <= T::epsilon().powi(5) * self.interval().half_width() {
             return self.on_surface(x);
         }
         let moments = self.integrals.over(x, |distance, strength| {

@@ -119,7 +119,7 @@ pub(crate) fn aim<const N: usize, T: Real>(
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
     const { assert!(N <= MOST) };
-    let (index, piece) = gap.piece_at(body, targets[N / 2], Side::Left);
+    let (index, piece) = gap.piece_with(body, targets[N / 2], Side::Left)?;
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
         (trace.direct, trace.piece, trace.knots.len) = (true, None, N);
         for (i, &x) in targets.iter().enumerate() {

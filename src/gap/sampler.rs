@@ -69,7 +69,7 @@ impl<T: Real> Sampler<T> {
         }
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
-            let (index, piece) = gap.piece_at(body, x, Side::Left);
+            let (index, piece) = gap.piece_with(body, x, Side::Left)?;
             let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
             // What the inversion has left, and what it may have left at an end.
             let missed = x - point.x;
@@ -90,7 +90,7 @@ impl<T: Real> Sampler<T> {
         x: T,
         side: Side,
     ) -> Result<T, ContactError<T>> {
-        let (index, piece) = gap.piece_at(body, x, side);
+        let (index, piece) = gap.piece_with(body, x, side)?;
         let fault = |quantity, k, value| {
             let source = ProfileError::NotFinite { quantity, k, value };
             Err(ContactError::Profile { body, source })

@@ -108,7 +108,7 @@ fn compound_profiles_that_are_none() {
     let parts = || vec![at(-1.0, 0.0), at(0.0, 1.0), at(1.0, 2.0)];
     let bad = [
         ("no pieces but one", 0, 1, parts(), 0),
-        ("more pieces than it has", 9, 3, parts(), 3),
+        ("more pieces than it has", 9, 3, parts(), 8),
         ("the wrong order", 2, 2, vec![at(0.0, 1.0), at(-1.0, 0.0)], 1),
         ("pieces apart", 2, 2, vec![at(-1.0, -0.5), at(0.5, 1.0)], 1),
     ];
