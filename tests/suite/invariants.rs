@@ -2,8 +2,7 @@
 //! random scenes, always the same ones.
 #![allow(missing_docs)]
 
-#[path = "../common/integrals.rs"]
-mod integrals;
+use crate::integrals;
 mod scene;
 
 use integrals::Angles;

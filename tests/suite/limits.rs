@@ -2,7 +2,7 @@
 //! the problem, and by every strategy.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, paper, parabola, reference, scenes};

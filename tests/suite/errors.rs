@@ -1,7 +1,7 @@
 //! Every way in which a scene can be wrong ends in an error that says where and why.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{graph, parabola};
 use linecontact::search::{Brent, SearchError, Tolerance};

@@ -1,9 +1,8 @@
 //! Moment, rates, the gap beside the contact and the residual against closed forms and differences.
 #![allow(missing_docs)]
 
-mod common;
-#[path = "common/forms.rs"]
-mod forms;
+use crate::common;
+use crate::forms;
 
 use common::{graph, scenes};
 use forms::{Form, KAPPA, forms};

@@ -1,7 +1,7 @@
 //! What is doubtful must look doubtful: sloppy searches, wrong derivatives, coarse rules, joints.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{graph, join, parabola, power};
 use linecontact::search::{Bracket, Brent, LimitSearch, Newton, Root, SearchError, Tolerance};

@@ -2,9 +2,8 @@
 //! that shares nothing with the solver, and against solutions of 25 digits.
 #![allow(missing_docs)]
 
-mod common;
-#[path = "common/forms.rs"]
-mod forms;
+use crate::common;
+use crate::forms;
 
 use approx::assert_relative_eq;
 use common::reference;

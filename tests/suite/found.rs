@@ -1,7 +1,7 @@
 //! What random scenes have found, as single cases with an oracle.
 #![allow(missing_docs, clippy::excessive_precision)]
 
-mod common;
+use crate::common;
 
 use common::{Profile, graph, join};
 use linecontact::search::Brent;

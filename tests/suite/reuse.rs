@@ -1,7 +1,7 @@
 //! Solving again and again with one solver.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{Counting, graph, paper, power, scenes};
 use linecontact::{

@@ -1,7 +1,7 @@
 //! How accurate limits and pressures are, what the library says of that, and what it costs.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{Counting, graph, paper, power, reference, scenes};

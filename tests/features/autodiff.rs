@@ -1,8 +1,7 @@
 //! Curves without hand-written derivatives, against the same curves with them.
 
-mod common;
-#[path = "common/formulas.rs"]
-mod formulas;
+use crate::common;
+use crate::formulas;
 
 use common::paper;
 use formulas::{Lower3, Upper3};

@@ -1,7 +1,7 @@
 //! The four ways to say how hard the bodies are pressed together lead to the same contact.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{Profile, graph, paper, parabola, power, reference};

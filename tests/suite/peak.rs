@@ -1,7 +1,7 @@
 //! The largest pressure: where it is, and where there is none.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{graph, parabola};
 use linecontact::{

@@ -1,7 +1,7 @@
 //! A solver that is used again gives what one just made gives.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::join;
 use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile};

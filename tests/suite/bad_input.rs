@@ -3,8 +3,7 @@
 #![allow(missing_docs)]
 #![allow(clippy::type_complexity)] // Rows of a table hold functions.
 
-#[path = "../common/mod.rs"]
-mod common;
+use crate::common;
 
 mod answers;
 mod liars;

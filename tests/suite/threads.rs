@@ -1,7 +1,7 @@
 //! One solver for each thread, on profiles that all of them share.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{Profile, graph, join, paper};
 use linecontact::{Contact, ContactError, Load, Solver};

@@ -1,7 +1,7 @@
 //! Profiles: every way to make one, and everything that can be wrong with one.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{graph, paper, parabola};
 use linecontact::{

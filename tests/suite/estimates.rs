@@ -1,7 +1,7 @@
 //! What the library says of its own errors.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use common::{power, reference, scenes};
 use linecontact::reference::{ClosedForm, Jkr, body};

@@ -2,7 +2,7 @@
 //! like square roots, uneven parameters, noise; and bodies of very many pieces.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, join, parabola, reference};

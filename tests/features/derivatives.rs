@@ -1,10 +1,8 @@
 //! Derivatives of a solution by its parameters: the solver on dual numbers.
 #![allow(missing_docs)]
 
-#[path = "common/forms.rs"]
-mod forms;
-#[path = "common/formulas.rs"]
-mod formulas;
+use crate::forms;
+use crate::formulas;
 
 use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms_of};

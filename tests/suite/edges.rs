@@ -9,7 +9,7 @@
 //! ```
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{Profile, graph, parabola};

@@ -1,6 +1,6 @@
 //! `check_derivatives`: finds what is wrong, and nothing where nothing is.
 
-mod common;
+use crate::common;
 
 use common::paper;
 use linecontact::profile::Piece;

@@ -1,7 +1,7 @@
 //! Bodies with a sharp corner that the contact may or may not reach.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, parabola};

@@ -1,8 +1,7 @@
 //! The solver against the closed forms of `linecontact::reference`.
 #![allow(missing_docs)]
 
-#[path = "common/forms.rs"]
-mod forms;
+use crate::forms;
 
 use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms};

@@ -1,7 +1,7 @@
 //! The paper's quadrature: its orders, its tables, at any x, and against the equation itself.
 #![allow(missing_docs)]
 
-mod common;
+use crate::common;
 
 use approx::assert_relative_eq;
 use common::{example_1_exact, example_2_exact, graph, order, paper, reference, scenes};

@@ -1,9 +1,8 @@
 //! Certificates: contacts pass, and what is none is refused at the right place with the right value.
 #![allow(missing_docs)]
 
-mod common;
-#[path = "common/forms.rs"]
-mod forms;
+use crate::common;
+use crate::forms;
 
 use common::{Profile, graph, join, parabola};
 use forms::{Form, KAPPA, forms};

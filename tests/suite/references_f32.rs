@@ -8,10 +8,10 @@
 #![allow(missing_docs)]
 
 #[allow(dead_code)]
-#[path = "../examples/references/bodies.rs"]
+#[path = "../../examples/references/bodies.rs"]
 mod bodies;
 #[allow(dead_code)]
-#[path = "../examples/references/reference.rs"]
+#[path = "../../examples/references/reference.rs"]
 mod reference;
 
 use bodies::Body;

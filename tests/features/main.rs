@@ -1,0 +1,13 @@
+//! What comes with the features `autodiff` and `rayon`.
+#![allow(missing_docs)]
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/forms.rs"]
+mod forms;
+#[path = "../common/formulas.rs"]
+mod formulas;
+
+mod autodiff;
+mod derivatives;
+mod sweep;

@@ -1,0 +1,38 @@
+//! All that is tested without features, as one program: the solver is compiled but once.
+#![allow(missing_docs)]
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/forms.rs"]
+mod forms;
+#[path = "../common/integrals.rs"]
+mod integrals;
+
+mod accuracy;
+mod bad_input;
+mod certificate;
+mod check_derivatives;
+mod closed_forms;
+mod closed_forms_solved;
+mod controls;
+mod corners;
+mod doubts;
+mod edges;
+mod errors;
+mod estimates;
+mod found;
+mod invariants;
+mod limits;
+mod peak;
+mod profiles;
+mod quadrature;
+mod quantities;
+mod references_f32;
+mod reuse;
+mod searches;
+mod shapes;
+mod solver;
+mod spline;
+mod stress;
+mod threads;
+mod undeclared;
