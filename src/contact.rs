@@ -278,6 +278,8 @@ impl<'a, T: Real> Contact<'a, T> {
                 peak::find(self, pressure, engine, warm, &mut cost)?
             }
         };
+        // A width may be less than the rounding of x.
+        check(found.interval)?;
         found.ends = self.ends();
         engine.prepare(&self.gap, found.interval)?;
         cost += engine.cost();

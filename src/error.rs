@@ -75,8 +75,9 @@ pub enum ContactError<T: Real> {
         /// κ as given, or π/2 times the modulus as given.
         kappa: T,
     },
-    /// Given or starting limits are not in order.
-    #[error("the interval from -b = {:?} to a = {:?} is empty, reversed or not finite",
+    /// Given or starting limits are not in order, or a half-width is lost in the rounding of `x`.
+    #[error("the interval from -b = {:?} to a = {:?} is empty, reversed, not finite, or \
+         narrower than the rounding of x",
         interval.left, interval.right)]
     Limits {
         /// The interval as given.

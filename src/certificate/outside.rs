@@ -156,7 +156,9 @@ fn arc<T: Real>(
             (on.right - here, [there, here])
         };
         let weight = half * (end - start) * T::of(rule.weights[i]);
-        nodes.push(Node { from, g: panel.value(x), weight });
+        // Rounding of x is more than the length of a panel beside a jump that was not declared.
+        let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
+        nodes.push(Node { from, g, weight });
     }
 }
 

@@ -463,3 +463,27 @@ fn a_kink_that_nobody_declared() {
         assert_eq!(matches!(found, Err(ContactError::Tension { .. })), parts, "{found:?}");
     }
 }
+
+#[test]
+fn a_jump_that_nobody_declared_is_no_overlap() {
+    // The slope of the gap rises throughout. Beside the jump, panels are shorter than the rounding of x
+    // at the edges.
+    let (kink, jump) = (-1.0604356397670964, 0.1901019206798418);
+    let upper = Curve::new([-4.205813929637161, 4.305901873322346], move |k: f64| {
+        let (ramp, step) = ((-k - kink).max(0.0), (-k - jump).max(0.0));
+        let (bent, steep) = (0.6037230083871006, 0.03352221083836538);
+        let slope = bent * ramp + if -k > jump { steep } else { 0.0 } - 0.5189720051051511;
+        let y = bent * ramp * ramp / 2.0 + steep * step + 0.5189720051051511 * k;
+        CurvePoint { x: -k, y, dx: -1.0, dy: -slope }
+    });
+    let lower = graph(-4.305901873322346, 4.205813929637161, |x| {
+        let (c, w, t) = (-0.6436923543907254, 0.3113539310659338, 0.7980676574954262);
+        [c / w * (w * (x - t)).cosh(), c * (w * (x - t)).sinh()]
+    });
+    let contact = Contact::new(&*lower, &upper).unwrap();
+    for half_width in [1.2, 1.4183818177577037, 1.6] {
+        let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+        let found = solution.certify();
+        assert!(found.is_ok(), "{half_width}: {found:?}");
+    }
+}

@@ -243,3 +243,19 @@ fn peaks_up_to_the_ends_of_the_bodies() {
         }
     }
 }
+
+#[test]
+fn a_width_lost_in_the_rounding_of_x_is_refused() {
+    let body = parabola(2.0);
+    for fixed in [1.0, -1.0] {
+        let edges = if fixed > 0.0 {
+            [Edge::Free, Edge::Fixed(fixed)]
+        } else {
+            [Edge::Fixed(fixed), Edge::Free]
+        };
+        let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
+        let refused = contact.solve(Load::ToHalfWidth(2.6e-40));
+        let Err(ContactError::Limits { interval }) = refused else { panic!("{refused:?}") };
+        assert_eq!([interval.left, interval.right], [fixed; 2]);
+    }
+}
