@@ -77,16 +77,19 @@ pub(crate) fn certify<T: Real>(
     let outside = Outside::new(&cover.panels, on);
 
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
-    let at_corner =
-        [!free[0] && !adhesive && on.right >= ends[1], !free[1] && !adhesive && on.left <= ends[0]];
+    let at_end = [on.right >= ends[1], on.left <= ends[0]];
+    let at_corner = [0, 1].map(|i| !free[i] && !adhesive[i] && at_end[i]);
+    // With adhesion there may be no load.
+    let pressed = strengths.iter().fold(mean, |max, strength| max.max(strength.abs()));
     for (i, x) in [on.right, on.left].into_iter().enumerate() {
-        let lifts = at_corner[i] && strengths[i] < -share * mean;
+        let lifts = at_corner[i] && strengths[i] < -share * pressed;
         if lifts {
             return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
         }
     }
     let mut more = Cost::default();
-    let pressure = if adhesive || rises(&cover.panels, on, share * outside.steepest()) {
+    let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * outside.steepest())
+    {
         None
     } else {
         let mut engine = Panels::FULL.engine()?;
@@ -99,7 +102,7 @@ pub(crate) fn certify<T: Real>(
     };
 
     let bearing = |i: usize| {
-        let counts = adhesive || at_corner[i];
+        let counts = adhesive[i] || at_corner[i];
         if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
     };
     let both = [bearing(0), bearing(1)];

@@ -81,7 +81,7 @@ pub(crate) struct Found<T> {
     /// Whether they vanish at a and at -b, being what the limits were sought by.
     pub free: [bool; 2],
     /// Whether the bodies may pull at each other.
-    pub adhesive: bool,
+    pub adhesive: [bool; 2],
     /// Estimated error of the limits relative to the half-width, where they were sought.
     pub error: Option<T>,
     /// The load that such an error stands for, where it is known.
@@ -105,8 +105,8 @@ impl<T: Real> Found<T> {
         let mean_pressure = load / interval.half_width();
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
         let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
-        let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
-        let free = [free_a, free_b];
+        let [at_b, at_a] = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
+        let (free, adhesive) = ([free_a, free_b], [at_a, at_b]);
         let ends = [interval.left, interval.right];
         let (force, trend) = (None, m.trend);
         Self { interval, load, strengths, free, adhesive, error, force, trend, ends }
@@ -278,8 +278,11 @@ impl<'a, T: Real> Contact<'a, T> {
                 peak::find(self, pressure, engine, warm, &mut cost)?
             }
         };
-        // A width may be less than the rounding of x.
+        // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
+        if found.error.is_some_and(|error| !(error >= T::zero())) && found.adhesive == [false; 2] {
+            return Err(ContactError::Overflow { interval: found.interval });
+        }
         found.ends = self.ends();
         engine.prepare(&self.gap, found.interval)?;
         cost += engine.cost();

@@ -99,7 +99,7 @@ impl<T: Real> Solution<'_, T> {
         let found = self.found();
         let on = found.interval;
         let refuse = |why| Err(ContactError::NoRate { why });
-        if found.adhesive {
+        if found.adhesive != [false; 2] {
             return refuse("an adhesive edge moves with a singular pressure");
         }
         if found.free == [false; 2] {

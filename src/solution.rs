@@ -139,9 +139,9 @@ impl<'s, T: Real> Solution<'s, T> {
         let (gap, Found { interval: on, load, error, force, .. }) = (self.gap, self.found);
         let error = error.unwrap_or(T::zero());
         let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
-        let held =
-            |strength: T| if self.found.adhesive { strength.abs() * error } else { T::zero() };
-        let held = self.found.strengths.map(held);
+        let Found { strengths, adhesive, .. } = self.found;
+        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
+        let held = [held(0), held(1)];
         let pressing = self.pressing();
         Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, held, cost })
     }

@@ -40,12 +40,7 @@ pub(super) fn find<T: Real>(
             *edge = if held { Edge::Fixed(x) } else { Edge::Free };
         }
     }
-    let pulled = matches!(conditions.control, Control::Load(load) if load <= T::zero());
-    let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
-    if pulled && adhesive && conditions.edges.iter().any(|edge| edge.limit().is_none()) {
-        return pull::find(contact, &conditions, engine, warm, cost);
-    }
-    let mut found = match with_edges(contact, &conditions, engine, warm, cost) {
+    let mut found = match attempt(contact, &conditions, engine, warm, cost) {
         Err(error) if conditions.edges != corners => {
             // A corner that is far off may not be held at all.
             for (edge, corner) in conditions.edges.iter_mut().zip(&corners) {
@@ -53,7 +48,7 @@ pub(super) fn find<T: Real>(
                     *edge = Edge::Free;
                 }
             }
-            with_edges(contact, &conditions, engine, warm, cost).map_err(|_| error)?
+            attempt(contact, &conditions, engine, warm, cost).map_err(|_| error)?
         }
         found => found?,
     };
@@ -74,12 +69,29 @@ pub(super) fn find<T: Real>(
         if !changed {
             break;
         }
-        found = with_edges(contact, &conditions, engine, Some(on), cost)?;
+        found = attempt(contact, &conditions, engine, Some(on), cost)?;
     }
     Ok(found)
 }
 
-/// The same for edges of which each is either fixed or not.
+/// The same for edges of which each is either fixed or not, under any load.
+fn attempt<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    warm: Option<Interval<T>>,
+    cost: &mut Cost,
+) -> Result<Found<T>, ContactError<T>> {
+    let pulled = matches!(conditions.control, Control::Load(load) if load <= T::zero());
+    let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+    if pulled && adhesive && conditions.edges.iter().any(|edge| edge.limit().is_none()) {
+        pull::find(contact, conditions, engine, warm, cost)
+    } else {
+        with_edges(contact, conditions, engine, warm, cost)
+    }
+}
+
+/// The same for a load that presses.
 pub(super) fn with_edges<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
@@ -201,7 +213,13 @@ fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Inter
     let quarter = T::of(0.5) * whole.half_width();
     let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
     let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
-    conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle))
+    let on = conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle));
+    // A given limit may be closer to the end of the bodies than that is wide.
+    let half = T::of(0.5);
+    Interval {
+        left: if on.left < left { half * left + half * on.right } else { on.left },
+        right: if on.right > right { half * on.left + half * right } else { on.right },
+    }
 }
 
 /// The contact that Newton's method has settled on.

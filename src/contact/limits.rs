@@ -67,20 +67,7 @@ pub(super) fn find<T: Real>(
         (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
         (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
-    let mut search = Search {
-        goal,
-        gap,
-        engine,
-        cost,
-        strategy: contact.strategy(),
-        origin,
-        range,
-        load,
-        near: 1,
-        share: T::of(0.5),
-        stiffness: None,
-        unbalance: Excess::rough_shift,
-    };
+    let mut search = Search { load, ..Search::new(contact, goal, engine, origin, cost) };
     let trial = search.widen(half_width)?;
     if trial.cornered {
         return Err(search.no_balance(trial.on.half_width()));
@@ -108,23 +95,9 @@ pub(super) fn place<T: Real>(
     let first = first_contact(&mut sampler, gap, contact.start);
     *cost += sampler.cost;
     let (origin, range) = (first?, gap.range());
-    let load = T::one();
     // The load is not known, and tells nothing of how well the contact has to be in balance.
     let unbalance = Excess::shift;
-    let mut search = Search {
-        goal,
-        gap,
-        engine,
-        cost,
-        strategy: contact.strategy(),
-        origin,
-        range,
-        load,
-        near: 1,
-        share: T::of(0.5),
-        stiffness: None,
-        unbalance,
-    };
+    let mut search = Search { unbalance, ..Search::new(contact, goal, engine, origin, cost) };
     match search.place(half_width)? {
         Placed::At(trial) => {
             let Excess { at_a, at_b, carried, error, .. } = trial.excess;
@@ -180,7 +153,30 @@ struct Search<'s, T: Real> {
     unbalance: fn(&Excess<T>) -> T,
 }
 
-impl<T: Real> Search<'_, T> {
+impl<'s, T: Real> Search<'s, T> {
+    fn new(
+        contact: &'s Contact<'s, T>,
+        goal: Goal<T>,
+        engine: &'s mut dyn Engine<T>,
+        origin: T,
+        cost: &'s mut Cost,
+    ) -> Self {
+        Self {
+            goal,
+            gap: &contact.gap,
+            engine,
+            cost,
+            strategy: contact.strategy(),
+            origin,
+            range: contact.gap.range(),
+            load: T::one(),
+            near: 1,
+            share: T::of(0.5),
+            stiffness: None,
+            unbalance: Excess::rough_shift,
+        }
+    }
+
     fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
         let excess = self.goal.excess(self.gap, on, self.engine, self.cost)?;
         if !excess.is_finite() {

@@ -487,3 +487,13 @@ fn a_jump_that_nobody_declared_is_no_overlap() {
         assert!(found.is_ok(), "{half_width}: {found:?}");
     }
 }
+
+#[test]
+fn a_corner_without_adhesion_bears_no_tension_beside_an_adhesive_edge() {
+    let body = parabola(1.0);
+    let edges = [Edge::Fixed(-0.1), Edge::Adhesive(1e-3)];
+    let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
+    let found = contact.solve(Load::PerLength(-0.005)).unwrap().certify();
+    assert!(matches!(found, Err(ContactError::Tension { x: -0.1, .. })), "{found:?}");
+    assert!(contact.solve(Load::PerLength(0.05)).unwrap().certify().is_ok());
+}

@@ -259,3 +259,13 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
         assert_eq!([interval.left, interval.right], [fixed; 2]);
     }
 }
+
+#[test]
+fn a_load_less_than_any_number_is_refused() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for load in [Load::ToHalfWidth(1e-300), Load::ToPeak(1e-300)] {
+        let refused = contact.solve(load);
+        assert!(matches!(refused, Err(ContactError::Overflow { .. })), "{refused:?}");
+    }
+}

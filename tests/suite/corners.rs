@@ -103,3 +103,34 @@ fn corners_on_both_sides_serve_every_control() {
         assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
     }
 }
+
+#[test]
+fn a_corner_is_let_go_under_adhesion_too() {
+    // At no load, and under a pull, as under the least one that presses.
+    let body = parabola(1.0);
+    let (corner, glued) = (Edge::UpTo(-0.1), Edge::Adhesive(1e-3));
+    for load in [1e-9, 0.0, -1e-9, -1e-3] {
+        let held = Contact::new(&Flat, &*body).unwrap().edges(corner, glued);
+        let free = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, glued);
+        let [held, free] =
+            [&held, &free].map(|contact| contact.solve(Load::PerLength(load)).unwrap().interval());
+        for (held, free) in [(held.left, free.left), (held.right, free.right)] {
+            assert_relative_eq!(held, free, epsilon = 0.0, max_relative = 1e-12);
+        }
+    }
+}
+
+#[test]
+fn an_edge_may_be_fixed_close_to_the_end_of_the_bodies() {
+    // Half of a punch whose edge K is anywhere: the condition at the free edge, of a parabola from
+    // x = s on, is F = κ L (m₁ + m₀), m₀ = c and m₁ = L/2.
+    let body = parabola(1.0);
+    for (s, load) in [(0.51, 0.01), (0.9, 0.01), (-0.6, 0.01)] {
+        let edges =
+            if s > 0.0 { [Edge::Fixed(s), Edge::Free] } else { [Edge::Free, Edge::Fixed(s)] };
+        let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
+        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let l = solution.interval().half_width();
+        assert_relative_eq!(l * (1.5 * l + s.abs()), load, epsilon = 0.0, max_relative = 1e-12);
+    }
+}
