@@ -64,8 +64,8 @@
 //! the parameter must be declared as a joint: halving finds where it is, not that it moves. Where edges
 //! change their kind ([`Edge::UpTo`](crate::Edge::UpTo)), and where a contact gives way, there is no
 //! derivative, and what comes out is that of one side, or not finite. So is the derivative of a
-//! pressure at the limits. Of [`Solution::peak`](crate::Solution::peak) the value has its derivative,
-//! the place has not.
+//! pressure at the limits, and that of [`Solution::gap_at`](crate::Solution::gap_at) by what moves the
+//! limits. Of [`Solution::peak`](crate::Solution::peak) the value has its derivative, the place has not.
 //!
 //! Comparisons, and so all decisions, go by the values: these are what they are without derivatives,
 //! but for rounding.

@@ -63,8 +63,12 @@ pub enum ContactError<T: Real> {
         /// What the search says, in terms of `k`.
         source: SearchError<T>,
     },
-    /// The load is not a positive finite number.
-    #[error("the load is {load:?}: it must be finite, and positive where limits are sought")]
+    /// The load, half-width or peak pressure asked for is not finite; or it is not positive, which a
+    /// load needs to be only where limits are sought without adhesion.
+    #[error(
+        "the load (or half-width, or peak pressure) is {load:?}: it must be finite, and positive where \
+         limits are sought"
+    )]
     Load {
         /// Load per unit length.
         load: T,
