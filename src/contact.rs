@@ -280,7 +280,8 @@ impl<'a, T: Real> Contact<'a, T> {
         };
         // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
-        if found.error.is_some_and(|error| !(error >= T::zero())) && found.adhesive == [false; 2] {
+        let known = found.error.is_none_or(|error| error >= T::zero());
+        if !known && found.adhesive == [false; 2] {
             return Err(ContactError::Overflow { interval: found.interval });
         }
         found.ends = self.ends();
