@@ -10,7 +10,7 @@
 use super::series::{below, least, tail};
 use super::{Place, undecided};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::chebyshev::{MOST, Table};
+use crate::quadrature::panels::chebyshev::Table;
 use crate::quadrature::{Engine, Pressing};
 use crate::{ContactError, Interval, Real};
 
@@ -127,12 +127,8 @@ impl<T: Real> Inside<'_, T> {
         }
         let mut pressure = [T::zero(); NODES];
         self.engine.pressures(self.gap, &self.pressing, &x, &mut pressure, cost)?;
-        let mut smooth = [T::zero(); MOST];
-        for i in 0..NODES {
-            smooth[i] = pressure[i] * self.factor(x[i]);
-        }
-        let row = table.coefficients(NODES, &smooth);
-        Ok(Some(Cell { x, pressure, series: std::array::from_fn(|i| row[i]) }))
+        let smooth: [T; NODES] = std::array::from_fn(|i| pressure[i] * self.factor(x[i]));
+        Ok(Some(Cell { x, pressure, series: table.coefficients(&smooth) }))
     }
 
     /// What makes the pressure smooth at the edges.

@@ -15,7 +15,7 @@ use super::series::{above, below, integral, least, tail};
 use super::{Place, undecided};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::angles::Gauss;
-use crate::quadrature::panels::chebyshev::{MOST, Table};
+use crate::quadrature::panels::chebyshev::Table;
 use crate::quadrature::panels::{Cover, Panel};
 use crate::{ContactError, Interval, Real};
 
@@ -342,8 +342,8 @@ impl<'o, T: Real> Side<'o, T> {
             if self.cells > MOST_CELLS {
                 return Err(undecided(self.edge() + sign * from * from, cost));
             }
-            let (mut values, mut terms) = ([T::zero(); MOST], T::zero());
-            for (value, &z) in values[..NODES].iter_mut().zip(&table.z) {
+            let (mut values, mut terms) = ([T::zero(); NODES], T::zero());
+            for (value, &z) in values.iter_mut().zip(&table.z) {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
                 let x = self.edge() + sign * distance;
@@ -354,8 +354,7 @@ impl<'o, T: Real> Side<'o, T> {
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);
                 *value = ((y + y) * opens + self.singular(distance)) * reach;
             }
-            let row = table.coefficients(NODES, &values);
-            let rate = &row[..NODES];
+            let rate = &table.coefficients(&values);
             let left_out = tail(rate);
             let size = rate.iter().fold(T::zero(), |max, a| max.max(a.abs()));
             let rounding = T::of(256.0) * T::epsilon() * size.max(terms);

@@ -42,32 +42,38 @@ impl<T: Real> Knot<T> {
     }
 }
 
-/// The two ends of a piece and the known points between them, from left to right.
+/// The two ends of a piece and the known points between them, from left to right; none at all before
+/// the first.
 #[derive(Clone, Debug)]
 struct Knots<T> {
-    /// How many there are between the ends.
-    len: usize,
-    row: [Knot<T>; MOST + 2],
+    row: Vec<Knot<T>>,
 }
 
 impl<T: Real> Knots<T> {
     fn new() -> Self {
-        let nil = T::zero();
-        let knot = Knot { k: nil, x: nil, y: nil, dx: nil, slope: nil };
-        Self { len: 0, row: [knot; MOST + 2] }
+        Self { row: Vec::new() }
+    }
+
+    /// How many there are between the ends.
+    fn len(&self) -> usize {
+        self.row.len().saturating_sub(2)
     }
 
     fn ends(&self) -> [Knot<T>; 2] {
-        [self.row[0], self.row[self.len + 1]]
+        [self.row[0], self.row[self.row.len() - 1]]
     }
 
-    fn set_ends(&mut self, [left, right]: [Knot<T>; 2], len: usize) {
-        self.len = len;
-        (self.row[0], self.row[len + 1]) = (left, right);
+    /// Takes other knots in place of these.
+    fn set(&mut self, [left, right]: [Knot<T>; 2], inner: &[Knot<T>]) {
+        self.row.clear();
+        self.row.reserve(MOST + 2);
+        self.row.push(left);
+        self.row.extend_from_slice(inner);
+        self.row.push(right);
     }
 
     fn inner(&self) -> &[Knot<T>] {
-        &self.row[1..=self.len]
+        &self.row[1..=self.len()]
     }
 }
 
@@ -121,21 +127,25 @@ pub(crate) fn aim<const N: usize, T: Real>(
     const { assert!(N <= MOST) };
     let (index, piece) = gap.piece_with(body, targets[N / 2], Side::Left)?;
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
-        (trace.direct, trace.piece, trace.knots.len) = (true, None, N);
-        for (i, &x) in targets.iter().enumerate() {
-            let slope = if i == 0 { slope } else { piece.curve.slope_at(x).unwrap_or(slope) };
-            if !slope.is_finite() {
-                return Err(not_finite(body, "slope_at(x)", x, slope));
+        (trace.direct, trace.piece) = (true, None);
+        let zero = T::zero();
+        let mut knots = targets.map(|x| Knot { k: zero, x, y: zero, dx: zero, slope });
+        for (i, knot) in knots.iter_mut().enumerate() {
+            if i > 0 {
+                knot.slope = piece.curve.slope_at(knot.x).unwrap_or(slope);
             }
-            (trace.knots.row[i + 1].x, trace.knots.row[i + 1].slope) = (x, slope);
+            if !knot.slope.is_finite() {
+                return Err(not_finite(body, "slope_at(x)", knot.x, knot.slope));
+            }
         }
+        trace.knots.set([knots[0], knots[N - 1]], &knots);
         return Ok(());
     }
     trace.direct = false;
     if trace.piece != Some(index) {
         let ends = [0, 1].map(|i| Knot::new(piece.k[i], piece.ends[i]));
         trace.piece = Some(index);
-        trace.knots.set_ends(ends, 0);
+        trace.knots.set(ends, &[]);
     }
     let near = T::of(NEAR[usize::from(rough)]);
     let room = std::array::from_fn(|i| {
@@ -171,28 +181,25 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         // A range much longer than that of the targets says little of where they are: with one found,
         // the others are aimed at from there.
         let [first, last] = [targets[0], targets[N - 1]];
-        let [leftmost, rightmost] = [known.row[1], known.row[known.len]];
+        let len = known.len();
+        let [leftmost, rightmost] = [known.row[1], known.row[len]];
         let far = last - first < T::of(0.25) * (ends[1].x - ends[0].x);
         let beside = first <= ends[0].x || last >= ends[1].x;
-        if known.len == 0 && far && !beside {
+        if len == 0 && far && !beside {
             let found = self.find(N / 2, ends, cost)?;
-            known.set_ends(ends, 1);
-            known.row[1] = found;
-        } else if known.len > 0 && first > rightmost.x && !beside {
+            known.set(ends, &[found]);
+        } else if len > 0 && first > rightmost.x && !beside {
             let found = self.find(N - 1, [rightmost, ends[1]], cost)?;
-            known.set_ends(ends, 2);
-            (known.row[1], known.row[2]) = (rightmost, found);
-        } else if known.len > 0 && last < leftmost.x && !beside {
+            known.set(ends, &[rightmost, found]);
+        } else if len > 0 && last < leftmost.x && !beside {
             let found = self.find(0, [ends[0], leftmost], cost)?;
-            known.set_ends(ends, 2);
-            (known.row[1], known.row[2]) = (found, leftmost);
+            known.set(ends, &[found, leftmost]);
         }
         let mut knots = [ends[0]; N];
         if !self.batch(known, &mut knots, cost)? {
             self.find_missed(known, &mut knots, cost)?;
         }
-        known.set_ends(ends, N);
-        known.row[1..=N].copy_from_slice(&knots);
+        known.set(ends, &knots);
         Ok(())
     }
 
@@ -210,7 +217,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         let zero = T::zero();
         let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
         let (mut asked, mut k) = ([0; N], [zero; N]);
-        let (row, len) = (&known.row[..known.len + 2], known.len);
+        let (row, len) = (&known.row[..], known.len());
         let (mut count, mut right) = (0, 1);
         let mut from = 0;
         let mut way = Way::new(&row[0], &row[1]);

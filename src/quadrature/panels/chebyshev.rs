@@ -38,8 +38,9 @@ pub(crate) type Row<T> = [T; MOST];
 
 /// The zeros of `T_n`, and the transform from values there to coefficients.
 pub(crate) struct Table {
-    /// The nodes, rising.
+    /// The nodes, rising, and `sin θ` there.
     pub z: [f64; MOST],
+    pub sine: [f64; MOST],
     /// `transform[j][k]`: the share of the value at node j in coefficient k.
     transform: [[f64; MOST]; MOST],
     /// The share of the value at node j in that at the right end.
@@ -51,7 +52,12 @@ static SKETCH: LazyLock<Table> = LazyLock::new(Table::with_ends);
 
 impl Table {
     fn empty() -> Self {
-        Self { z: [0.0; MOST], transform: [[0.0; MOST]; MOST], at_end: [0.0; MOST] }
+        Self {
+            z: [0.0; MOST],
+            sine: [0.0; MOST],
+            transform: [[0.0; MOST]; MOST],
+            at_end: [0.0; MOST],
+        }
     }
 
     fn new(n: usize) -> Self {
@@ -60,6 +66,7 @@ impl Table {
         for j in 0..n {
             // sin of a small angle of either sign, so that the nodes are symmetric.
             table.z[j] = ((2.0 * j as f64 + 1.0 - n as f64) * PI / (2 * n) as f64).sin();
+            table.sine[j] = (1.0 - table.z[j] * table.z[j]).sqrt();
             for k in 0..n {
                 let cosine = angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
                 table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
@@ -101,11 +108,6 @@ impl Table {
         }]
     }
 
-    /// The coefficients of the polynomial with given values at the nodes.
-    pub fn coefficients<T: Real>(&self, n: usize, values: &Row<T>) -> Row<T> {
-        by_size!(n, N => self.transform::<N, T>(values))
-    }
-
     /// The polynomial with these values at the nodes, at its left and at its right end.
     pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
         let [mut left, mut right] = [T::zero(); 2];
@@ -128,8 +130,10 @@ impl Table {
         [a.max(b), c.max(d)]
     }
 
-    fn transform<const N: usize, T: Real>(&self, values: &Row<T>) -> Row<T> {
-        let mut row = [T::zero(); MOST];
+    /// The coefficients of the polynomial with given values at the nodes.
+    #[inline(always)]
+    pub fn coefficients<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; N] {
+        let mut row = [T::zero(); N];
         for j in 0..N {
             for k in 0..N {
                 row[k] = fma(values[j], T::of(self.transform[j][k]), row[k]);
@@ -203,10 +207,10 @@ fn expanded<const N: usize, T: Real>(coefficients: &[T], left: T, right: T) -> R
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
     let table = Table::of(N);
-    let mut row = [T::zero(); MOST];
     let s: [T; N] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
-    row[..N].copy_from_slice(&values(coefficients, &s));
-    table.transform::<N, T>(&row)
+    let mut row = [T::zero(); MOST];
+    row[..N].copy_from_slice(&table.coefficients(&values(coefficients, &s)));
+    row
 }
 
 /// The smallest of the [`SIZES`] that holds so many coefficients.

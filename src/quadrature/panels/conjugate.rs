@@ -136,6 +136,16 @@ impl<T: Real> Conjugate<T> {
         let zero = T::zero();
         (self.smooth, self.terms) = ([zero; MOST], 1);
         self.changes.clear();
+        if let [panel] = panels {
+            // Over the whole contact only the cosine of zero times the angle has an integral.
+            let (series, terms) = panel.over(on);
+            let share = T::pi() / on.half_width();
+            self.terms = terms - 1;
+            for k in 1..terms {
+                self.smooth[k - 1] = share * series[k];
+            }
+            return true;
+        }
         let mut before = ([zero; MOST], 0, zero);
         let every = continued(panels, on, |stretch| {
             let Stretch { panel, series, terms, integrals, .. } = stretch;

@@ -1,6 +1,6 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{MOST, SIZES, Table, by_size, size_for, value_at};
+use super::chebyshev::{SIZES, Table, by_size, size_for, value_at};
 use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Trace, aim};
 use crate::real::fma;
@@ -51,6 +51,14 @@ struct Trial<T> {
     level: usize,
     /// The share of its size by which a derivative is off that calls for a split, or zero.
     derivatives: T,
+}
+
+impl<T: Real> Trial<T> {
+    /// Not tried yet.
+    fn new(x: [T; 2]) -> Self {
+        let (panel, zero) = (Panel::new(x), T::zero());
+        Self { panel, split: false, allowed: zero, level: 0, derivatives: zero }
+    }
 }
 
 /// Whether a panel can be halved: it is longer than a few units in the last place.
@@ -194,22 +202,25 @@ impl<T: Real> Cover<T> {
         neighbour: Option<Panel<T>>,
     ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
-        let mut next = Some(self.trial(gap, x, 0)?);
+        let mut trial = Trial::new(x);
+        self.try_out(gap, &mut trial)?;
         if let Some(panel) = neighbour {
             let allowed = self.tolerance * self.size;
             let derivatives = T::zero();
             self.waiting.push(Trial { panel, split: false, allowed, level: 0, derivatives });
         }
         let mut splits = 0;
-        while let Some(trial) = next.take().or_else(|| self.waiting.pop()) {
+        loop {
             let [left, right] = trial.panel.x;
             let middle = T::of(0.5) * left + T::of(0.5) * right;
             let may = splits < MOST_SPLITS && trial.level < MOST_LEVELS && is_long(trial.panel.x);
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
-                let mut one = self.trial(gap, [left, middle], level)?;
-                let mut other = self.trial(gap, [middle, right], level)?;
+                let [mut one, mut other] =
+                    [[left, middle], [middle, right]].map(|x| Trial { level, ..Trial::new(x) });
+                self.try_out(gap, &mut one)?;
+                self.try_out(gap, &mut other)?;
                 // Noise is what both halves have as much of. A wave that is not resolved yet has,
                 // too, if it is no longer faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
@@ -226,7 +237,7 @@ impl<T: Real> Cover<T> {
                     (one.split, other.split) = (false, false);
                 }
                 self.waiting.push(other);
-                next = Some(one);
+                trial = one;
                 continue;
             }
             // What happens between the last node and the end of a panel shows at its neighbour.
@@ -239,13 +250,14 @@ impl<T: Real> Cover<T> {
                     self.panels.pop();
                     let again = |panel, trial: &Trial<T>| Trial { panel, split: true, ..*trial };
                     self.waiting.push(again(trial.panel, &trial));
-                    self.waiting.push(again(before, &trial));
+                    trial = again(before, &trial);
                     continue;
                 }
             }
             self.panels.push(trial.panel);
+            let Some(next) = self.waiting.pop() else { return Ok(()) };
+            trial = next;
         }
-        Ok(())
     }
 
     /// Whether two neighbours have the same slope where they meet.
@@ -257,16 +269,12 @@ impl<T: Real> Cover<T> {
     }
 
     /// Samples a panel with as many nodes as it takes, or says that it must be split.
-    fn trial(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: [T; 2],
-        level: usize,
-    ) -> Result<Trial<T>, ContactError<T>> {
+    fn try_out(&mut self, gap: &Gap<'_, T>, trial: &mut Trial<T>) -> Result<(), ContactError<T>> {
+        let (panel, level) = (&mut trial.panel, trial.level);
         let mut n = if self.rough { 4 } else { self.initial };
         loop {
-            let (mut panel, seen) = self.panel(gap, x, n)?;
-            let Seen { slope, bodies, noise, off, missed } = seen;
+            let Seen { slope, bodies, noise, off, missed } =
+                by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -298,26 +306,24 @@ impl<T: Real> Cover<T> {
             // More samples do nothing for the derivatives of what must be split anyway.
             if T::PARTS > 1 && (next.is_some() || !split) {
                 let noisy = matches!(verdict, Verdict::Noise(_));
-                let (more, off) = self.judge_derivatives(&panel, level);
+                let (more, off) = self.judge_derivatives(panel, level);
                 next = next.max(more);
                 if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
                     (split, derivatives) = (true, off);
                 }
             }
-            match next {
-                Some(next) if !self.rough => n = next,
-                _ if self.rough => {
-                    // A short panel may be continued a long way.
-                    panel.drop_noise(T::epsilon() * bodies);
-                    return Ok(Trial { panel, split: false, allowed, level, derivatives });
-                }
-                _ => {
-                    if !split {
-                        self.check_slopes(gap)?;
-                    }
-                    return Ok(Trial { panel, split, allowed, level, derivatives });
-                }
+            if self.rough {
+                // A short panel may be continued a long way.
+                panel.drop_noise(T::epsilon() * bodies);
+                split = false;
+            } else if let Some(next) = next {
+                n = next;
+                continue;
+            } else if !split {
+                self.check_slopes(gap)?;
             }
+            (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
+            return Ok(());
         }
     }
 
@@ -354,21 +360,13 @@ impl<T: Real> Cover<T> {
         (next, worst)
     }
 
-    /// Samples one panel with n nodes.
-    fn panel(
+    /// Samples one panel with N nodes.
+    fn sample_panel<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
-        x: [T; 2],
-        n: usize,
-    ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
-        by_size!(n, N => self.with_nodes::<N>(gap, x))
-    }
-
-    fn with_nodes<const N: usize>(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: [T; 2],
-    ) -> Result<(Panel<T>, Seen<T>), ContactError<T>> {
+        panel: &mut Panel<T>,
+    ) -> Result<Seen<T>, ContactError<T>> {
+        let x = panel.x;
         let table = if self.rough { Table::sketch() } else { Table::of(N) };
         let (half, zero) = (T::of(0.5), T::zero());
         let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
@@ -383,7 +381,7 @@ impl<T: Real> Cover<T> {
         self.cost.samples += N;
         let wanted = offsets.map(|offset| reach + offset);
         let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
-        let mut slopes = [zero; MOST];
+        let mut slopes = [zero; N];
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
         }
@@ -398,7 +396,9 @@ impl<T: Real> Cover<T> {
             let seen = self.seen(x, &nodes, reach, [&lower, &upper]);
             self.derivatives.push(seen);
         }
-        Ok((Panel::new(x, N, table.coefficients(N, &slopes)), seen))
+        panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
+        panel.count(N);
+        Ok(seen)
     }
 
     /// What the slopes of the two bodies at the nodes say.
@@ -531,10 +531,8 @@ fn left_open<const N: usize, T: Real>(
     }
     // `T_N` rises by N/sin θ at its zeros.
     let knots = &trace.knots()[..N];
-    let off = (0..N).fold(T::zero(), |max, i| {
-        let sine = T::of((1.0 - table.z[i] * table.z[i]).sqrt());
-        max.max((knots[i].x - nodes[i]).abs() / sine)
-    });
+    let off = (0..N)
+        .fold(T::zero(), |max, i| max.max((knots[i].x - nodes[i]).abs() / T::of(table.sine[i])));
     let off = (off * T::count(N) / reach).min(T::one());
     let [before, last] = table.last_pairs::<N, T>(slopes);
     let largest = slopes.iter().fold(T::zero(), |max, slope| max.max(slope.abs()));

@@ -79,8 +79,9 @@ impl<T: Real> Far<T> {
 /// The part of a panel between two points, expanded anew.
 fn clip<T: Real>(panel: &Panel<T>, from: T, to: T) -> Panel<T> {
     let (series, _) = panel.over(Interval { left: from, right: to });
-    let clipped = Panel::new([from, to], panel.n, series);
-    Panel { tail: panel.tail, ..clipped }
+    let mut clipped = Panel { series, tail: panel.tail, ..Panel::new([from, to]) };
+    clipped.count(panel.n);
+    clipped
 }
 
 impl<T: Real> Part<T> {

@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{Row, SIZES, expand, size_for, value_at};
+use super::chebyshev::{MOST, Row, SIZES, expand, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -19,10 +19,16 @@ pub(crate) struct Panel<T> {
 }
 
 impl<T: Real> Panel<T> {
-    pub fn new(x: [T; 2], n: usize, series: Row<T>) -> Self {
+    /// Not sampled yet.
+    pub fn new(x: [T; 2]) -> Self {
+        Self { x, n: 0, series: [T::zero(); MOST], counting: 0, tail: T::zero() }
+    }
+
+    /// Takes the series for that of a panel with n nodes.
+    pub fn count(&mut self, n: usize) {
         let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
-        let counting = counting(&series[..n], 0..T::PARTS, rounding);
-        Self { x, n, series, counting, tail: T::zero() }
+        self.n = n;
+        self.counting = counting(&self.series[..n], 0..T::PARTS, rounding);
     }
 
     /// Leaves out the coefficients that are no more than noise of this level: they say nothing of the
