@@ -82,11 +82,13 @@ fn parabola(half_width: f64) -> Part {
     graph(-4.0 * half_width, 4.0 * half_width, |x| [x * x / 2.0, x])
 }
 
-fn involute(radius: f64, sign: f64) -> Part {
-    let start = 93.0 / 256.0;
-    part(-0.36, 1.0, move |k| {
+/// The involute of a circle, unwound by the angle `start + k`.
+fn involute(radius: f64, start: f64, [from, to]: [f64; 2], sign: f64) -> Part {
+    part(from, to, move |k| {
         let (r, t, (s, c)) = (sign * radius, start + k, k.sin_cos());
-        let (x, y) = (r * (c + t * s - 1.0), r * (s - t * c + start));
+        // cos k - 1 without the loss of digits.
+        let versine = 2.0 * (k / 2.0).sin().powi(2);
+        let (x, y) = (r * (t * s - versine), r * (s - t * c + start));
         CurvePoint { x, y, dx: r * t * c, dy: r * t * s }
     })
 }
@@ -162,11 +164,19 @@ pub fn all() -> Vec<Scene> {
         CurvePoint { x, y: 2.0 * (1.5 * x).sinh().powi(2), dx, dy: 3.0 * (3.0 * x).sinh() * dx }
     });
     scenes.push(Scene::from_file("X = sinh 40 k", "sinh40_param", [Vec::new(), vec![sinh]]));
-    let gears = [vec![involute(37.5, -1.0)], vec![involute(112.5, 1.0)]];
+    let gears = [(37.5, -1.0), (112.5, 1.0)]
+        .map(|(radius, sign)| vec![involute(radius, 93.0 / 256.0, [-0.36, 1.0], sign)]);
     scenes.push(Scene::from_file(
         "involute gears at the pitch point",
         "gear_involute_pitch_point",
         gears,
+    ));
+    let start = 1.0 / 64.0;
+    let flank = vec![involute(37.5, start, [-2047.0 / 2048.0 * start, 1.0], 1.0)];
+    scenes.push(Scene::from_file(
+        "gear near the base circle",
+        "gear_near_base_circle",
+        [Vec::new(), flank],
     ));
     let form = Ellipse::circle(1.0, 0.3).expect("a contact");
     let joints = [-1.2, -1e-2, -1e-5, -1e-9, 0.0, 1e-12, 1e-7, 0.25, 0.25 + 1e-8, 1.2];
