@@ -19,6 +19,7 @@ mod conjugate;
 mod continuation;
 mod cover;
 mod far;
+mod groups;
 mod integrals;
 mod panel;
 

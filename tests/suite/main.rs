@@ -24,6 +24,7 @@ mod found;
 mod invariants;
 mod limits;
 mod peak;
+mod pieces;
 mod profiles;
 mod quadrature;
 mod quantities;

@@ -108,6 +108,14 @@ impl Table {
         }]
     }
 
+    /// The share of each node in a sum of coefficients, each times a number.
+    pub fn shares<const N: usize, T: Real>(&self, numbers: &[T; N]) -> [T; N] {
+        std::array::from_fn(|j| {
+            let row = self.transform[j][..N].iter().zip(numbers);
+            row.fold(T::zero(), |sum, (&share, &number)| fma(number, T::of(share), sum))
+        })
+    }
+
     /// The polynomial with these values at the nodes, at its left and at its right end.
     pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
         let [mut left, mut right] = [T::zero(); 2];

@@ -40,6 +40,9 @@ use crate::{Interval, Real};
 /// Points treated together.
 pub(super) const LANES: usize = 16;
 
+/// Changes from one panel to the next, each with its logarithm, before groups of panels take less time.
+const MOST_CHANGES: usize = 64;
+
 /// Points by their distances to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
     pub left: [T; LANES],
@@ -125,7 +128,7 @@ impl<T: Real> Conjugate<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = !self.continued(panels, on);
+        self.is_far = panels.len() > MOST_CHANGES || !self.continued(panels, on);
         if self.is_far {
             self.far.set(panels, on);
         }

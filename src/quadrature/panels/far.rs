@@ -3,11 +3,12 @@
 //!
 //! The closed form of `conjugate.rs`, in the panel's own variable, is used on the panel that holds x and
 //! around it, as far as the polynomial can be continued without losing digits; from further away the
-//! panel is summed up by Gauss's rule.
+//! panel is summed up by Gauss's rule, and from far away many panels at once (`groups.rs`).
 
 use super::angles::{Arc, Gauss, HalfAngle};
 use super::chebyshev::{MOST, Row, value_at};
 use super::conjugate::{Joint, Rounding, shares};
+use super::groups::{Group, group};
 use super::panel::Panel;
 use crate::real::Sum;
 use crate::{Interval, Real};
@@ -20,21 +21,22 @@ pub(super) struct Far<T> {
     parts: Vec<Part<T>>,
     /// Distances from the start of their part, and the slope there times the weight.
     nodes: Vec<[T; 2]>,
+    groups: Vec<Group<T>>,
 }
 
 /// A panel, or what of it lies in the contact.
-struct Part<T> {
-    panel: Panel<T>,
+pub(super) struct Part<T> {
+    pub panel: Panel<T>,
     joint: Joint<T>,
     /// `b_k` is multiplied by `integrals[k - 1]`.
     integrals: Row<T>,
     reach: T,
-    nodes: std::ops::Range<usize>,
+    pub nodes: std::ops::Range<usize>,
 }
 
 impl<T: Real> Far<T> {
     pub fn new() -> Self {
-        Self { parts: Vec::new(), nodes: Vec::new() }
+        Self { parts: Vec::new(), nodes: Vec::new(), groups: Vec::new() }
     }
 
     /// Sets it to the panels of a contact.
@@ -46,31 +48,51 @@ impl<T: Real> Far<T> {
             let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
             self.parts.push(Part::new(clip(panel, from, to), on, &mut self.nodes));
         }
+        self.groups.clear();
+        group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
     /// `π² R` at a point.
     pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
         let (mut sum, mut log, mut before) = (Sum::new(), Sum::new(), None);
         let roots = shares(on, x).map(|share| [share.sqrt()]);
-        for (j, part) in self.parts.iter().enumerate() {
-            let s = part.panel.local(x);
-            let value = if s.abs() <= part.reach {
-                let (regular, value) = part.regular(s);
-                sum.add(regular);
-                Some(value)
-            } else {
-                let offset = part.panel.x[0] - x;
-                let nodes = &self.nodes[part.nodes.clone()];
-                let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
-                sum.add(nodes.iter().fold(T::zero(), term));
-                None
-            };
+        // From the panels before number j to those from there on.
+        let mut pass = |j: usize, value: Option<T>| {
             if j > 0 && (value.is_some() || before.is_some()) {
                 let zero = T::zero();
                 let change = value.unwrap_or(zero) - before.unwrap_or(zero);
-                log.add(part.joint.logarithms([change], &[x], &roots, on, rounding)[0]);
+                let joint = &self.parts[j].joint;
+                log.add(joint.logarithms([change], &[x], &roots, on, rounding)[0]);
             }
             before = value;
+        };
+        let mut number = 0;
+        while let Some(group) = self.groups.get(number) {
+            if !group.is_near(x) {
+                sum.add(group.integral(x));
+                pass(group.parts.start, None);
+                number = group.next;
+                continue;
+            }
+            number += 1;
+            if !group.is_few() {
+                continue;
+            }
+            for j in group.parts.clone() {
+                let part = &self.parts[j];
+                let s = part.panel.local(x);
+                if s.abs() <= part.reach {
+                    let (regular, value) = part.regular(s);
+                    sum.add(regular);
+                    pass(j, Some(value));
+                } else {
+                    let offset = part.panel.x[0] - x;
+                    let nodes = &self.nodes[part.nodes.clone()];
+                    let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
+                    sum.add(nodes.iter().fold(T::zero(), term));
+                    pass(j, None);
+                }
+            }
         }
         on.edge_root(x) * sum.value() + log.value()
     }
@@ -129,6 +151,15 @@ impl<T: Real> Part<T> {
         }
         let joint = Joint::new(&panel, on, from);
         Self { panel, joint, integrals, reach, nodes: start..nodes.len() }
+    }
+
+    /// The stretch on which its polynomial is used.
+    pub fn reached(&self) -> [T; 2] {
+        let [from, to] = self.panel.x;
+        // Without nodes it is used everywhere, however x is rounded.
+        let reach = if self.nodes.is_empty() { self.reach + self.reach } else { self.reach };
+        let beyond = (reach - T::one()) * self.panel.half();
+        [from - beyond, to + beyond]
     }
 
     /// `∫ q dθ` and the polynomial itself at a place in the panel.

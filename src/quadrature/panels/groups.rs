@@ -1,0 +1,121 @@
+//! Groups of panels, each of which a point far enough away sees as one.
+//!
+//! From a distance of its own length and more, `1/(t - x)` over a group is a polynomial in t of
+//! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points of it,
+//! whatever the number of panels: with ℓ_m the polynomial that is 1 at the m-th of these and 0
+//! at the others,
+//!
+//! ```text
+//! ∫ g(t)/(t - x) dθ = Σ_m W_m/(t_m - x),      W_m = ∫ g ℓ_m dθ
+//! ```
+//!
+//! Groups are halved until few panels are left. A pressure then takes time with the logarithm of the
+//! number of panels (the idea of tree codes: Barnes and Hut, *Nature* 324 (1986) 446).
+
+use super::chebyshev::Table;
+use super::far::Part;
+use crate::Real;
+use std::ops::Range;
+
+/// Points that stand for a group.
+const POINTS: usize = 24;
+
+/// Panels that are not divided any further.
+const FEW: usize = 8;
+
+/// Some panels in a row.
+pub(super) struct Group<T> {
+    /// Their numbers.
+    pub parts: Range<usize>,
+    /// The stretch in which they are to be looked at one by one.
+    near: [T; 2],
+    /// The left end and half the length.
+    left: T,
+    half: T,
+    /// `W_m`.
+    weights: [T; POINTS],
+    /// The number of the next group that is not one of this group's.
+    pub next: usize,
+}
+
+/// Puts parts, with the nodes `[t - t_left, g dθ]` of Gauss's rule on each, into groups: each is
+/// followed by its two halves.
+pub(super) fn group<T: Real>(
+    groups: &mut Vec<Group<T>>,
+    parts: &[Part<T>],
+    numbers: Range<usize>,
+    nodes: &[[T; 2]],
+) {
+    let within = &parts[numbers.clone()];
+    let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
+    let (left, right) = (first.panel.x[0], last.panel.x[1]);
+    let length = right - left;
+    let mut near = [left - length, right + length];
+    for part in within {
+        let [from, to] = part.reached();
+        near = [near[0].min(from), near[1].max(to)];
+    }
+    let half = T::of(0.5) * length;
+    let (number, weights) = (groups.len(), [T::zero(); POINTS]);
+    groups.push(Group { parts: numbers.clone(), near, left, half, weights, next: number + 1 });
+    let mut sums = Sums { left, by_half: T::one() / half, sums: [T::zero(); POINTS] };
+    if numbers.len() <= FEW {
+        for part in within {
+            for &[along, weighted] in &nodes[part.nodes.clone()] {
+                sums.add(part.panel.x[0], along, weighted);
+            }
+        }
+    } else {
+        let middle = numbers.start + numbers.len() / 2;
+        for numbers in [numbers.start..middle, middle..numbers.end] {
+            let half = groups.len();
+            group(groups, parts, numbers, nodes);
+            let half = &groups[half];
+            for (&z, &weight) in Table::of(POINTS).z[..POINTS].iter().zip(&half.weights) {
+                sums.add(half.left, half.half * T::of(1.0 + z), weight);
+            }
+        }
+    }
+    let next = groups.len();
+    let group = &mut groups[number];
+    (group.weights, group.next) = (Table::of(POINTS).shares(&sums.sums), next);
+}
+
+/// `∫ g T_k dθ` over a group.
+struct Sums<T> {
+    left: T,
+    by_half: T,
+    sums: [T; POINTS],
+}
+
+impl<T: Real> Sums<T> {
+    /// Adds a node by the start of a panel in the group and the distance from there.
+    fn add(&mut self, start: T, along: T, weighted: T) {
+        let s = ((start - self.left) + along) * self.by_half - T::one();
+        let (mut t0, mut t1) = (weighted, weighted * s);
+        for sum in &mut self.sums {
+            *sum += t0;
+            (t0, t1) = (t1, (s + s) * t1 - t0);
+        }
+    }
+}
+
+impl<T: Real> Group<T> {
+    /// Whether the parts are to be looked at one by one.
+    pub fn is_near(&self, x: T) -> bool {
+        x > self.near[0] && x < self.near[1]
+    }
+
+    /// Whether it has no groups of its own.
+    pub fn is_few(&self) -> bool {
+        self.parts.len() <= FEW
+    }
+
+    /// `∫ g(t)/(t - x) dθ`
+    pub fn integral(&self, x: T) -> T {
+        let (offset, z) = (self.left - x, &Table::of(POINTS).z);
+        let terms: [T; POINTS] =
+            std::array::from_fn(|m| self.weights[m] / (offset + self.half * T::of(1.0 + z[m])));
+        terms.into_iter().fold(T::zero(), |sum, term| sum + term)
+    }
+}
