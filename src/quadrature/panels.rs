@@ -175,12 +175,12 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let (whole, rest) = x.as_chunks::<LANES>();
         let (out, rest_out) = out.as_chunks_mut::<LANES>();
         for (x, out) in whole.iter().zip(out) {
-            *out = self.in_lanes(pressing, x);
+            *out = self.in_lanes(pressing, x, LANES);
         }
         if let [first, ..] = rest {
             let mut lanes = [*first; LANES];
             lanes[..rest.len()].copy_from_slice(rest);
-            rest_out.copy_from_slice(&self.in_lanes(pressing, &lanes)[..rest.len()]);
+            rest_out.copy_from_slice(&self.in_lanes(pressing, &lanes, rest.len())[..rest.len()]);
         }
         Ok(())
     }
@@ -232,15 +232,15 @@ impl<T: Real> Engine<T> for AtWork<T> {
 }
 
 impl<T: Real> AtWork<T> {
-    /// The pressure at some points strictly inside the contact.
+    /// The pressure at so many points strictly inside the contact.
     #[inline(always)]
-    fn in_lanes(&self, pressing: &Pressing<T>, x: &[T; LANES]) -> [T; LANES] {
+    fn in_lanes(&self, pressing: &Pressing<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
         let on = self.conjugate.on;
         let scale = pressing.kappa / (T::pi() * T::pi());
         let (half, least) = (T::of(0.5), T::of(0.1));
         let [free, bound] = self.strengths(pressing);
         let edges = Edges::of(on, x);
-        let regular = self.conjugate.at(x, &edges);
+        let regular = self.conjugate.at(x, count, &edges);
         std::array::from_fn(|i| {
             let (left, right) = (edges.left[i], edges.right[i]);
             let by_root = half / edges.root[i];

@@ -32,7 +32,7 @@
 use super::angles::Sines;
 use super::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
 use super::continuation::{Stretch, continued};
-use super::far::Far;
+use super::far::{Far, Seen};
 use super::panel::{Panel, within};
 use crate::real::fma;
 use crate::{Interval, Real};
@@ -185,11 +185,15 @@ impl<T: Real> Conjugate<T> {
         Change { joint: Joint::new(panel, on, panel.x[0]), series, terms }
     }
 
-    /// `π² R` at some points strictly inside the contact. Infinite where the slope jumps.
+    /// `π² R` at so many points strictly inside the contact. Infinite where the slope jumps.
     #[inline(always)]
-    pub fn at(&self, x: &[T; LANES], edges: &Edges<T>) -> [T; LANES] {
+    pub fn at(&self, x: &[T; LANES], count: usize, edges: &Edges<T>) -> [T; LANES] {
         if self.is_far {
-            return x.map(|x| self.far.at(x, self.on, self.rounding));
+            let mut sums = [T::zero(); LANES];
+            for (sum, &x) in sums.iter_mut().zip(&x[..count]) {
+                *sum = self.far.at(x, self.on, self.rounding);
+            }
+            return sums;
         }
         let share = T::one() / (self.on.right - self.on.left);
         let z: [T; LANES] = std::array::from_fn(|i| (edges.left[i] - edges.right[i]) * share);
@@ -215,7 +219,7 @@ impl<T: Real> Conjugate<T> {
         let width = on.right - on.left;
         let sine = T::of(2.0) * on.edge_root(x) / width;
         let [mut sum, mut here] = [T::zero(); 2];
-        for panel in within(panels, on) {
+        let mut add = |panel: &Panel<T>| {
             let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
             let length = to - from;
             let away = (from - x).max(x - to).max(T::zero());
@@ -228,8 +232,17 @@ impl<T: Real> Conjugate<T> {
             } else {
                 sum += panel.tail * sine * length / away;
             }
+        };
+        let mut of_groups = T::zero();
+        if self.is_far {
+            self.far.seen_from(x, |seen| match seen {
+                Seen::Part(_, part) => add(&part.panel),
+                Seen::Group(group) => of_groups += sine * group.doubt(x),
+            });
+        } else {
+            within(panels, on).iter().for_each(add);
         }
-        T::of(6.0) * (sum + here)
+        T::of(6.0) * (sum + here + of_groups)
     }
 }
 

@@ -52,50 +52,64 @@ impl<T: Real> Far<T> {
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
-    /// `π² R` at a point.
-    pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
-        let (mut sum, mut log, mut before) = (Sum::new(), Sum::new(), None);
-        let roots = shares(on, x).map(|share| [share.sqrt()]);
-        // From the panels before number j to those from there on.
-        let mut pass = |j: usize, value: Option<T>| {
-            if j > 0 && (value.is_some() || before.is_some()) {
-                let zero = T::zero();
-                let change = value.unwrap_or(zero) - before.unwrap_or(zero);
-                let joint = &self.parts[j].joint;
-                log.add(joint.logarithms([change], &[x], &roots, on, rounding)[0]);
-            }
-            before = value;
-        };
+    /// Shows what a point sees of the panels, from left to right.
+    pub fn seen_from(&self, x: T, mut show: impl FnMut(Seen<'_, T>)) {
         let mut number = 0;
         while let Some(group) = self.groups.get(number) {
             if !group.is_near(x) {
-                sum.add(group.integral(x));
-                pass(group.parts.start, None);
+                show(Seen::Group(group));
                 number = group.next;
                 continue;
             }
+            if group.is_few() {
+                group.parts.clone().for_each(|j| show(Seen::Part(j, &self.parts[j])));
+            }
             number += 1;
-            if !group.is_few() {
-                continue;
-            }
-            for j in group.parts.clone() {
-                let part = &self.parts[j];
-                let s = part.panel.local(x);
-                if s.abs() <= part.reach {
-                    let (regular, value) = part.regular(s);
-                    sum.add(regular);
-                    pass(j, Some(value));
-                } else {
-                    let offset = part.panel.x[0] - x;
-                    let nodes = &self.nodes[part.nodes.clone()];
-                    let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
-                    sum.add(nodes.iter().fold(T::zero(), term));
-                    pass(j, None);
-                }
-            }
         }
+    }
+
+    /// `π² R` at a point.
+    pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
+        let (zero, mut sum, mut log) = (T::zero(), Sum::new(), Sum::new());
+        let roots = shares(on, x).map(|share| [share.sqrt()]);
+        let mut before = None;
+        self.seen_from(x, |seen| {
+            let (number, value) = match seen {
+                Seen::Group(group) => {
+                    sum.add(group.integral(x));
+                    (group.parts.start, None)
+                }
+                Seen::Part(number, part) => {
+                    let s = part.panel.local(x);
+                    if s.abs() <= part.reach {
+                        let (regular, value) = part.regular(s);
+                        sum.add(regular);
+                        (number, Some(value))
+                    } else {
+                        let offset = part.panel.x[0] - x;
+                        let nodes = &self.nodes[part.nodes.clone()];
+                        let term =
+                            |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
+                        sum.add(nodes.iter().fold(zero, term));
+                        (number, None)
+                    }
+                }
+            };
+            if number > 0 && (value.is_some() || before.is_some()) {
+                let change = value.unwrap_or(zero) - before.unwrap_or(zero);
+                let joint = &self.parts[number].joint;
+                log.add(joint.logarithms([change], &[x], &roots, on, rounding)[0]);
+            }
+            before = value;
+        });
         on.edge_root(x) * sum.value() + log.value()
     }
+}
+
+/// What a point sees: panels one by one, by their numbers, or many as one.
+pub(super) enum Seen<'f, T> {
+    Part(usize, &'f Part<T>),
+    Group(&'f Group<T>),
 }
 
 /// The part of a panel between two points, expanded anew.

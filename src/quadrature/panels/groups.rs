@@ -34,6 +34,8 @@ pub(super) struct Group<T> {
     half: T,
     /// `W_m`.
     weights: [T; POINTS],
+    /// The errors of the panels, each times its length.
+    tail: T,
     /// The number of the next group that is not one of this group's.
     pub next: usize,
 }
@@ -50,14 +52,16 @@ pub(super) fn group<T: Real>(
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
     let (left, right) = (first.panel.x[0], last.panel.x[1]);
     let length = right - left;
-    let mut near = [left - length, right + length];
+    let (mut near, mut tail) = ([left - length, right + length], T::zero());
     for part in within {
+        tail += part.panel.tail * (part.panel.half() + part.panel.half());
         let [from, to] = part.reached();
         near = [near[0].min(from), near[1].max(to)];
     }
     let half = T::of(0.5) * length;
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
-    groups.push(Group { parts: numbers.clone(), near, left, half, weights, next: number + 1 });
+    let (parts_of, next) = (numbers.clone(), number + 1);
+    groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
     let mut sums = Sums { left, by_half: T::one() / half, sums: [T::zero(); POINTS] };
     if numbers.len() <= FEW {
         for part in within {
@@ -109,6 +113,12 @@ impl<T: Real> Group<T> {
     /// Whether it has no groups of its own.
     pub fn is_few(&self) -> bool {
         self.parts.len() <= FEW
+    }
+
+    /// What the errors of the panels make of the integral at most, but for the factor of dθ.
+    pub fn doubt(&self, x: T) -> T {
+        let away = (self.left - x).max(x - (self.left + self.half + self.half));
+        self.tail / away
     }
 
     /// `∫ g(t)/(t - x) dθ`
