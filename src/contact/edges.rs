@@ -1,7 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Moments, Pressing};
+use crate::quadrature::{Engine, Moments, Pressing, complete};
 use crate::{ContactError, Interval, Real};
 
 /// What becomes of one edge of the contact.
@@ -367,7 +367,7 @@ impl<T: Real> Goal<T> {
             // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
                 engine.prepare(gap, on)?;
-                *cost += engine.complete(gap)?;
+                complete(engine, gap, on, cost)?;
                 let pressing = Pressing { kappa, load, free: [false; 2] };
                 let [x_a, x_b] = wanted.places(on);
                 let mut error = T::zero();

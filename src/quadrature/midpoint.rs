@@ -38,7 +38,7 @@
 //! jump of the slope at a joint is added by its size and distance.
 
 use super::moments::moments;
-use super::{Engine, Estimate, Moments, Pressing, Quadrature};
+use super::{Engine, Estimate, Moments, Pressing, Quadrature, UNKEPT};
 use crate::gap::{Cost, Gap, Sampler, Side};
 use crate::real::{Sum, same};
 use crate::{ContactError, Interval, Real};
@@ -138,6 +138,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
+        gap.check_budget(self.sampler.cost, UNKEPT, 0, on)?;
         moments(&mut self.sampler, gap, on)
     }
 

@@ -264,6 +264,7 @@ impl<T: Real> Cover<T> {
         level: usize,
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut n = if self.rough { 4 } else { self.initial };
+        gap.check_budget(self.cost, 1, 0, Interval { left: x[0], right: x[1] })?;
         loop {
             let (mut panel, seen) = self.panel(gap, x, n)?;
             let Seen { slope, bodies, noise, off, missed } = seen;
