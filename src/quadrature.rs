@@ -82,6 +82,11 @@ pub trait Engine<T: Real>: Send + Sync {
         Ok(None)
     }
 
+    /// Is told the limits that are given, at -b and at a, before it takes samples up to there: between
+    /// the last of those and a given limit it would not see what the bodies do. By default nothing
+    /// comes of it.
+    fn hold(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
+
     /// The stretch over which samples are at hand. `None` (the default) if none are kept.
     fn covered(&self) -> Option<Interval<T>> {
         None

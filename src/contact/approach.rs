@@ -100,6 +100,7 @@ pub(super) fn with_edges<T: Real>(
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     let gap = &contact.gap;
+    engine.hold(gap, conditions.edges.map(|edge| edge.limit()));
     if let [Edge::Fixed(left), Edge::Fixed(right)] = conditions.edges {
         let on = Interval { left, right };
         super::check(on)?;
