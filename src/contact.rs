@@ -205,7 +205,7 @@ impl<'a, T: Real> Contact<'a, T> {
     /// bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`] from the search; where [`certified`](Self::certified), those of
+    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, load: Load<T>) -> Result<Solution<'_, T>, ContactError<T>> {
         let mut engine = self.quadrature.engine()?;

@@ -143,6 +143,21 @@ pub enum ContactError<T: Real> {
         /// The contact.
         interval: Interval<T>,
     },
+    /// The search has spent its budget of evaluations.
+    #[error(
+        "no contact found in {evaluations} evaluations of the curves, the last from x = {:?} to {:?}; \
+         the budget is {budget}: give a start nearer to the contact, declare joints, or set a looser \
+         tolerance", last.left, last.right
+    )]
+    Evaluations {
+        /// Evaluations of the curves, or values of the slope of the gap, by then.
+        evaluations: usize,
+        /// How many may be made: 2²⁰ and 1024 for each piece of the bodies; by [`Midpoint`](crate::Midpoint),
+        /// which keeps no samples, sixteen times as many, and besides what 4096 pressures take.
+        budget: usize,
+        /// The stretch of `x` sampled last.
+        last: Interval<T>,
+    },
     /// The search for the limits gave up.
     #[error("limits not found: {source}; best so far -b = {:?}, a = {:?}", best.left, best.right)]
     LimitSearch {

@@ -21,6 +21,12 @@ use crate::search::LimitSearch;
 use crate::{Body, ContactError, ParametricProfile, ProfileError, Real};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+/// Evaluations of smooth bodies after which a search is given up: thousands of times what one takes.
+const MOST_EVALUATIONS: usize = 1 << 20;
+
+/// As many more for each piece.
+const MOST_FOR_A_PIECE: usize = 1 << 10;
+
 /// The slope of the gap between two bodies, not yet sampled.
 #[derive(Clone)]
 pub struct Gap<'a, T: Real> {
@@ -276,6 +282,29 @@ impl<'a, T: Real> Gap<'a, T> {
 
     pub(crate) fn inversion(&self) -> &dyn LimitSearch<T> {
         self.inversion
+    }
+
+    /// Whether what a search has cost is within its budget, or several times that, given what it has
+    /// sampled last.
+    pub(crate) fn check_budget(
+        &self,
+        cost: Cost,
+        times: usize,
+        more: usize,
+        last: crate::Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        let evaluations = cost.evaluations.max(cost.samples);
+        if evaluations <= MOST_EVALUATIONS {
+            return Ok(());
+        }
+        let pieces: usize = self.bodies.iter().map(Surface::len).sum();
+        let each = MOST_EVALUATIONS.saturating_add(MOST_FOR_A_PIECE.saturating_mul(pieces));
+        let budget = each.saturating_mul(times).saturating_add(more);
+        if evaluations <= budget {
+            Ok(())
+        } else {
+            Err(ContactError::Evaluations { evaluations, budget, last })
+        }
     }
 
     /// A number that no other gap has, unless it is a clone.

@@ -31,6 +31,25 @@ pub use panels::Panels;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 
+/// How many times the budget of a search may be spent where no samples are kept.
+const UNKEPT: usize = 16;
+
+/// How often in one search all may be sampled for a pressure.
+const MOST_PRESSURES: usize = 4096;
+
+/// Samples what is still missing for the pressure, as part of a search that has cost so much.
+pub(crate) fn complete<T: Real>(
+    engine: &dyn Engine<T>,
+    gap: &Gap<'_, T>,
+    on: Interval<T>,
+    cost: &mut Cost,
+) -> Result<(), ContactError<T>> {
+    let more = engine.complete(gap)?;
+    *cost += more;
+    let pressures = more.evaluations.max(more.samples).saturating_mul(MOST_PRESSURES);
+    if pressures > 0 { gap.check_budget(*cost, UNKEPT, pressures, on) } else { Ok(()) }
+}
+
 /// A way to integrate the slope of a gap.
 pub trait Quadrature<T: Real>: Send + Sync {
     /// Sets it up for work.
@@ -62,6 +81,11 @@ pub trait Engine<T: Real>: Send + Sync {
     ) -> Result<Option<T>, ContactError<T>> {
         Ok(None)
     }
+
+    /// Is told the limits that are given, at -b and at a, before it takes samples up to there: between
+    /// the last of those and a given limit it would not see what the bodies do. By default nothing
+    /// comes of it.
+    fn hold(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
 
     /// The stretch over which samples are at hand. `None` (the default) if none are kept.
     fn covered(&self) -> Option<Interval<T>> {

@@ -77,7 +77,6 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
             exponents: Exponents::Even,
         },
     );
-    let mut rough = false;
     if rng.chance(0.5) {
         contact = contact.kappa(number(rng));
     }
@@ -88,11 +87,11 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
         let [left, right] = interval(rng);
         contact = contact.start(Interval { left, right });
     }
-    match rng.below(8) {
+    let quadrature = rng.below(8);
+    match quadrature {
         0 => contact = contact.quadrature(&panels),
         1 => contact = contact.quadrature(&midpoint),
         2 => {
-            rough = true;
             contact = contact
                 .quadrature(&midpoint)
                 .edge_pressure(EdgePressure::zero(number(rng), number(rng)));
@@ -107,10 +106,13 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
         Load::ToPeak(value),
     ][rng.below(4)];
     let solved = contact.solve(load);
-    let most = if rough { 40_000_000 } else { 4_000_000 };
+    // The budgets of the documentation, and what is not counted: looks at single places.
+    let most = if matches!(quadrature, 1 | 2) { 40_000_000 } else { 1_100_000 };
     let took = evaluations.load(Ordering::Relaxed);
     if took > most {
-        return Err(format!("evaluations: {took} for {load:?} on {contact:?}"));
+        return Err(format!(
+            "evaluations: {took} by quadrature {quadrature} for {load:?} on {contact:?}"
+        ));
     }
     let Ok(solution) = solved else { return Ok(false) };
     let on = solution.interval();

@@ -100,6 +100,7 @@ pub(super) fn with_edges<T: Real>(
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     let gap = &contact.gap;
+    let limits = conditions.edges.map(|edge| edge.limit());
     if let [Edge::Fixed(left), Edge::Fixed(right)] = conditions.edges {
         let on = Interval { left, right };
         super::check(on)?;
@@ -107,18 +108,20 @@ pub(super) fn with_edges<T: Real>(
         let Control::Load(load) = conditions.control else {
             return Err(ContactError::Control { interval: on });
         };
+        engine.hold(gap, limits);
         if engine.covered() != Some(on) {
             engine.cover(gap, on, false)?;
         }
         let m = engine.moments(gap, on)?;
         return Ok(Found::new(conditions, on, load, None, &m));
     }
-    for limit in conditions.edges.iter().filter_map(|edge| edge.limit()) {
+    for limit in limits.into_iter().flatten() {
         let range = gap.range();
         if !(limit >= range[0] && limit <= range[1]) {
             return Err(ContactError::OutsideBodies { x: limit, range });
         }
     }
+    engine.hold(gap, limits);
     let mut settled = None;
     let range = gap.range();
     let warm = warm.filter(|on| on.left >= range[0] && on.right <= range[1]);

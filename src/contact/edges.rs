@@ -1,7 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Moments, Pressing};
+use crate::quadrature::{Engine, Moments, Pressing, complete};
 use crate::{ContactError, Interval, Real};
 
 /// What becomes of one edge of the contact.
@@ -328,18 +328,19 @@ impl<T: Real> Goal<T> {
                 });
                 let half = T::of(0.5);
                 // Only the free edges count.
-                let (at_a, at_b, needed, borne) = match self.limits() {
+                let (at_a, at_b, needed, borne, sum) = match self.limits() {
                     [Some(_), None] => {
                         let (needed, borne) = (load + pull[1], carried + balance);
-                        (needed - borne, needed - borne, needed, borne)
+                        (needed - borne, needed - borne, needed, borne, m.first + m.mean)
                     }
                     [None, Some(_)] => {
                         let (needed, borne) = (load + pull[0], carried - balance);
-                        (needed - borne, needed - borne, needed, borne)
+                        (needed - borne, needed - borne, needed, borne, m.first - m.mean)
                     }
                     _ => {
                         let (at_a, at_b) = (load + pull[1] - carried, load + pull[0] - carried);
-                        (at_a - balance, at_b + balance, load + half * (pull[0] + pull[1]), carried)
+                        let needed = load + half * (pull[0] + pull[1]);
+                        (at_a - balance, at_b + balance, needed, carried, m.first)
                     }
                 };
                 let ratio = needed / borne;
@@ -359,14 +360,14 @@ impl<T: Real> Goal<T> {
                     floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.size),
                     carried: Some(borne),
                     growth,
-                    error: m.error / m.first.abs() + m.inversion / on.half_width() + rounding,
+                    error: m.error / sum.abs() + m.inversion / on.half_width() + rounding,
                 })
             }
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
             // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
                 engine.prepare(gap, on)?;
-                *cost += engine.complete(gap)?;
+                complete(engine, gap, on, cost)?;
                 let pressing = Pressing { kappa, load, free: [false; 2] };
                 let [x_a, x_b] = wanted.places(on);
                 let mut error = T::zero();

@@ -33,6 +33,10 @@ use crate::{ContactError, Interval, Real};
 /// largest number to the smallest.
 const MOST_WIDTHS: usize = 2200;
 
+/// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is
+/// as much narrower would fall between the nodes.
+const WIDEST: f64 = 16.0;
+
 /// Limits that meet the conditions at the edges.
 pub(super) struct Nested<T> {
     pub on: Interval<T>,
@@ -178,6 +182,11 @@ impl<'s, T: Real> Search<'s, T> {
     }
 
     fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+        // Panels much wider than the contact are not as good as they look.
+        let covered = self.engine.covered().map_or(T::zero(), |covered| covered.half_width());
+        if covered > T::of(WIDEST) * on.half_width() {
+            self.engine.forget();
+        }
         let excess = self.goal.excess(self.gap, on, self.engine, self.cost)?;
         if !excess.is_finite() {
             return Err(ContactError::Overflow { interval: on });

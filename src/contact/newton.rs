@@ -106,7 +106,7 @@ pub(super) fn settle<T: Real>(
             let noise = system.error(&inverse, &m);
             let rounding = [on.right, on.left].map(|x| T::epsilon() * x.abs() / on.half_width());
             let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
-            let stalled = slow && size <= T::of(1e3) * least && system.is_met(&m, rounding);
+            let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
             if done || stalled {
                 if !(opens(engine, conditions, on) && system.is_stable(conditions)) {
                     return Ok(None);
@@ -212,6 +212,12 @@ fn opens<T: Real>(engine: &dyn Engine<T>, conditions: &Conditions<T>, on: Interv
             && (!right.is_free() || opens(on.right, T::one()))
 }
 
+/// How large noise may be that is said to be so large. It is known from a few coefficients only; but
+/// what a loose tolerance leaves open does not hide that a step is still too short.
+fn doubtful<T: Real>(noise: T) -> T {
+    (T::of(1e3) * noise).min(T::epsilon().sqrt()).max(T::of(4.0) * noise)
+}
+
 /// The equations, linearised: rows for a and -b. Limits are in units of the half-width, forces in
 /// those of `scale`.
 struct System<T> {
@@ -293,7 +299,7 @@ impl<T: Real> System<T> {
     /// allow. (Small steps alone are no proof: a poor sketch may creep.)
     fn is_met(&self, m: &Moments<T>, rounding: [T; 2]) -> bool {
         let left_open = (self.stiffness * m.error + self.force(rounding)) / self.scale;
-        self.residual.iter().all(|residual| residual.abs() <= T::of(1e3) * left_open)
+        self.residual.iter().all(|residual| residual.abs() <= doubtful(left_open))
     }
 
     /// The load that moves the limits by so much of the half-width.

@@ -6,7 +6,7 @@
 use super::edges::{Conditions, Control};
 use super::{Contact, Found, approach};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Pressing};
+use crate::quadrature::{Engine, Pressing, complete};
 use crate::search::Bracket;
 use crate::{ContactError, Interval, Real};
 
@@ -85,7 +85,7 @@ fn attempt<T: Real>(
     let conditions = Conditions { kappa, edges, control: Control::HalfWidth(half_width) };
     let found = approach::find(contact, conditions, engine, last, cost)?;
     engine.prepare(gap, found.interval)?;
-    engine.complete(gap)?;
+    complete(engine, gap, found.interval, cost)?;
     let pressing = Pressing { kappa, load: found.load, free: found.free };
     let [_, pressure] = peak(engine, gap, &pressing, found.interval)?;
     if pressure.is_finite() && found.free == [true; 2] {

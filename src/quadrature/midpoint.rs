@@ -38,7 +38,7 @@
 //! jump of the slope at a joint is added by its size and distance.
 
 use super::moments::moments;
-use super::{Engine, Estimate, Moments, Pressing, Quadrature};
+use super::{Engine, Estimate, Moments, Pressing, Quadrature, UNKEPT};
 use crate::gap::{Cost, Gap, Sampler, Side};
 use crate::real::{Sum, same};
 use crate::{ContactError, Interval, Real};
@@ -111,7 +111,7 @@ impl<T: Real> Quadrature<T> for Midpoint {
         };
         let sampler = Sampler::default();
         let sums = OnceLock::new();
-        Ok(Box::new(AtWork { rule: *self, levels, sampler, on: None, sums }))
+        Ok(Box::new(AtWork { rule: *self, levels, sampler, on: None, sums, moments: None }))
     }
 }
 
@@ -123,13 +123,15 @@ struct AtWork<T: Real> {
     /// The interval prepared, and the levels sampled on it when they are first needed.
     on: Option<Interval<T>>,
     sums: OnceLock<Sums<T>>,
+    /// The interval last integrated over, and the error of its edge integrals.
+    moments: Option<(Interval<T>, T)>,
 }
 
 impl<T: Real> Engine<T> for AtWork<T> {
     fn reset(&mut self, same_bodies: bool) {
         self.sampler.cost = Cost::default();
         if !same_bodies {
-            (self.sampler, self.on) = (Sampler::default(), None);
+            (self.sampler, self.on, self.moments) = (Sampler::default(), None, None);
         }
     }
 
@@ -138,7 +140,10 @@ impl<T: Real> Engine<T> for AtWork<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
-        moments(&mut self.sampler, gap, on)
+        gap.check_budget(self.sampler.cost, UNKEPT, 0, on)?;
+        let m = moments(&mut self.sampler, gap, on)?;
+        self.moments = Some((on, m.error));
+        Ok(m)
     }
 
     fn prepare(&mut self, _gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
@@ -181,7 +186,11 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let edge = T::pi() * T::pi() * sums.on.edge_root(x);
         let Pressing { kappa, load, .. } = *pressing;
         let value = (T::pi() * load - kappa * value) / edge;
-        Ok(Estimate { value, error: kappa * error / edge })
+        // An error of the edge integrals is one of the limits, or of the load.
+        let same = |(on, _): &(Interval<T>, T)| on.is_same(&sums.on);
+        let of_edges = self.moments.filter(same).map_or(T::zero(), |(_, error)| error);
+        let of_edges = T::of(6.0) * T::pi() * sums.on.half_width() * of_edges;
+        Ok(Estimate { value, error: kappa * (error + of_edges) / edge })
     }
 
     fn cost(&self) -> Cost {

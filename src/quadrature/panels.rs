@@ -212,6 +212,14 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.cover.interval().filter(|_| self.fall.is_none())
     }
 
+    fn hold(&mut self, gap: &Gap<'_, T>, limits: [Option<T>; 2]) {
+        for (i, limit) in limits.into_iter().enumerate() {
+            if self.cover.held[i].map(|held| held.limit) != limit {
+                self.cover.held[i] = limit.and_then(|x| self.cover.look_at(gap, i, x));
+            }
+        }
+    }
+
     fn slope(&self, x: T) -> Option<T> {
         self.cover.slope(x)
     }

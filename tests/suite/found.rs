@@ -5,7 +5,13 @@ use crate::common;
 
 use common::{Profile, graph, join};
 use linecontact::search::Brent;
-use linecontact::{Contact, Flat, Interval, Load, Panels};
+use linecontact::{
+    Contact, ContactError, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load,
+    Midpoint, Panels,
+};
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The slope t + c x, and j more to the right of x₀.
 fn with_jump(j: f64, x0: f64, c: f64, t: f64) -> Profile {
@@ -50,12 +56,6 @@ fn an_edge_just_beyond_a_jump_of_the_slope() {
 /// A panel of many nodes has only noise left, its halves with fewer nodes have more.
 #[test]
 fn halves_of_a_panel_that_is_all_but_resolved() {
-    let tanh = |c: f64, w: f64, x0: f64| {
-        move |x: f64| {
-            let t: f64 = (x - x0) / w;
-            [c * w * (t.abs() + (-2.0 * t.abs()).exp().ln_1p()), c * t.tanh()]
-        }
-    };
     let (one, two) = (
         tanh(1.679356336593628, 0.15086889266967773, -0.7687158584594727),
         tanh(1.2392243146896362, 0.7830978035926819, 0.0),
@@ -122,4 +122,206 @@ fn a_steep_line_before_a_series() {
         let estimate = solution.limits_error().unwrap();
         assert!(off <= estimate, "{tolerance}: {off:e} > {estimate:e}");
     }
+}
+
+/// m₀ and m₁ of a slope without joints, by the midpoint rule in θ: to rounding, if it is smooth on
+/// the scale of the contact.
+fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
+    const N: usize = 4000;
+    let mut sums = [0.0; 2];
+    for i in 0..N {
+        let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
+        let g = slope(on.centre() + on.half_width() * cos) / N as f64;
+        sums = [sums[0] + g, sums[1] + g * cos];
+    }
+    sums
+}
+
+/// c tanh((x - x₀)/w) and its integral.
+fn tanh(c: f64, w: f64, x0: f64) -> impl Fn(f64) -> [f64; 2] + Copy + Send + Sync {
+    move |x: f64| {
+        let t = (x - x0) / w;
+        [c * w * (t.abs() + (-2.0 * t.abs()).exp().ln_1p()), c * t.tanh()]
+    }
+}
+
+/// A corner, and right of it a step of the slope as narrow as the contact, of bodies a million times
+/// as wide: panels over all of them do not see it, and must not be believed.
+#[test]
+fn a_step_of_a_millionth_of_the_bodies() {
+    let cases = [
+        // c, w and x₀ of the step, curvature, left limit, half-width
+        (3.7, 1.7e-5, 7.3e-6, 14.0, -5.9e-6, 5.9e-6),
+        (0.392, 1.7e-6, -0.078409, 2.1, -0.078441485, 1.98e-5),
+        (1.0, 4e-6, 0.3, 0.5, 0.3 - 1.1e-5, 8e-6),
+    ];
+    for (c, w, x0, curvature, left, l) in cases {
+        let step = tanh(c, w, x0);
+        let on = Interval { left, right: left + 2.0 * l };
+        let rise = move |x: f64| curvature * (x - x0) + step(x)[1];
+        let [mean, first] = edge_integrals(on, rise);
+        let body = graph(-4.3, 4.5, move |x| {
+            let (t, [y, slope]) = (x - x0, step(x));
+            [curvature * t * t / 2.0 + y - mean * t, curvature * t + slope - mean]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Fixed(left), Edge::Free);
+        let brent = Brent::default();
+        for contact in [contact.clone(), contact.search(&brent)] {
+            let solution = contact.solve(Load::PerLength(l * first)).unwrap();
+            let off = (solution.a() - on.right).abs() / l;
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= 3.0 * estimate && estimate < 1e-8, "{off:e}, {estimate:e}");
+        }
+    }
+}
+
+/// A loose tolerance of the slope must not hide that the search is not there yet: beyond the contact
+/// the body is a million times as stiff, and from there Newton's steps are short.
+#[test]
+fn from_a_stiff_stretch_with_a_loose_tolerance() {
+    // The slope c (x - x₀), and k more beyond x₁: with a corner at -b, F = L (c (c₀ - x₀) + c L/2).
+    for (c, x0, x1, k, left, l, tolerance) in [
+        (0.3425, -0.15, 0.9776, 2f64.powi(22), -1.08, 0.933, 3e-4),
+        (0.3425, -0.15, 0.9776, 2f64.powi(25), -1.08, 0.933, 1e-3),
+        (2.0, 0.1, 0.4, 2f64.powi(20), -0.3, 0.3, 1e-4),
+    ] {
+        let flat = move |x: f64| [c * (x - x0).powi(2) / 2.0, c * (x - x0)];
+        let stiff = move |x: f64| {
+            let [[y, dy], t] = [flat(x), [x - x1; 2]];
+            [y + k * t[0] * t[0] / 2.0, dy + k * t[1]]
+        };
+        let declared = join(vec![graph(-4.7, x1, flat), graph(x1, 4.5, stiff)]);
+        let kinked = graph(-4.7, 4.5, move |x| if x < x1 { flat(x) } else { stiff(x) });
+        let load = l * c * (left + l - x0 + l / 2.0);
+        let rule = Panels { tolerance };
+        for body in [&declared, &kinked] {
+            let contact = Contact::new(&Flat, &**body).unwrap().quadrature(&rule);
+            let contact = contact.edges(Edge::Fixed(left), Edge::Free);
+            let solution = contact.solve(Load::PerLength(load)).unwrap();
+            let off = (solution.a() - left - 2.0 * l).abs() / l;
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= 3.0 * estimate + tolerance, "{off:e}, {estimate:e}");
+        }
+    }
+}
+
+/// Where nobody has declared them, a kink or a jump between a corner and the first sample show in
+/// the slope at the corner alone.
+#[test]
+fn a_kink_beside_a_corner() {
+    let (left, l) = (-0.4, 0.7);
+    for share in [1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 0.02] {
+        for (jump, kink) in [(0.3, 0.0), (0.0, 2.0), (0.1, 100.0)] {
+            // Beyond the joint, at cos θ₀, the slope is larger by j + k (x - x₁).
+            let (x1, cos) = (left + share * l, share - 1.0);
+            let (theta, sin) = (f64::acos(cos), (1.0 - cos * cos).sqrt());
+            let m0 = (jump * theta + kink * l * (sin - theta * cos)) / PI;
+            let m1 = (jump * sin + kink * l * (theta - sin * cos) / 2.0) / PI;
+            let at = move |x: f64| {
+                let t = if x > x1 { x - x1 } else { 0.0 };
+                let more = if x > x1 { jump } else { 0.0 } + kink * t;
+                [x * x / 2.0 + jump * t + kink * t * t / 2.0, x + more]
+            };
+            let [body, mirrored] =
+                [graph(-4.0, 4.0, at), graph(-4.0, 4.0, move |x| [at(-x)[0], -at(-x)[1]])];
+            let load = l * (left + l + m0 + l / 2.0 + m1);
+            let free = |contact: &Contact<'_, f64>, edge: f64| {
+                let solution = contact.solve(Load::PerLength(load)).unwrap();
+                let on = solution.interval();
+                let off = (on.left + on.right - edge).abs() / l;
+                let estimate = solution.limits_error().unwrap();
+                assert!(off <= 3.0 * estimate + 1e-8, "{share} {jump}: {off:e}, {estimate:e}");
+            };
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            free(&contact.edges(Edge::Fixed(left), Edge::Free), 2.0 * (left + l));
+            let contact = Contact::new(&Flat, &*mirrored).unwrap();
+            free(&contact.edges(Edge::Free, Edge::Fixed(-left)), -2.0 * (left + l));
+        }
+    }
+}
+
+/// The load of a given width has the error of the edge integrals, and so has the pressure: by the
+/// midpoint rule no less than by panels.
+#[test]
+fn pressures_of_a_given_width_by_the_midpoint_rule() {
+    let rule = Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfOdd };
+    for (c, w, x0, l) in [(8.15, 0.051, 0.742, 1.2394), (6.35, 0.0175, 0.292, 0.5184)] {
+        let step = tanh(c, w, x0);
+        let rise = move |x: f64| x + step(x)[1];
+        let [mean, first] = edge_integrals(Interval { left: -l, right: l }, rise);
+        let body = graph(-4.0, 4.0, move |x| {
+            let [y, dy] = step(x);
+            [x * x / 2.0 + y - mean * x, x + dy - mean]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        assert!((solution.load() / (l * first) - 1.0).abs() < 1e-7);
+        let pressure = solution.pressure().unwrap();
+        // Gauss's rule of the first kind, at the nodes of the second: exact for polynomials, poles
+        // and all.
+        const N: usize = 6000;
+        for i in (300..N - 300).step_by(500) {
+            let z = (PI * i as f64 / N as f64).cos();
+            let term = |i: usize| {
+                let t = (PI * (i as f64 + 0.5) / N as f64).cos();
+                (rise(l * t) - mean) / (t - z) / N as f64
+            };
+            let exact = (1.0 - z * z).sqrt() / PI * (0..N).map(term).sum::<f64>();
+            let got = pressure.estimate(l * z, &mut Cost::default()).unwrap();
+            let off = (got.value - exact).abs();
+            assert!(off <= 3.0 * got.error + 1e-11 * exact, "{z}: {off:e}, {:e}", got.error);
+            assert!(
+                z.abs() > 0.9 || got.error < 1e-3 * exact,
+                "{z}: {off:e}, {:e} of {exact:e}",
+                got.error
+            );
+        }
+    }
+}
+
+/// The midpoint rule's estimates where a kink, which nobody has declared, is anywhere.
+#[test]
+fn limits_by_the_midpoint_rule_with_a_kink() {
+    let rule = Midpoint::default();
+    let l: f64 = 0.6;
+    for i in 0..24 {
+        let z = -0.9 + 0.0777 * f64::from(i);
+        let (theta, sin) = (z.acos(), (1.0 - z * z).sqrt());
+        let m0 = 3.0 * l * (sin - theta * z) / PI;
+        let m1 = l / 2.0 + 3.0 * l * (theta - sin * z) / (2.0 * PI);
+        let body = graph(-4.0, 4.0, move |x| {
+            let t = (x - l * z).max(0.0);
+            [x * x / 2.0 + 1.5 * t * t - m0 * x, x + 3.0 * t - m0]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let solution = contact.solve(Load::PerLength(l * m1)).unwrap();
+        let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
+        let estimate = solution.limits_error().unwrap();
+        assert!(off <= 3.0 * estimate && estimate < 1e-3, "{z}: {off:e}, {estimate:e}");
+    }
+}
+
+/// A curve with hundreds of kinks, which nobody has declared, takes panel after panel; a search for a
+/// width on top of that has a budget.
+#[test]
+fn a_search_spends_no_more_than_its_budget() {
+    let taken = Arc::new(AtomicUsize::new(0));
+    let counter = Arc::clone(&taken);
+    let saw = Curve::new([-1.0, 1.0], move |k: f64| {
+        counter.fetch_add(1, Ordering::Relaxed);
+        let (x, dx) = (k + 0.1 * k * k * k, 1.0 + 0.3 * k * k);
+        let u = (400.0 * x).rem_euclid(1.0);
+        let tooth = (u + u - 1.0).abs() - 0.5;
+        let sum = if u < 0.5 { u - u * u } else { 0.25 + (u - 0.5).powi(2) } - u / 2.0;
+        CurvePoint { x, y: x * x / 2.0 + sum / 4000.0, dx, dy: (x + tooth / 10.0) * dx }
+    });
+    let contact = Contact::new(&Flat, &saw).unwrap();
+    let error = contact.solve(Load::ToPeak(0.07)).unwrap_err();
+    let taken = taken.load(Ordering::Relaxed);
+    assert!(taken < (1 << 20) + 4096, "{taken}");
+    let ContactError::Evaluations { evaluations, budget, last } = error else { panic!("{error}") };
+    assert_eq!(budget, (1 << 20) + 2048);
+    assert!(evaluations > budget && evaluations < budget + 256, "{evaluations}");
+    assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
+    assert!(contact.solve(Load::ToHalfWidth(0.3)).is_ok());
 }

@@ -2,7 +2,7 @@
 
 use super::chebyshev::{SIZES, Table, by_size, size_for, value_at};
 use super::panel::{Panel, Verdict, judge};
-use crate::gap::{Cost, Gap, Knot, Trace, aim};
+use crate::gap::{Cost, Gap, Knot, Sampler, Trace, aim};
 use crate::real::fma;
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
@@ -38,6 +38,15 @@ struct Seen<T> {
     off: T,
     /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
     missed: T,
+}
+
+/// What the gap is like at a given limit, where a row of panels ends.
+#[derive(Clone, Copy)]
+pub(crate) struct Held<T> {
+    pub limit: T,
+    /// A place as close to it as can be told from it, and the slope there.
+    x: T,
+    slope: T,
 }
 
 /// A panel that may have to be split.
@@ -82,6 +91,8 @@ pub(crate) struct Cover<T> {
     pub rough: bool,
     pub tolerance: T,
     pub cost: Cost,
+    /// Looked at beforehand: at the left and at the right end.
+    pub held: [Option<Held<T>>; 2],
     /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
     /// first.
     derivatives: Vec<Seen<T>>,
@@ -99,6 +110,7 @@ impl<T: Real> Cover<T> {
             rough: false,
             tolerance,
             cost: Cost::default(),
+            held: [None; 2],
             derivatives: Vec::new(),
             derivative_sizes: Vec::new(),
         }
@@ -111,7 +123,24 @@ impl<T: Real> Cover<T> {
         self.derivative_sizes.clear();
         if !same_bodies {
             self.traces.iter_mut().for_each(Trace::clear);
+            self.held = [None; 2];
         }
+    }
+
+    /// Looks at a limit that is given, unless it is at the end of a piece, of which more is known.
+    pub fn look_at(&mut self, gap: &Gap<'_, T>, end: usize, limit: T) -> Option<Held<T>> {
+        let [from, to] = gap.range();
+        if !(limit > from && limit < to) || gap.is_joint(limit) {
+            return None;
+        }
+        // At the limit itself a formula may be that of what is beyond.
+        let fine = T::of(4.0) * T::epsilon();
+        let inward = fine * limit.abs().max((to - from).min(T::one() / fine));
+        let x = if end == 0 { limit + inward } else { limit - inward };
+        let mut sampler = Sampler::default();
+        let slope = sampler.slope(gap, x);
+        self.cost += sampler.cost;
+        slope.ok().map(|slope| Held { limit, x, slope })
     }
 
     /// What is covered.
@@ -272,6 +301,8 @@ impl<T: Real> Cover<T> {
     fn try_out(&mut self, gap: &Gap<'_, T>, trial: &mut Trial<T>) -> Result<(), ContactError<T>> {
         let (panel, level) = (&mut trial.panel, trial.level);
         let mut n = if self.rough { 4 } else { self.initial };
+        let [left, right] = panel.x;
+        gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let Seen { slope, bodies, noise, off, missed } =
                 by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
@@ -389,6 +420,13 @@ impl<T: Real> Cover<T> {
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
             seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.rough));
         }
+        panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
+        panel.count(N);
+        for (held, end) in self.held.iter().zip(x) {
+            if let Some(held) = held.filter(|held| held.limit == end && !self.rough) {
+                seen.missed = seen.missed.max((panel.value(held.x) - held.slope).abs());
+            }
+        }
         self.derivatives.clear();
         for part in 1..T::PARTS {
             let [lower, upper] =
@@ -396,8 +434,6 @@ impl<T: Real> Cover<T> {
             let seen = self.seen(x, &nodes, reach, [&lower, &upper]);
             self.derivatives.push(seen);
         }
-        panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
-        panel.count(N);
         Ok(seen)
     }
 
