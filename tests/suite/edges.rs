@@ -361,7 +361,70 @@ fn beyond_pull_off_the_error_says_so() {
             assert_relative_eq!(load, part * case.load(), epsilon = 0.0, max_relative = 1e-15);
             // A contact was found somewhere between none of the load and pull-off.
             assert!(least >= case.load() * (1.0 + 1e-9), "{least}");
+            // And close to pull-off, which the message is to tell.
+            assert!(least <= case.load() * (1.0 - 2e-3), "{least}");
         }
+    }
+}
+
+#[test]
+fn a_pull_may_fit_bodies_too_short_for_no_load() {
+    // F = κ L²/2 - 2 sqrt(κ w L) on bodies from -1 to 1, least at L³ = w/κ.
+    let body = Quadratic([0.0, 1.0, 0.0]).body(-1.0, 1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
+    for narrowest in [0.5, 0.8, 0.95] {
+        let work = KAPPA * f64::powi(narrowest, 3);
+        let load = |l: f64| KAPPA * l * l / 2.0 - 2.0 * (KAPPA * work * l).sqrt();
+        let glued = contact.clone().edges(Edge::Adhesive(work), Edge::Adhesive(work));
+        let solve = |load| Ok(glued.solve(Load::PerLength(load))?.a());
+        for part in [0.1, 0.3, 0.6, 0.9, 0.99] {
+            let l = narrowest + part * (1.0 - narrowest);
+            let found = solve(load(l)).unwrap_or_else(|e| panic!("{narrowest} {l}: {e}"));
+            // Near pull-off the width says more than the load can.
+            let doubt = 1e-13 + 4.0 * f64::EPSILON * load(l).abs() / (l - narrowest).powi(2);
+            assert_relative_eq!(found, l, epsilon = 0.0, max_relative = doubt);
+        }
+        for wanted in [0.0, 0.5 * load(1.0), load(1.001)] {
+            let error: ContactError<f64> = solve(wanted).unwrap_err();
+            let ContactError::TooShort { carried, load: asked, end } = error else {
+                panic!("{error}")
+            };
+            assert_eq!((asked, end.abs()), (wanted, 1.0));
+            assert_relative_eq!(carried, load(1.0), epsilon = 0.0, max_relative = 1e-13);
+        }
+        for part in [1.001, 3.0, 1e3] {
+            let pull_off = load(narrowest);
+            let error: ContactError<f64> = solve(part * pull_off).unwrap_err();
+            let ContactError::PullOff { least, .. } = error else { panic!("{error}") };
+            assert!(least > pull_off && least <= pull_off * (1.0 - 2e-3), "{least} {pull_off}");
+        }
+    }
+    // Wider than the bodies even when it comes off.
+    let glued = contact.edges(Edge::Adhesive(2.0 * KAPPA), Edge::Adhesive(2.0 * KAPPA));
+    for load in [-1.0, -2.0, -10.0] {
+        let error = glued.solve(Load::PerLength(load)).unwrap_err();
+        assert!(matches!(error, ContactError::TooShort { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_pull_at_one_edge_may_fit_bodies_too_short_for_no_load() {
+    // F = κ L²/2 - sqrt(κ w L), c = -sqrt(w/(κ L)); no load at L³ = 4 w/κ, least at a sixteenth.
+    let (work, none) = (0.03, (4.0f64 * 0.03 / KAPPA).cbrt());
+    let centre = |l: f64| -(work / (KAPPA * l)).sqrt();
+    let end = centre(none) - 0.99 * none;
+    let glued = (Edge::Adhesive(work), Edge::Free);
+    let body = Quadratic([0.0, 1.0, 0.0]).body(end, 2.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(glued.0, glued.1);
+    assert!(contact.solve(Load::PerLength(0.0)).is_err());
+    for part in [0.95, 0.8, 0.6, 0.5] {
+        let l = part * none;
+        let load = KAPPA * l * l / 2.0 - (KAPPA * work * l).sqrt();
+        let solution =
+            contact.solve(Load::PerLength(load)).unwrap_or_else(|e| panic!("{part}: {e}"));
+        let on = solution.interval();
+        assert_relative_eq!(on.left, centre(l) - l, epsilon = 0.0, max_relative = 1e-12);
+        assert_relative_eq!(on.right, centre(l) + l, epsilon = 0.0, max_relative = 1e-12);
     }
 }
 
