@@ -30,10 +30,10 @@ pub(super) fn find<T: Real>(
             None => Ok(None),
         }
     };
-    if let Some(warm) = warm {
-        if let Some(found) = attempt(engine, load, warm)? {
-            return Ok(found);
-        }
+    if let Some(warm) = warm
+        && let Some(found) = attempt(engine, load, warm)?
+    {
+        return Ok(found);
     }
     let mut fault = None;
     let (mut least, mut last) = match with_edges(contact, &under(T::zero()), engine, None, cost) {

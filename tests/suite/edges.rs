@@ -514,6 +514,8 @@ fn edges_that_make_no_sense() {
         let range = [-1.0, 1.0];
         assert_eq!(error(left, right, load), ContactError::OutsideBodies { x, range });
     }
+    let peak = error(Edge::Free, Edge::UpTo(1.5), Load::ToPeak(0.1));
+    assert_eq!(peak, ContactError::OutsideBodies { x: 1.5, range: [-1.0, 1.0] });
     let [left, right] = [0.4, -0.4];
     let reversed = error(Edge::Fixed(left), Edge::Fixed(right), load);
     assert_eq!(reversed, ContactError::Limits { interval: Interval { left, right } });
@@ -521,4 +523,17 @@ fn edges_that_make_no_sense() {
         let error = error(Edge::Fixed(-0.4), Edge::Fixed(0.4), load);
         assert!(matches!(error, ContactError::Control { .. }), "{error}");
     }
+}
+
+#[test]
+fn a_pull_too_far_is_the_same_error_after_a_contact() {
+    let case = &PullOff::cases()[0];
+    let body = Quadratic([0.0, 1.0 / PullOff::RADIUS, 0.0]).body(-2.0, 2.0);
+    let [left, right] = case.edges;
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
+    let mut solver = contact.solver().unwrap();
+    solver.solve(&contact, Load::PerLength(0.5 * case.load())).unwrap();
+    let error = solver.solve(&contact, Load::PerLength(1.5 * case.load())).unwrap_err();
+    let ContactError::PullOff { least, .. } = error else { panic!("{error}") };
+    assert!(least > case.load() && least <= case.load() * (1.0 - 2e-3), "{least}");
 }

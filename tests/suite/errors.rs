@@ -376,3 +376,54 @@ fn a_profile_that_fails_after_a_while_is_named_under_a_given_peak() {
     }
     assert!(found > 0 && failed > 0, "{found} {failed}");
 }
+
+#[test]
+fn a_slope_given_by_x_that_fails_is_named() {
+    struct Graph;
+    impl ParametricProfile<f64> for Graph {
+        fn domain(&self) -> [f64; 2] {
+            [-1.0, 1.0]
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            Some(if x > 0.15 { f64::NAN } else { x })
+        }
+    }
+    let error = error(&Flat, &Graph, 0.1);
+    let ContactError::Profile {
+        body: Body::Upper,
+        source: ProfileError::NotFinite { quantity, k, value },
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert!(quantity == "slope_at(x)" && k > 0.15 && value.is_nan(), "{quantity} {k}");
+}
+
+#[test]
+fn a_profile_that_fails_under_a_pull_is_named() {
+    let glued = Edge::Adhesive(1e-3);
+    let failing =
+        graph(-1.0, 1.0, |x| [x * x / 2.0, if x > 0.05 && x < 0.5 { f64::NAN } else { x }]);
+    let contact = Contact::new(&Flat, &*failing).unwrap().edges(glued, glued);
+    let error = contact.solve(Load::PerLength(-1e-3)).unwrap_err();
+    let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
+        panic!("{error}")
+    };
+    assert!(k > 0.05 && k < 0.5, "{k}");
+}
+
+#[test]
+fn a_spent_budget_of_a_peak_carries_the_best_limits() {
+    let body = common::power(3.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let exact = contact.solve(Load::ToPeak(0.1)).unwrap().a();
+    let hasty = Brent { tolerance: Tolerance { max_evaluations: 1, ..Tolerance::FULL } };
+    let error = contact.search(&hasty).solve(Load::ToPeak(0.1)).unwrap_err();
+    let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
+        panic!("{error}")
+    };
+    assert!((best.half_width() / exact - 1.0).abs() < 0.5, "{best:?} {exact}");
+}
