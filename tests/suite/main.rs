@@ -25,6 +25,7 @@ mod invariants;
 mod limits;
 mod peak;
 mod profiles;
+mod pull_off;
 mod quadrature;
 mod quantities;
 mod references_f32;
