@@ -8,6 +8,7 @@
 mod inside;
 mod outside;
 mod series;
+mod view;
 
 use crate::contact::Found;
 use crate::gap::{Cost, Gap};
@@ -15,7 +16,8 @@ use crate::quadrature::panels::{Cover, Panel};
 use crate::quadrature::{Pressing, Quadrature};
 use crate::{ContactError, Interval, Panels, Real};
 use inside::Inside;
-use outside::{Outside, Side};
+use outside::Side;
+use view::View;
 
 /// Evaluations, and samples, after which the certificate is given up.
 const MOST_EVALUATIONS: usize = 1 << 20;
@@ -74,7 +76,7 @@ pub(crate) fn certify<T: Real>(
     let range = gap.range();
     let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
     cover.extend(gap, sampled)?;
-    let outside = Outside::new(&cover.panels, on);
+    let view = View::new(&cover.panels, on);
 
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
     let at_end = [on.right >= ends[1], on.left <= ends[0]];
@@ -88,8 +90,7 @@ pub(crate) fn certify<T: Real>(
         }
     }
     let mut more = Cost::default();
-    let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * outside.steepest())
-    {
+    let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * view.steepest()) {
         None
     } else {
         let mut engine = Panels::FULL.engine()?;
@@ -111,7 +112,7 @@ pub(crate) fn certify<T: Real>(
     let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
     let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);
-    let allowed = share * outside.steepest() * on.half_width();
+    let allowed = share * view.steepest() * on.half_width();
     let (mut worst, mut closest): (Option<Place<T>>, Option<Place<T>>) = (None, None);
     let nearer = |one: Option<Place<T>>, other: Option<Place<T>>| match (one, other) {
         (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
@@ -123,7 +124,7 @@ pub(crate) fn certify<T: Real>(
         if at_corner[i] {
             continue;
         }
-        let mut side = Side::new(&outside, right, [both[i], both[1 - i]], allowed);
+        let mut side = Side::new(&view, right, [both[i], both[1 - i]], allowed);
         side.follow(gap, end, spacing, &mut cover, MOST_EVALUATIONS)?;
         worst = nearer(worst, side.worst);
         closest = nearer(closest, side.closest);
@@ -139,9 +140,6 @@ fn rises<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
     let mut before: Option<[T; 2]> = None;
     for panel in panels {
         let part = Interval { left: panel.x[0].max(on.left), right: panel.x[1].min(on.right) };
-        if part.left >= part.right {
-            continue;
-        }
         let (series, n) = panel.over(part);
         let size = series[..n].iter().fold(T::zero(), |sum, a| sum + a.abs());
         let error = panel.tail + T::of(16.0) * T::epsilon() * size;

@@ -9,6 +9,7 @@ mod newton;
 mod peak;
 mod pull;
 mod stride;
+mod widest;
 
 pub use edges::{Edge, EdgePressure};
 pub(crate) use peak::peak;
@@ -198,11 +199,11 @@ impl<'a, T: Real> Contact<'a, T> {
     /// # Errors
     /// [`ContactError::Load`], [`ContactError::Scale`], [`ContactError::Limits`],
     /// [`ContactError::Adhesion`], [`ContactError::EdgePressure`],
-    /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`],
+    /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`], [`ContactError::PeakEdge`],
     /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
     /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
-    /// [`ContactError::NoBalance`], [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for
-    /// bodies and loads that do not go together; [`ContactError::Profile`],
+    /// [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
+    /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
     /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of

@@ -1,7 +1,7 @@
 //! What can go wrong with a scene, and how to mend it.
 
 use crate::search::SearchError;
-use crate::{Interval, ProfileError, Real};
+use crate::{Edge, Interval, ProfileError, Real};
 use std::fmt;
 use thiserror::Error;
 
@@ -266,9 +266,31 @@ pub enum ContactError<T: Real> {
         /// The least load under which a contact was found.
         least: T,
     },
+    /// An edge was asked for at which the pressure is not bounded, and a peak pressure with it.
+    #[error(
+        "with {edge:?} the pressure is infinite at the edge, or may be: a peak pressure can be given \
+         between free edges only; give the load or the half-width"
+    )]
+    PeakEdge {
+        /// The edge asked for.
+        edge: Edge<T>,
+    },
+    /// The contact with this peak pressure reaches beyond a body, or beyond a corner.
+    #[error(
+        "the peak pressure {wanted:?} takes a wider contact than there is room for: with half-width \
+         {half_width:?} it is {found:?}; extend the domains or lower the peak"
+    )]
+    PeakTooHigh {
+        /// The peak pressure asked for.
+        wanted: T,
+        /// The largest half-width that there is room for.
+        half_width: T,
+        /// The peak pressure there.
+        found: T,
+    },
     /// The pressure has no largest value to be set.
     #[error(
-        "no contact has the peak pressure {wanted:?}: the largest one found, with half-width \
+        "no contact has the peak pressure {wanted:?}: the largest pressure found, with half-width \
          {half_width:?}, is {found:?}"
     )]
     NoPeak {
@@ -276,7 +298,7 @@ pub enum ContactError<T: Real> {
         wanted: T,
         /// The half-width tried last.
         half_width: T,
-        /// The peak pressure there; infinite where an edge is sharp or a slope jumps.
+        /// The peak pressure there; infinite where the slope of a body jumps.
         found: T,
     },
     /// A point is above the surface, or not finite.

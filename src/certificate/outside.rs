@@ -12,6 +12,7 @@
 //! only where the gap stops growing.
 
 use super::series::{above, below, integral, least, tail};
+use super::view::View;
 use super::{Place, undecided};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::angles::Gauss;
@@ -25,30 +26,10 @@ const NODES: usize = 24;
 const MOST_LEVELS: usize = 40;
 /// Cells on one side.
 const MOST_CELLS: usize = 1 << 16;
-/// Halvings of the half-turn towards each edge.
-const GRADES: usize = 26;
-
-/// A point of the contact in the integral.
-struct Node<T> {
-    /// Its distances from -b and a.
-    from: [T; 2],
-    g: T,
-    weight: T,
-}
-
-/// The contact as seen from outside.
-pub(super) struct Outside<T> {
-    on: Interval<T>,
-    near: Vec<Node<T>>,
-    /// Fewer, for points a half-width away.
-    far: Vec<Node<T>>,
-    /// The least and largest slope in the contact.
-    slopes: [T; 2],
-}
 
 /// One side of the contact.
 pub(super) struct Side<'o, T: Real> {
-    pub outside: &'o Outside<T>,
+    pub view: &'o View<T>,
     pub right: bool,
     /// π/κ times the strength of this edge, and of the other.
     pub strengths: [T; 2],
@@ -66,109 +47,13 @@ pub(super) struct Side<'o, T: Real> {
     pub closest: Option<Place<T>>,
 }
 
-impl<T: Real> Outside<T> {
-    /// From the panels of the contact.
-    pub fn new(panels: &[Panel<T>], on: Interval<T>) -> Self {
-        let nodes = |grades| {
-            let mut nodes = Vec::new();
-            let half = T::of(0.5);
-            for panel in panels {
-                let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
-                if from >= to {
-                    continue;
-                }
-                // Each half-turn by its own edge, with the angle counted from there.
-                for edge in [0, 1] {
-                    let angle = |x: T| {
-                        let [here, there] = if edge == 0 {
-                            [x - on.left, on.right - x]
-                        } else {
-                            [on.right - x, x - on.left]
-                        };
-                        T::of(2.0) * here.sqrt().atan2(there.sqrt())
-                    };
-                    let [one, other] = [angle(from), angle(to)];
-                    let (low, high) = (one.min(other), one.max(other));
-                    let mut top = T::frac_pi_2();
-                    for grade in 0..grades {
-                        let bottom = if grade + 1 == grades { T::zero() } else { half * top };
-                        let (start, end) = (low.max(bottom), high.min(top));
-                        if start < end {
-                            arc(&mut nodes, panel, on, edge, [start, end]);
-                        }
-                        top = bottom;
-                    }
-                }
-            }
-            nodes
-        };
-        let bound = |least: [T; 2], panel: &Panel<T>| {
-            let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
-            if from >= to {
-                return least;
-            }
-            let (series, n) = panel.over(Interval { left: from, right: to });
-            [least[0].min(below(&series[..n])), least[1].max(above(&series[..n]))]
-        };
-        let infinite = T::one() / T::zero();
-        let slopes = panels.iter().fold([infinite, -infinite], bound);
-        Self { on, near: nodes(GRADES), far: nodes(3), slopes }
-    }
-
-    /// The largest slope in the contact.
-    pub fn steepest(&self) -> T {
-        self.slopes[0].abs().max(self.slopes[1].abs())
-    }
-
-    /// The sum over the contact at a distance outside, of g(t) and of 1, and the root w.
-    fn sums(&self, distance: T, right: bool) -> [T; 3] {
-        let half_width = self.on.half_width();
-        let nodes = if distance < half_width { &self.near } else { &self.far };
-        let [mut with, mut without] = [T::zero(); 2];
-        let i = usize::from(right);
-        for node in nodes {
-            let term = node.weight / (distance + node.from[i]);
-            with += term * node.g;
-            without += term;
-        }
-        let root = distance.sqrt() * (distance + half_width + half_width).sqrt();
-        [with, without, root]
-    }
-}
-
-/// Gauss's rule on an arc, whose angles count from one of the edges.
-fn arc<T: Real>(
-    nodes: &mut Vec<Node<T>>,
-    panel: &Panel<T>,
-    on: Interval<T>,
-    edge: usize,
-    [start, end]: [T; 2],
-) {
-    let (half, width) = (T::of(0.5), on.right - on.left);
-    let rule = Gauss::suited(1, T::zero());
-    for i in 0..rule.n {
-        let angle = half * (start + end) + half * (end - start) * T::of(rule.nodes[i]);
-        let (sin, cos) = (half * angle).sin_cos();
-        let (here, there) = (width * sin * sin, width * cos * cos);
-        let (x, from) = if edge == 0 {
-            (on.left + here, [here, there])
-        } else {
-            (on.right - here, [there, here])
-        };
-        let weight = half * (end - start) * T::of(rule.weights[i]);
-        // Rounding of x is more than the length of a panel beside a jump that was not declared.
-        let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
-        nodes.push(Node { from, g, weight });
-    }
-}
-
 impl<'o, T: Real> Side<'o, T> {
-    pub fn new(outside: &'o Outside<T>, right: bool, strengths: [T; 2], allowed: T) -> Self {
+    pub fn new(view: &'o View<T>, right: bool, strengths: [T; 2], allowed: T) -> Self {
         let zero = T::zero();
         let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);
         let (open, cells) = (false, 0);
-        Self { outside, right, strengths, allowed, height, y, pending, open, cells, worst, closest }
+        Self { view, right, strengths, allowed, height, y, pending, open, cells, worst, closest }
     }
 
     fn sign(&self) -> T {
@@ -176,7 +61,7 @@ impl<'o, T: Real> Side<'o, T> {
     }
 
     fn edge(&self) -> T {
-        if self.right { self.outside.on.right } else { self.outside.on.left }
+        if self.right { self.view.on.right } else { self.view.on.left }
     }
 
     fn distance(&self, x: T) -> T {
@@ -185,7 +70,7 @@ impl<'o, T: Real> Side<'o, T> {
 
     /// What the strengths add to the slope of the gap, times 2 √d.
     fn singular(&self, distance: T) -> T {
-        let half_width = self.outside.on.half_width();
+        let half_width = self.view.on.half_width();
         let share = T::of(0.5) * distance / half_width;
         let [own, other] = self.strengths;
         let by_root = T::of(2.0) * (half_width / (T::of(2.0) + share + share)).sqrt();
@@ -202,7 +87,7 @@ impl<'o, T: Real> Side<'o, T> {
         cover: &mut Cover<T>,
         most: usize,
     ) -> Result<(), ContactError<T>> {
-        let half_width = self.outside.on.half_width();
+        let half_width = self.view.on.half_width();
         let (mut reached, reach) = (T::zero(), self.distance(end));
         let mut left_out = T::zero();
         let (edge, sign) = (self.edge(), self.sign());
@@ -273,11 +158,11 @@ impl<'o, T: Real> Side<'o, T> {
         let series = panel.coefficients();
         let [own, other] = self.strengths;
         // A straight flank is as steep as in the contact.
-        let slack = rounding * self.outside.steepest();
+        let slack = rounding * self.view.steepest();
         let growing = if self.right {
-            below(series) >= self.outside.slopes[1] - slack
+            below(series) >= self.view.slopes[1] - slack
         } else {
-            above(series) <= self.outside.slopes[0] + slack
+            above(series) <= self.view.slopes[0] + slack
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
@@ -310,7 +195,7 @@ impl<'o, T: Real> Side<'o, T> {
             for i in 0..rule.n {
                 let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
                 let distance = y * y;
-                let [with, _, root] = self.outside.sums(distance, self.right);
+                let [with, _, root] = self.view.sums(distance, self.right);
                 let pull = (y + y) * self.sign() * with * root * T::frac_1_pi();
                 let weight = half * (top - bottom) * T::of(rule.weights[i]);
                 sum += weight * (pull - self.singular(distance));
@@ -348,7 +233,7 @@ impl<'o, T: Real> Side<'o, T> {
                 let distance = y * y;
                 let x = self.edge() + sign * distance;
                 let g = panel.value(x);
-                let [with, without, root] = self.outside.sums(distance, self.right);
+                let [with, without, root] = self.view.sums(distance, self.right);
                 let opens = sign * (g * without - with) * root * T::frac_1_pi();
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);

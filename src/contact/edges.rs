@@ -85,13 +85,13 @@ impl<T: Real> Conditions<T> {
     /// The interval, with those limits that are given.
     pub fn with_given_limits(&self, on: Interval<T>) -> Interval<T> {
         let width = on.right - on.left;
-        match self.edges.map(|edge| edge.limit()) {
-            [Some(left), Some(right)] => Interval { left, right },
-            [Some(left), None] if on.right > left => Interval { left, right: on.right },
-            [Some(left), None] => Interval { left, right: left + width },
-            [None, Some(right)] if on.left < right => Interval { left: on.left, right },
-            [None, Some(right)] => Interval { left: right - width, right },
-            [None, None] => on,
+        let limits = self.edges.map(|edge| edge.limit());
+        let given =
+            Interval { left: limits[0].unwrap_or(on.left), right: limits[1].unwrap_or(on.right) };
+        match limits {
+            [Some(left), None] if left >= on.right => Interval { left, right: left + width },
+            [None, Some(right)] if right <= on.left => Interval { left: right - width, right },
+            _ => given,
         }
     }
 
@@ -113,12 +113,13 @@ impl<T: Real> Conditions<T> {
         };
         let along = (half * (right + left)).max(-one).min(one);
         match self.edges.map(|edge| edge.limit()) {
-            [Some(left), Some(right)] => Interval { left, right },
-            [Some(left), None] => Interval { left, right: on.right + (wider + wider) * half_width },
-            [None, Some(right)] => Interval { left: on.left - (wider + wider) * half_width, right },
             [None, None] => Interval {
                 left: on.left + (along - wider) * half_width,
                 right: on.right + (along + wider) * half_width,
+            },
+            [left, right] => Interval {
+                left: left.unwrap_or(on.left - (wider + wider) * half_width),
+                right: right.unwrap_or(on.right + (wider + wider) * half_width),
             },
         }
     }
@@ -268,13 +269,6 @@ impl<T: Real> Excess<T> {
 }
 
 impl<T: Real> Goal<T> {
-    pub fn kappa(&self) -> T {
-        match *self {
-            Self::Strength { conditions, .. } => conditions.kappa,
-            Self::Pressure { kappa, .. } => kappa,
-        }
-    }
-
     /// The limits -b and a, where they are given.
     pub fn limits(&self) -> [Option<T>; 2] {
         match *self {

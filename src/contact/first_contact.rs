@@ -122,10 +122,9 @@ fn zero<T: Real>(
     };
     let bracket = Bracket::new(x[0], x[1]).values(slope[0], slope[1]);
     let root = Brent::default().find(&mut f, &bracket);
-    match (failed, root) {
-        (Some(error), _) => Err(error),
+    match root {
         // Any point of a bracket this tight lies in the contact.
-        (None, Ok(root) | Err(SearchError::Budget { best: root })) => Ok(root.x),
-        (None, Err(_)) => Err(ContactError::NoFirstContact { x, slope }),
+        Ok(root) | Err(SearchError::Budget { best: root }) => Ok(root.x),
+        Err(_) => Err(failed.unwrap_or(ContactError::NoFirstContact { x, slope })),
     }
 }

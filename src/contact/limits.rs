@@ -317,6 +317,14 @@ impl<'s, T: Real> Search<'s, T> {
         let (near, far) = (self.near, 1 - self.near);
         let (lo, hi) = ((width - room[far]).max(zero), width.min(room[near]));
         if lo >= hi {
+            // All of the bodies, up to rounding, may be just wide enough.
+            let [left, right] = self.range;
+            if lo - hi <= ulps::<T>() * (left.abs() + right.abs()) {
+                let trial = self.attempt(Interval { left, right })?;
+                if (self.unbalance)(&trial.excess) == zero {
+                    return Ok(Placed::At(trial));
+                }
+            }
             return Ok(Placed::Beyond(usize::from(room_right < room_left)));
         }
         let origin = self.origin;
@@ -470,16 +478,19 @@ impl<'s, T: Real> Search<'s, T> {
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
-        if let Goal::Pressure { wanted, .. } = self.goal {
-            let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
-            return met.err().unwrap_or(self.no_balance(on.half_width()));
-        }
-        match self.engine.moments(self.gap, on) {
-            Ok(m) => {
-                let carried = self.goal.kappa() * on.half_width() * m.first;
-                ContactError::TooShort { end: self.range[end], carried, load: self.load }
+        match self.goal {
+            Goal::Pressure { wanted, .. } => {
+                let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
+                met.err().unwrap_or(self.no_balance(on.half_width()))
             }
-            Err(error) => error,
+            Goal::Strength { conditions, .. } => match self.engine.moments(self.gap, on) {
+                Ok(m) => ContactError::TooShort {
+                    end: self.range[end],
+                    carried: conditions.balance(on, &m).unwrap_or(self.load),
+                    load: self.load,
+                },
+                Err(error) => error,
+            },
         }
     }
 }

@@ -76,6 +76,15 @@ pub(super) fn settle<T: Real>(
         let size = right.abs() + left.abs();
         let before_move = on;
         on = conditions.moved(on, [right, left], load / (conditions.kappa * half_width * m.first));
+        // What fills the bodies may be rounded beyond them.
+        let rounded = |x: T, end: T, beyond: T| {
+            let rounding = T::of(8.0) * T::epsilon() * (end.abs() + half_width);
+            if beyond > T::zero() && beyond <= rounding { end } else { x }
+        };
+        on = Interval {
+            left: rounded(on.left, range[0], range[0] - on.left),
+            right: rounded(on.right, range[1], on.right - range[1]),
+        };
         let back = |from: T, to: T, end: T, beyond: bool| {
             // Half the way, since the slope may be infinite at the very end of a body.
             if beyond { half * from + half * end } else { to }

@@ -3,7 +3,8 @@
 //! The largest pressure is sought as a function of the half-width, with which it grows. Each trial
 //! is a contact of given half-width; the samples of one serve the next.
 
-use super::edges::{Conditions, Control};
+use super::edges::{Conditions, Control, Edge};
+use super::widest::widest;
 use super::{Contact, Found, approach};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Pressing, complete};
@@ -72,28 +73,70 @@ pub(crate) fn peak<T: Real>(
     Ok(top)
 }
 
-/// A contact of given half-width, and its largest pressure.
-fn attempt<T: Real>(
-    contact: &Contact<'_, T>,
+/// Contacts of given half-width between free edges.
+struct Trials<'s, T: Real> {
+    contact: &'s Contact<'s, T>,
     wanted: T,
-    half_width: T,
+    engine: &'s mut dyn Engine<T>,
+    cost: &'s mut Cost,
+    /// Where the next contact is looked for first.
     last: Option<Interval<T>>,
-    engine: &mut dyn Engine<T>,
-    cost: &mut Cost,
-) -> Result<(Found<T>, T), ContactError<T>> {
-    let (kappa, edges, gap) = (contact.kappa, contact.checked_edges()?, &contact.gap);
-    let conditions = Conditions { kappa, edges, control: Control::HalfWidth(half_width) };
-    let found = approach::find(contact, conditions, engine, last, cost)?;
-    engine.prepare(gap, found.interval)?;
-    complete(engine, gap, found.interval, cost)?;
-    let pressing = Pressing { kappa, load: found.load, free: found.free };
-    let [_, pressure] = peak(engine, gap, &pressing, found.interval)?;
-    if pressure.is_finite() && found.free == [true; 2] {
-        Ok((found, pressure))
-    } else {
-        let found = if pressure.is_finite() { T::one() / T::zero() } else { pressure };
-        Err(ContactError::NoPeak { wanted, half_width, found })
+}
+
+impl<T: Real> Trials<'_, T> {
+    fn conditions(&self, half_width: T) -> Conditions<T> {
+        let kappa = self.contact.kappa;
+        Conditions { kappa, edges: [Edge::Free; 2], control: Control::HalfWidth(half_width) }
     }
+
+    /// A contact and its largest pressure.
+    fn at(&mut self, half_width: T) -> Result<(Found<T>, T), ContactError<T>> {
+        let (contact, conditions) = (self.contact, self.conditions(half_width));
+        let found = approach::find(contact, conditions, self.engine, self.last, self.cost)?;
+        let (on, range) = (found.interval, contact.ends());
+        let rounding = T::of(8.0) * T::epsilon() * half_width;
+        for (x, beyond) in [(on.left, range[0] - on.left), (on.right, on.right - range[1])] {
+            if beyond > rounding {
+                return Err(ContactError::OutsideBodies { x, range });
+            }
+        }
+        self.engine.prepare(&contact.gap, on)?;
+        complete(self.engine, &contact.gap, on, self.cost)?;
+        let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };
+        let [_, pressure] = peak(self.engine, &contact.gap, &pressing, on)?;
+        if pressure.is_finite() {
+            self.last = Some(on);
+            Ok((found, pressure))
+        } else {
+            Err(ContactError::NoPeak { wanted: self.wanted, half_width, found: pressure })
+        }
+    }
+
+    /// The largest half-width that there is room for, where that can be told.
+    fn widest(&mut self) -> Option<T> {
+        let conditions = self.conditions(T::one());
+        let on = widest(self.contact, conditions, self.engine, self.cost)?;
+        self.last = Some(on);
+        Some(on.half_width())
+    }
+}
+
+/// A corner on the bodies may end them; at any other edge but a free one the pressure is infinite.
+fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
+    let edges = contact.checked_edges()?;
+    if let [Edge::Fixed(left), Edge::Fixed(right)] = edges {
+        return Err(ContactError::Control { interval: Interval { left, right } });
+    }
+    let range = contact.gap.range();
+    for edge in edges {
+        match edge {
+            Edge::Free => {}
+            Edge::UpTo(x) if x >= range[0] && x <= range[1] => {}
+            Edge::UpTo(x) => return Err(ContactError::OutsideBodies { x, range }),
+            Edge::Fixed(_) | Edge::Adhesive(_) => return Err(ContactError::PeakEdge { edge }),
+        }
+    }
+    Ok(())
 }
 
 /// Finds the contact with a given peak pressure.
@@ -104,14 +147,19 @@ pub(super) fn find<T: Real>(
     warm: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
-    let found = by_search(contact, wanted, engine, warm, cost)?;
+    check_edges(contact)?;
+    let mut trials = Trials { contact, wanted, engine, cost, last: warm };
+    let found = by_search(&mut trials, warm)?;
     if T::MORE_STEPS == 0 {
         return Ok(found);
     }
     // The derivatives of the half-width, by a few steps with its rate from a difference.
     let on = found.interval.plain();
     let mut half_width = on.half_width();
-    let mut try_out = |half_width| attempt(contact, wanted, half_width, Some(on), engine, cost);
+    let mut try_out = |half_width| {
+        trials.last = Some(on);
+        trials.at(half_width)
+    };
     let step = T::of(1e-5) * half_width;
     let rate = ((try_out(half_width)?.1 - try_out(half_width - step)?.1) / step).part(0);
     for _ in 0..super::further::STEPS {
@@ -121,27 +169,18 @@ pub(super) fn find<T: Real>(
 }
 
 fn by_search<T: Real>(
-    contact: &Contact<'_, T>,
-    wanted: T,
-    engine: &mut dyn Engine<T>,
+    trials: &mut Trials<'_, T>,
     warm: Option<Interval<T>>,
-    cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
-    let mut last = warm;
-    let mut attempt = |half_width: T| -> Result<(Found<T>, T), ContactError<T>> {
-        let trial = attempt(contact, wanted, half_width, last, engine, cost);
-        if let Ok((found, _)) = &trial {
-            last = Some(found.interval);
-        }
-        trial
-    };
+    let (contact, wanted) = (trials.contact, trials.wanted);
     let range = contact.gap.range();
     let start = warm.or(contact.start).map(|on| on.half_width());
     let mut half_width = start.unwrap_or(T::of(1.0 / 64.0) * (range[1] - range[0]));
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
     let (mut too_wide, mut narrowest): (Option<T>, Option<T>) = (None, None);
+    let mut widest = None;
     for _ in 0..MOST_WIDTHS {
-        let (found, pressure) = match attempt(half_width) {
+        let (found, pressure) = match trials.at(half_width) {
             Ok(trial) => trial,
             // Too wide for the bodies, or beyond a place where the pressure is infinite: half the way
             // back.
@@ -153,10 +192,24 @@ fn by_search<T: Real>(
             ) => {
                 let from = low.map_or(T::zero(), |[half_width, _]| half_width);
                 too_wide = Some(half_width);
+                let no_room = matches!(
+                    error,
+                    ContactError::OutsideBodies { .. } | ContactError::TooShort { .. }
+                );
+                if no_room && widest.is_none() {
+                    widest = trials.widest().filter(|&widest| widest > from && widest < half_width);
+                    if let Some(widest) = widest {
+                        half_width = widest;
+                        continue;
+                    }
+                }
                 half_width = T::of(0.5) * (from + half_width);
                 let first = *narrowest.get_or_insert(T::of(1e-6) * half_width);
                 if half_width - from <= T::of(1e-9) * half_width || half_width < first {
-                    return Err(error);
+                    return Err(match low {
+                        Some(low) if no_room => too_high(wanted, low),
+                        _ => error,
+                    });
                 }
                 continue;
             }
@@ -165,12 +218,17 @@ fn by_search<T: Real>(
         if pressure == wanted {
             return Ok(found);
         }
+        if widest == Some(half_width) && pressure < wanted {
+            // All the room there is.
+            let met = wanted - pressure <= T::of(8.0) * T::epsilon() * wanted;
+            return if met { Ok(found) } else { Err(too_high(wanted, [half_width, pressure])) };
+        }
         *(if pressure < wanted { &mut low } else { &mut high }) = Some([half_width, pressure]);
         if let (Some(low), Some(high)) = (low, high) {
             let bracket = Bracket::new(low[0].min(high[0]), low[0].max(high[0]));
             let bracket = bracket.values(low[1] - wanted, high[1] - wanted);
             let (mut best, mut failed): (Option<(T, Found<T>)>, _) = (None, None);
-            let mut f = |half_width| match attempt(half_width) {
+            let mut f = |half_width| match trials.at(half_width) {
                 Ok((found, pressure)) => {
                     let missed = pressure - wanted;
                     if best.is_none_or(|(least, _)| missed.abs() <= least) {
@@ -186,7 +244,11 @@ fn by_search<T: Real>(
             let root = contact.strategy().find(&mut f, &bracket);
             return match (failed, root, best) {
                 (Some(error), _, _) => Err(error),
-                (None, Ok(_), Some((_, found))) => Ok(found),
+                // A strategy may have left something, or more than it says.
+                (None, Ok(_), Some((missed, found))) => {
+                    let error = found.error.map(|error| error + missed / wanted);
+                    Ok(Found { error, ..found })
+                }
                 (None, Err(source), Some((_, found))) => {
                     Err(ContactError::LimitSearch { best: found.interval, source })
                 }
@@ -206,4 +268,8 @@ fn by_search<T: Real>(
     }
     let found = low.or(high).map_or(T::zero(), |[_, pressure]| pressure);
     Err(ContactError::NoPeak { wanted, half_width, found })
+}
+
+fn too_high<T: Real>(wanted: T, [half_width, found]: [T; 2]) -> ContactError<T> {
+    ContactError::PeakTooHigh { wanted, half_width, found }
 }

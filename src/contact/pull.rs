@@ -2,13 +2,18 @@
 
 use super::approach::{contact_of, in_full, with_edges};
 use super::edges::{Conditions, Control};
+use super::widest::widest;
 use super::{Contact, Found};
 use crate::gap::Cost;
 use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};
 
-/// Pulls at an adhesive contact: from no load on, in steps, each starting from the contact before.
-/// The contact gives way where its width no longer falls with the load, but all at once.
+/// Steps before the pull is given up: the first may be far longer than the last.
+const MOST_STEPS: usize = 200;
+
+/// Pulls at an adhesive contact: from no load on, or from the widest that there is room for, in
+/// steps, each starting from the contact before. The contact gives way where its width no longer
+/// falls with the load, but all at once.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
@@ -16,13 +21,8 @@ pub(super) fn find<T: Real>(
     warm: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
-    const STEPS: usize = 16;
     let load = conditions.load();
     let under = |load: T| Conditions { control: Control::Load(load), ..*conditions };
-    let mut last = match warm {
-        Some(warm) => warm,
-        None => with_edges(contact, &under(T::zero()), engine, None, cost)?.interval,
-    };
     let attempt = |engine: &mut dyn Engine<T>, load: T, from: Interval<T>| {
         let conditions = under(load);
         match in_full(contact, &conditions, engine, (from, T::of(0.02)))? {
@@ -30,21 +30,48 @@ pub(super) fn find<T: Real>(
             None => Ok(None),
         }
     };
-    if let Some(found) = attempt(engine, load, last)? {
+    if let Some(warm) = warm
+        && let Some(found) = attempt(engine, load, warm)?
+    {
         return Ok(found);
     }
-    if warm.is_some() {
-        last = with_edges(contact, &under(T::zero()), engine, None, cost)?.interval;
-    }
-    let mut found = None;
-    let mut least = T::zero();
-    for i in 1..=STEPS {
-        let step = load * T::count(i) / T::count(STEPS);
-        found = attempt(engine, step, last)?;
-        match &found {
-            Some(found) => (least, last) = (step, found.interval),
-            None => break,
+    let mut fault = None;
+    let (mut least, mut last) = match with_edges(contact, &under(T::zero()), engine, None, cost) {
+        Ok(found) => (T::zero(), found.interval),
+        // Those of a contact that does not fit.
+        Err(
+            error @ (ContactError::TooShort { .. }
+            | ContactError::NoBalance { .. }
+            | ContactError::Overflow { .. }),
+        ) => {
+            let on = widest(contact, *conditions, engine, cost).ok_or(error)?;
+            let m = engine.moments(&contact.gap, on)?;
+            let carried = conditions.balance(on, &m).unwrap_or(T::zero());
+            let [left, right] = contact.ends();
+            let end = if on.left <= left { left } else { right };
+            let too_short = ContactError::TooShort { end, carried, load };
+            if carried <= load {
+                return Err(too_short);
+            }
+            // Unless it grows with its load, the one to be found is wider.
+            fault = Some(too_short);
+            (carried, on)
+        }
+        Err(error) => return Err(error),
+    };
+    // Narrower contacts bear less than this. Where a step leads astray, half of it may not; what is
+    // left of the pull in the end is less than a thousandth of it.
+    let [pull_b, pull_a] = conditions.pull(last.half_width());
+    let least_of_all = T::of(-2.0) * (pull_a + pull_b);
+    let mut step = (load - least).max(least_of_all - least.max(T::zero()));
+    for _ in 0..MOST_STEPS {
+        let next = (least + step).max(load);
+        match attempt(engine, next, last)? {
+            Some(found) if next <= load => return Ok(found),
+            Some(found) => (least, last, fault) = (next, found.interval, None),
+            None if step.abs() <= T::of(1e-3) * least.abs() => break,
+            None => step *= T::of(0.5),
         }
     }
-    found.ok_or(ContactError::PullOff { load, least })
+    Err(fault.unwrap_or(ContactError::PullOff { load, least }))
 }

@@ -61,12 +61,9 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
-    /// The height of the gap `Y₂ - Y₁` between the bodies at `x` before they are loaded.
+    /// The height of the gap `Y₂ - Y₁` between the bodies at `x`, on both of them, before they are
+    /// loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
-        let range = gap.range();
-        if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
-        }
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;

@@ -179,8 +179,8 @@ impl<T: Real> Engine<T> for AtWork<T> {
         cost: &mut Cost,
     ) -> Result<Estimate<T>, ContactError<T>> {
         let Some(sums) = self.sums.get() else {
-            let zero = T::zero();
-            return Ok(Estimate { value: zero, error: zero });
+            // Not prepared, so nothing is known.
+            return Ok(Estimate { value: T::zero(), error: T::one() / T::zero() });
         };
         let Estimate { value, error } = sums.at(gap, x, cost)?;
         let edge = T::pi() * T::pi() * sums.on.edge_root(x);

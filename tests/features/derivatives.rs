@@ -12,7 +12,7 @@ use linecontact::autodiff::num_dual::{Derivative, Dual64, DualSVec64, HyperDual6
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
 use linecontact::{
-    Contact, Cost, Curve, CurvePoint, EdgePressure, Flat, Load, Midpoint, ParametricProfile,
+    Contact, Cost, Curve, CurvePoint, Edge, EdgePressure, Flat, Load, Midpoint, ParametricProfile,
     Piecewise, Real, Solution,
 };
 use std::f64::consts::PI;
@@ -419,5 +419,27 @@ fn again_and_again() {
             let off = limits_off(&solution, &form);
             assert!(off[0] < 5e-15 && off[1] < 2e-14, "{off:?}");
         }
+    }
+}
+
+/// K = 0 on the left of a parabola that is held at x = s on the right: F R = κ L (3 L/2 - s).
+#[test]
+fn a_limit_given_on_the_right() {
+    let (half_width, s, kappa) = (seeded(0.4), seeded(0.1), seeded(KAPPA));
+    let (half, brent) = (plain(0.5), Brent::default());
+    let body = Curve::new([plain(-2.0), plain(2.0)], move |k: Dual64| CurvePoint {
+        x: k,
+        y: k * k * half,
+        dx: plain(1.0),
+        dy: k,
+    });
+    let load = kappa * half_width * (half_width * plain(1.5) - s);
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa);
+    let held = contact.edges(Edge::Free, Edge::Fixed(s));
+    for contact in [held.clone().search(&brent), held] {
+        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let (got, want) = (solution.b(), half_width + half_width - s);
+        assert_relative_eq!(got.re, want.re, epsilon = 0.0, max_relative = 1e-14);
+        assert_relative_eq!(got.eps, want.eps, epsilon = 0.0, max_relative = 1e-12);
     }
 }

@@ -6,7 +6,7 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{Profile, graph, paper, parabola, power, reference};
 use linecontact::search::{Brent, Tolerance};
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load};
 use std::f64::consts::PI;
 
 /// What is known of a contact: C, the half-width, the largest pressure.
@@ -129,7 +129,8 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
                 assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
             }
             let error = contact.solve(Load::ToPeak(0.3)).unwrap_err();
-            assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
+            let edge = if free == 0 { left } else { right };
+            assert_eq!(error, ContactError::PeakEdge { edge });
         }
     }
     // Two adhesive edges: F = L²/2 - 2 sqrt(w L), negative where the contact is narrow.
@@ -144,7 +145,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     let load = 0.005 - 2.0 * (work * 0.1).sqrt();
     assert_relative_eq!(narrow.load(), load, epsilon = 0.0, max_relative = 1e-14);
     let error = adhesive.solve(Load::ToPeak(0.3)).unwrap_err();
-    assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
+    assert_eq!(error, ContactError::PeakEdge { edge: Edge::Adhesive(work) });
 }
 
 /// The load that a given width takes, found by a search of one unknown at a time: with an adhesive edge
@@ -206,14 +207,52 @@ fn the_error_says_that_the_bodies_are_too_short() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for value in [1.01, 2.0, 1e6, 1e300] {
-        for load in [Load::ToHalfWidth(value), Load::ToPeak(value / PI)] {
-            let error = contact.solve(load).unwrap_err();
-            let (short, outside, peak) = (
-                matches!(error, ContactError::TooShort { .. }),
-                matches!(error, ContactError::OutsideBodies { .. }),
-                matches!(error, ContactError::NoPeak { .. }),
-            );
-            assert!(short || outside || peak, "{load:?}: {error}");
+        let error = contact.solve(Load::ToHalfWidth(value)).unwrap_err();
+        let outside =
+            matches!(error, ContactError::OutsideBodies { x, range: [-1.0, 1.0] } if x.abs() > 1.0);
+        assert!(outside, "{value}: {error}");
+        too_high(&contact, value / PI, 1.0, 1.0 / PI);
+        // Where the contact reaches the shorter side, or a corner.
+        let short = graph(-3.0, 0.7, |x| [x * x / 2.0, x]);
+        too_high(&Contact::new(&Flat, &*short).unwrap(), value / PI, 0.7, 0.7 / PI);
+        for edges in [[Edge::UpTo(-0.3), Edge::Free], [Edge::UpTo(-0.8), Edge::UpTo(0.3)]] {
+            let contact = contact.clone().edges(edges[0], edges[1]);
+            too_high(&contact, value / PI, 0.3, 0.3 / PI);
+        }
+    }
+}
+
+fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
+    let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
+    let ContactError::PeakTooHigh { wanted, half_width, found } = error else { panic!("{error}") };
+    assert_eq!(wanted, peak);
+    assert_relative_eq!(half_width, widest, epsilon = 0.0, max_relative = 1e-14);
+    assert_relative_eq!(found, reached, epsilon = 0.0, max_relative = 1e-13);
+}
+
+#[test]
+fn a_peak_too_high_is_measured_against_the_widest_contact_there_is_room_for() {
+    // No closed form: a little narrower there is a contact, a little wider none.
+    for sign in [1.0, -1.0] {
+        let body = graph(-0.5, 0.5, move |x| {
+            [x * x / 2.0 + sign * x.powi(3) / 5.0, x + sign * 0.6 * x * x]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let error = contact.solve(Load::ToPeak(1.0)).unwrap_err();
+        let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
+        assert!(half_width > 0.3 && half_width < 0.5);
+        assert!(contact.solve(Load::ToHalfWidth(half_width * (1.0 + 1e-9))).is_err());
+        let fits = contact.solve(Load::ToHalfWidth(half_width * (1.0 - 1e-9))).unwrap();
+        assert_relative_eq!(
+            fits.peak().unwrap().pressure,
+            found,
+            epsilon = 0.0,
+            max_relative = 1e-8
+        );
+        for part in [1.0, 1.0 - 1e-12, 1.0 - 1e-6] {
+            let reached = contact.solve(Load::ToPeak(part * found)).unwrap();
+            let peak = reached.peak().unwrap().pressure;
+            assert_relative_eq!(peak, part * found, epsilon = 0.0, max_relative = 1e-13);
         }
     }
 }
@@ -230,12 +269,40 @@ fn half_widths_up_to_the_ends_of_the_bodies() {
 }
 
 #[test]
+fn a_contact_may_fill_the_bodies() {
+    // F = L²/2, whichever way it is looked for, and however the half-width is rounded.
+    let brent = Brent::default();
+    for i in 0..200 {
+        let l = 0.3 + 0.017 * f64::from(i);
+        let body = parabola(l);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for contact in [contact.clone().search(&brent), contact] {
+            let solution =
+                contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+            assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 1e-14);
+            assert!(solution.a() <= l && solution.b() <= l);
+        }
+        let l = l as f32;
+        let body =
+            Curve::new([-l, l], |k: f32| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
+        let contact = Contact::new(&Flat, &body).unwrap();
+        for contact in [contact.clone().search(&brent), contact] {
+            let solution =
+                contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+            assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 2e-6);
+            assert!(solution.a() <= l && solution.b() <= l);
+        }
+    }
+}
+
+#[test]
 fn peaks_up_to_the_ends_of_the_bodies() {
     // p₀ = L/π.
     for reach in [1.0, 3.0] {
         let body = parabola(reach);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.9999] {
+        let near = [1.0 - 1e-7, 1.0 - 1e-10, 1.0 - 1e-13, 1.0];
+        for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.9999].into_iter().chain(near) {
             let l = part * reach;
             let solution = contact.solve(Load::ToPeak(l / PI));
             let solution = solution.unwrap_or_else(|e| panic!("{l} of {reach}: {e}"));

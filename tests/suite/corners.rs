@@ -90,7 +90,9 @@ fn a_corner_serves_every_control() {
     assert_eq!(solution.a(), 0.3);
     assert_relative_eq!(solution.load(), 0.4 * 0.3, epsilon = 0.0, max_relative = 1e-14);
     let error = contact.solve(Load::ToPeak(2.0 * 0.3 / PI)).unwrap_err();
-    assert!(matches!(error, ContactError::NoPeak { .. }), "{error}");
+    let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
+    assert_relative_eq!(half_width, 0.3, epsilon = 0.0, max_relative = 1e-12);
+    assert_relative_eq!(found, 0.3 / PI, epsilon = 0.0, max_relative = 1e-12);
 }
 
 #[test]

@@ -214,3 +214,22 @@ fn tolerances_of_joints() {
         assert!(matches!(error, PiecewiseError::Tolerance { .. }), "{error}");
     }
 }
+
+#[test]
+fn a_wave_that_both_bodies_have_is_in_no_gap() {
+    // F = L²/2, however fast the wave.
+    for (height, count) in [(1e-3, 500.0), (1e-2, 3000.0)] {
+        let wave = move |x: f64| {
+            let (sin, cos) = (count * x).sin_cos();
+            [height * cos, -height * count * sin]
+        };
+        let lower = graph(-1.0, 1.0, wave);
+        let upper = graph(-1.0, 1.0, move |x| {
+            let [y, slope] = wave(x);
+            [y + x * x / 2.0, slope + x]
+        });
+        let contact = Contact::new(&*lower, &*upper).unwrap();
+        let solution = contact.solve(Load::PerLength(0.08)).unwrap();
+        assert!((solution.a() / 0.4 - 1.0).abs() < 1e-9, "{count}: {solution:?}");
+    }
+}

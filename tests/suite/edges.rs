@@ -16,15 +16,15 @@ use common::{Profile, graph, parabola};
 use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Solution};
 use std::f64::consts::PI;
 
-const KAPPA: f64 = 1.7;
+pub const KAPPA: f64 = 1.7;
 const WORK: f64 = 1e-3;
 
 /// The slope g₀ + g₁ x + g₂ x².
 #[derive(Clone, Copy)]
-struct Quadratic([f64; 3]);
+pub struct Quadratic(pub [f64; 3]);
 
 impl Quadratic {
-    fn body(self, from: f64, to: f64) -> Profile {
+    pub fn body(self, from: f64, to: f64) -> Profile {
         let Self([g0, g1, g2]) = self;
         graph(from, to, move |x| [x * (g0 + x * (g1 / 2.0 + x * g2 / 3.0)), g0 + x * (g1 + x * g2)])
     }
@@ -275,96 +275,6 @@ fn two_adhesive_edges_give_the_line_contact_of_johnson_kendall_and_roberts() {
     }
 }
 
-/// A parabola, and what pulls it off. dF/dL = 0: with two adhesive edges L³ = R² w/κ, with one
-/// L³ = R² w/(4 κ); F = -3 κ L²/(2 R).
-struct PullOff {
-    edges: [Edge<f64>; 2],
-    share: f64,
-}
-
-impl PullOff {
-    const WORK: f64 = 2e-4;
-    const RADIUS: f64 = 0.8;
-
-    fn cases() -> [Self; 3] {
-        let (adhesive, free) = (Edge::Adhesive(Self::WORK), Edge::Free);
-        [([adhesive; 2], 1.0), ([adhesive, free], 0.25), ([free, adhesive], 0.25)]
-            .map(|(edges, share)| Self { edges, share })
-    }
-
-    fn half_width(&self) -> f64 {
-        (self.share * Self::RADIUS * Self::RADIUS * Self::WORK / KAPPA).cbrt()
-    }
-
-    fn load(&self) -> f64 {
-        -1.5 * KAPPA * self.half_width().powi(2) / Self::RADIUS
-    }
-
-    /// The half-width under a part of the load that pulls it off.
-    fn under(&self, part: f64) -> Result<f64, ContactError<f64>> {
-        let body = Quadratic([0.0, 1.0 / Self::RADIUS, 0.0]).body(-2.0, 2.0);
-        let [left, right] = self.edges;
-        let contact = Contact::new(&Flat, &*body)?.kappa(KAPPA).edges(left, right);
-        Ok(contact.solve(Load::PerLength(part * self.load()))?.interval().half_width())
-    }
-
-    fn check(&self, part: f64) {
-        let half_width =
-            self.under(part).unwrap_or_else(|e| panic!("{:?} {part}: {e}", self.edges));
-        let least = self.half_width();
-        assert!(half_width > least, "the branch that grows with the load: {half_width} {least}");
-        let pull = 2.0 * (self.share * KAPPA * Self::WORK * half_width).sqrt();
-        let load = KAPPA * half_width * half_width / (2.0 * Self::RADIUS) - pull;
-        assert_abs_diff_eq!(load, part * self.load(), epsilon = 1e-14 * self.load().abs());
-    }
-}
-
-#[test]
-fn adhesion_bears_a_pull_down_to_pull_off() {
-    let [both, left, right] = PullOff::cases();
-    for part in [0.0, 0.5, 0.9, 0.99, 0.9999, 0.999999] {
-        both.check(part);
-    }
-    for part in [0.0, 0.5, 0.83] {
-        left.check(part);
-        right.check(part);
-    }
-}
-
-#[test]
-fn one_adhesive_edge_bears_a_pull_down_to_pull_off() {
-    // Under 0.84 of the load the free edge passes x = 0, the lowest point of the body.
-    let [_, left, right] = PullOff::cases();
-    for part in [0.85, 0.9, 0.99, 0.9999] {
-        left.check(part);
-        right.check(part);
-    }
-}
-
-#[test]
-fn no_contact_is_found_beyond_pull_off() {
-    for case in PullOff::cases() {
-        for part in [1.0001, 1.01, 2.0, 100.0, 1e6] {
-            assert!(case.under(part).is_err(), "{:?} {part}", case.edges);
-        }
-    }
-}
-
-#[test]
-fn beyond_pull_off_the_error_says_so() {
-    for case in PullOff::cases() {
-        for part in [1.0001, 1.01, 2.0, 100.0, 1e6] {
-            let error = case.under(part).unwrap_err();
-            let ContactError::PullOff { load, least } = error else {
-                panic!("{:?} {part}: {error}", case.edges)
-            };
-            assert_relative_eq!(load, part * case.load(), epsilon = 0.0, max_relative = 1e-15);
-            // A contact was found somewhere between none of the load and pull-off.
-            assert!(least >= case.load() * (1.0 + 1e-9), "{least}");
-        }
-    }
-}
-
 #[test]
 fn one_adhesive_edge_draws_the_contact_to_its_side() {
     // α = -sqrt(κ w/L)/π = -β: F = κ L²/(2 R) - sqrt(κ w L), c = -R sqrt(w/(κ L)) if on the left.
@@ -451,6 +361,8 @@ fn edges_that_make_no_sense() {
         let range = [-1.0, 1.0];
         assert_eq!(error(left, right, load), ContactError::OutsideBodies { x, range });
     }
+    let peak = error(Edge::Free, Edge::UpTo(1.5), Load::ToPeak(0.1));
+    assert_eq!(peak, ContactError::OutsideBodies { x: 1.5, range: [-1.0, 1.0] });
     let [left, right] = [0.4, -0.4];
     let reversed = error(Edge::Fixed(left), Edge::Fixed(right), load);
     assert_eq!(reversed, ContactError::Limits { interval: Interval { left, right } });

@@ -72,6 +72,19 @@ fn a_load_too_large_for_the_domain() {
         // A symmetric contact that fits: F = L²/2.
         assert!((carried / (end * end / 2.0) - 1.0).abs() < 1e-9, "{carried}");
     }
+    // Held at a corner: K = 0 at the other edge, F = L (3 L/2 + x₀).
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for (x0, edges) in
+        [(-0.3, [Edge::Fixed(-0.3), Edge::Free]), (0.1, [Edge::Free, Edge::Fixed(-0.1)])]
+    {
+        let held = contact.clone().edges(edges[0], edges[1]);
+        let error = held.solve(Load::PerLength(2.0));
+        let Err(ContactError::TooShort { end, carried, .. }) = error else { panic!("{error:?}") };
+        let l = 0.5 * (1.0 - x0);
+        assert_eq!(end, if x0 < 0.0 { 1.0 } else { -1.0 });
+        assert!((carried / (l * (1.5 * l + x0)) - 1.0).abs() < 1e-13, "{carried}");
+    }
     // Exactly as large as it may be.
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
@@ -296,4 +309,121 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn edge_pressures_that_take_a_wider_contact_than_the_bodies() {
+    // Of a parabola with both limits given, P = κ sqrt(L² - x²)/π + (F - κ L²/2)/(π sqrt(L² - x²)).
+    let (load, distance) = (2.0, 0.01);
+    let body = parabola(1.0);
+    let wanted = EdgePressure::zero(distance, 1e-3);
+    let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(wanted);
+    let error = contact.solve(Load::PerLength(load)).unwrap_err();
+    let ContactError::EdgePressureNotMet { best, at_a, at_b } = error else { panic!("{error}") };
+    for limit in [best.right, -best.left] {
+        assert!((limit - 1.0).abs() < 1e-12, "{best:?}");
+    }
+    let root = (1.0 - (1.0 - distance) * (1.0 - distance)).sqrt();
+    let left_over = (root + (load - 0.5) / root) / std::f64::consts::PI;
+    for at in [at_a, at_b] {
+        assert!((at / left_over - 1.0).abs() < 1e-3, "{at} {left_over}");
+    }
+}
+
+#[test]
+fn a_profile_that_fails_where_the_bodies_touch_first_is_named() {
+    let failing = graph(-1.0, 1.0, |x| {
+        let y = x * x / 2.0;
+        [y, if (x - 0.07).abs() < 1e-3 { f64::NAN } else { x - 0.07 }]
+    });
+    let brent = Brent::default();
+    let contact = Contact::new(&Flat, &*failing).unwrap().search(&brent);
+    for start in [[-0.5, 0.9], [-0.8, 0.3], [-0.2, 0.9]] {
+        let contact = contact.clone().start(Interval { left: start[0], right: start[1] });
+        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
+            panic!("{error}")
+        };
+        assert!((k - 0.07).abs() < 1e-3, "{k}");
+    }
+}
+
+#[test]
+fn a_profile_that_fails_after_a_while_is_named_under_a_given_peak() {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    let (mut found, mut failed) = (0, 0);
+    for most in (0..3000).step_by(17) {
+        let calls = AtomicUsize::new(0);
+        let body = Curve::new([-1.0, 1.0], |k: f64| {
+            let dy = if calls.fetch_add(1, Ordering::Relaxed) < most { k } else { f64::NAN };
+            CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy }
+        });
+        let Ok(contact) = Contact::new(&Flat, &body) else { continue };
+        match contact.solve(Load::ToPeak(0.2)) {
+            Ok(solution) => {
+                found += 1;
+                assert!((solution.a() / (0.2 * std::f64::consts::PI) - 1.0).abs() < 1e-12);
+            }
+            Err(error) => {
+                failed += 1;
+                let named = matches!(
+                    error,
+                    ContactError::Profile { source: ProfileError::NotFinite { .. }, .. }
+                );
+                assert!(named, "{most}: {error}");
+            }
+        }
+    }
+    assert!(found > 0 && failed > 0, "{found} {failed}");
+}
+
+#[test]
+fn a_slope_given_by_x_that_fails_is_named() {
+    struct Graph;
+    impl ParametricProfile<f64> for Graph {
+        fn domain(&self) -> [f64; 2] {
+            [-1.0, 1.0]
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            Some(if x > 0.15 { f64::NAN } else { x })
+        }
+    }
+    let error = error(&Flat, &Graph, 0.1);
+    let ContactError::Profile {
+        body: Body::Upper,
+        source: ProfileError::NotFinite { quantity, k, value },
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert!(quantity == "slope_at(x)" && k > 0.15 && value.is_nan(), "{quantity} {k}");
+}
+
+#[test]
+fn a_profile_that_fails_under_a_pull_is_named() {
+    let glued = Edge::Adhesive(1e-3);
+    let failing =
+        graph(-1.0, 1.0, |x| [x * x / 2.0, if x > 0.05 && x < 0.5 { f64::NAN } else { x }]);
+    let contact = Contact::new(&Flat, &*failing).unwrap().edges(glued, glued);
+    let error = contact.solve(Load::PerLength(-1e-3)).unwrap_err();
+    let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
+        panic!("{error}")
+    };
+    assert!(k > 0.05 && k < 0.5, "{k}");
+}
+
+#[test]
+fn a_spent_budget_of_a_peak_carries_the_best_limits() {
+    let body = common::power(3.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let exact = contact.solve(Load::ToPeak(0.1)).unwrap().a();
+    let hasty = Brent { tolerance: Tolerance { max_evaluations: 1, ..Tolerance::FULL } };
+    let error = contact.search(&hasty).solve(Load::ToPeak(0.1)).unwrap_err();
+    let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
+        panic!("{error}")
+    };
+    assert!((best.half_width() / exact - 1.0).abs() < 0.5, "{best:?} {exact}");
 }

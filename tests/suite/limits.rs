@@ -337,3 +337,21 @@ fn a_curvature_that_jumps_by_two_to_the_27th() {
         }
     }
 }
+
+#[test]
+fn a_point_of_first_contact_between_the_ends_of_the_start() {
+    // g = x - 100 x³ falls beyond x = ±0.058: at the start it has the signs of a gap that closes.
+    // F = L²/2 - 75 L⁴/2.
+    let body = graph(-1.0, 1.0, |x| [x * x / 2.0 - 25.0 * x.powi(4), x - 100.0 * x.powi(3)]);
+    let brent = Brent::default();
+    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent);
+    for l in [0.005, 0.02] {
+        let load = l * l / 2.0 - 37.5 * f64::powi(l, 4);
+        for start in [Interval { left: -0.31, right: 0.3 }, Interval { left: -0.2, right: 0.9 }] {
+            let solution = contact.clone().start(start);
+            let solution = solution.solve(Load::ToHalfWidth(l)).unwrap();
+            close(solution.load(), load, 1e-13, "load");
+            close(solution.a(), l, 1e-13, "a");
+        }
+    }
+}

@@ -26,6 +26,7 @@ mod limits;
 mod peak;
 mod pieces;
 mod profiles;
+mod pull_off;
 mod quadrature;
 mod quantities;
 mod references_f32;

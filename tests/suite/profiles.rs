@@ -297,3 +297,34 @@ fn fine_waves_and_kinks_are_no_wrong_derivatives() {
     });
     assert!(Piece::checked(&kinked).is_ok());
 }
+
+#[test]
+fn pointers_to_a_profile_pass_everything_on() {
+    /// Every answer by a formula of its own, so that none can stand in for another.
+    struct Told;
+    impl ParametricProfile<f64> for Told {
+        fn domain(&self) -> [f64; 2] {
+            [-1.0, 1.0]
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            CurvePoint { x: k, y: k * k, dx: 1.0, dy: 2.0 * k }
+        }
+        fn x(&self, k: f64) -> f64 {
+            k + 10.0
+        }
+        fn y(&self, k: f64) -> f64 {
+            k + 20.0
+        }
+        fn dx(&self, k: f64) -> f64 {
+            k + 30.0
+        }
+        fn dy(&self, k: f64) -> f64 {
+            k + 40.0
+        }
+    }
+    fn told(profile: impl ParametricProfile<f64>) -> [f64; 4] {
+        [profile.x(0.5), profile.y(0.5), profile.dx(0.5), profile.dy(0.5)]
+    }
+    let want = [10.5, 20.5, 30.5, 40.5];
+    assert_eq!([told(&Told), told(Box::new(Told)), told(std::sync::Arc::new(Told))], [want; 3]);
+}

@@ -5,10 +5,13 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{example_1_exact, example_2_exact, graph, order, paper, reference, scenes};
+use linecontact::gap::Sampler;
+use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
 use linecontact::{
     Contact, ContactError, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load, Midpoint,
     Solution,
 };
+use linecontact::{Cost, Estimate, Gap, Panels};
 use std::f64::consts::PI;
 
 const EVEN: Exponents = Exponents::Even;
@@ -340,4 +343,69 @@ fn segments_that_cannot_be_used() {
     assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
     let estimate = pressure.estimate(0.0, &mut linecontact::Cost::default()).unwrap();
     assert!(estimate.value.is_finite() && estimate.error.is_infinite());
+}
+
+/// The panels, without what an engine need not know; and what it is asked wrongly.
+struct Reticent(Box<dyn Engine<f64>>);
+
+struct ReticentPanels;
+
+impl Quadrature<f64> for ReticentPanels {
+    fn engine(&self) -> Result<Box<dyn Engine<f64>>, ContactError<f64>> {
+        Ok(Box::new(Reticent(Panels::FULL.engine()?)))
+    }
+}
+
+impl Engine<f64> for Reticent {
+    fn reset(&mut self, same_bodies: bool) {
+        self.0.reset(same_bodies);
+    }
+    fn cover(&mut self, gap: &Gap<f64>, on: Interval<f64>, rough: bool) -> Asked<Option<f64>> {
+        self.0.cover(gap, on, rough)
+    }
+    fn moments(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<Moments<f64>> {
+        let range = gap.range();
+        for x in [range[0] - 1.0, range[1] + 0.5, f64::NAN] {
+            let beyond = Sampler::default().slope(gap, x).unwrap_err();
+            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+            let beyond = self.0.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
+            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+        }
+        // An engine that was not prepared knows nothing.
+        let pressing = Pressing { kappa: 1.0, load: 1.0, free: [true; 2] };
+        let unprepared = Midpoint::DEFAULT.engine()?;
+        let estimate = unprepared.estimate(gap, &pressing, on.centre(), &mut Cost::default())?;
+        assert_eq!(estimate.error, f64::INFINITY);
+        self.0.moments(gap, on)
+    }
+    fn prepare(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<()> {
+        self.0.prepare(gap, on)
+    }
+    fn estimate(
+        &self,
+        gap: &Gap<f64>,
+        pressing: &Pressing<f64>,
+        x: f64,
+        cost: &mut Cost,
+    ) -> Asked<Estimate<f64>> {
+        self.0.estimate(gap, pressing, x, cost)
+    }
+    fn cost(&self) -> Cost {
+        self.0.cost()
+    }
+}
+
+type Asked<R> = Result<R, ContactError<f64>>;
+
+#[test]
+fn an_engine_need_not_keep_samples_or_tell_slopes() {
+    // F = L²/2, p₀ = L/π.
+    let body = crate::common::parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&ReticentPanels);
+    for l in [0.1, 0.7] {
+        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-14);
+        let peak = solution.pressure().unwrap().at(0.0).unwrap();
+        assert_relative_eq!(peak, l / PI, epsilon = 0.0, max_relative = 1e-14);
+    }
 }

@@ -315,3 +315,14 @@ fn in_single_precision() {
     assert!((solution.gap_at(0.5).unwrap() - form.gap(0.5)).abs() < 1e-6);
     assert!(solution.residual(0.1).unwrap().abs() < 1e-4 * solution.mean_pressure());
 }
+
+#[test]
+fn a_solution_shows_its_limits_and_its_load() {
+    let body = crate::common::parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(0.0625)).unwrap();
+    let shown = format!("{solution:?}");
+    for part in [format!("{:?}", solution.interval()), format!("load: {:?}", solution.load())] {
+        assert!(shown.contains(&part), "{shown}");
+    }
+}

@@ -303,3 +303,20 @@ fn edges_and_controls_may_change_from_call_to_call() {
         }
     }
 }
+
+#[test]
+fn given_limits_are_sampled_once() {
+    // P = sqrt(L² - x²)/π + (F - L²/2)/(π sqrt(L² - x²)).
+    let body = common::parabola(1.0);
+    let edges = [Edge::Fixed(-0.4), Edge::Fixed(0.4)];
+    let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
+    let mut solver = contact.solver().unwrap();
+    for (i, load) in [0.1, 0.2, 0.3].into_iter().enumerate() {
+        let solution = solver.solve(&contact, Load::PerLength(load)).unwrap();
+        assert_eq!(solution.cost().evaluations == 0, i > 0, "{i}");
+        let root = f64::sqrt(0.16 - 0.01);
+        let want = (root + (load - 0.08) / root) / std::f64::consts::PI;
+        let got = solution.pressure().unwrap().at(0.1).unwrap();
+        assert!((got / want - 1.0).abs() < 1e-13, "{got} {want}");
+    }
+}

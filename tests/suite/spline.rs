@@ -270,3 +270,31 @@ fn a_spline_of_single_precision() {
         assert!((solution.a() / 0.2 - 1.0).abs() < 0.01, "{noise} {}", solution.a());
     }
 }
+
+#[test]
+fn a_spline_and_its_pieces_tell_their_ranges_and_slopes() {
+    // A parabola is met exactly.
+    let points = uneven(12, |x| x * x / 3.0);
+    let spline = Spline::through(&points).unwrap();
+    assert_eq!(spline.domain(), [points[0][0], points[11][0]]);
+    for i in 0..spline.pieces() {
+        let piece = spline.piece(i).unwrap();
+        assert_eq!(piece.curve.domain(), piece.k);
+        assert_eq!(piece.curve.domain(), [points[i][0], points[i + 1][0]]);
+    }
+    for x in [-0.9, -0.3, 0.2, 0.7] {
+        let slope = spline.slope_at(x).unwrap();
+        assert_relative_eq!(slope, spline.at(x).dy, epsilon = 0.0, max_relative = 1e-15);
+    }
+}
+
+#[test]
+fn noise_far_below_that_of_the_points_leaves_them_as_they_are() {
+    let mut scatter = Noise(3);
+    let points = even(40, |x| x * x / 2.0 + 0.01 * scatter.normal());
+    let fit = Fit { noise: 1e-14, outliers: None };
+    let spline = Spline::fitted(&points, fit).unwrap();
+    for &[x, y] in &points {
+        assert!((spline.at(x).y - y).abs() < 1e-10, "{x}: {} {y}", spline.at(x).y);
+    }
+}

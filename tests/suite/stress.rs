@@ -520,3 +520,15 @@ fn strong_friction_brings_the_largest_shear_to_the_surface() {
     println!("{} at {}, {}", largest.value / peak, largest.x / 0.1, largest.depth / 0.1);
     assert!(largest.value > 0.5999 * peak && largest.value < 0.61 * peak);
 }
+
+#[test]
+fn a_field_shows_its_contact_and_its_friction() {
+    let body = crate::common::parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let solution = contact.solve(Load::PerLength(0.01)).unwrap();
+    let field = solution.subsurface().unwrap().friction(0.375).unwrap();
+    let shown = format!("{field:?}");
+    for part in [format!("{:?}", solution.interval()), "friction: 0.375".into()] {
+        assert!(shown.contains(&part), "{shown}");
+    }
+}

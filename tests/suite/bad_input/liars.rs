@@ -61,6 +61,11 @@ fn strategies_that_lie() {
     let mut table = Table::new("Contact::solve by a strategy that lies");
     let upper = body();
     let contact = Contact::new(&Flat, &*upper).unwrap();
+    let flat = curve([-1.0, 1.0], |k| {
+        let (x, dx) = (k * k * k + 1e-9 * k, 3.0 * k * k + 1e-9);
+        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+    });
+    let flat = Contact::new(&Flat, &*flat).unwrap();
     let exact = 0.1f64.sqrt();
     let rule = Midpoint::default();
     let liars: [(&str, Liar); 10] = [
@@ -121,9 +126,13 @@ fn strategies_that_lie() {
             ("inversion, panels", contact.clone().inversion(liar), 40_000),
             ("search", contact.clone().search(liar), 4_000),
             ("search, half-width", contact.clone().search(liar), 4_000),
+            ("search, peak", contact.clone().search(liar), 40_000),
+            ("inversion of a flat spot, panels", flat.clone().inversion(liar), 40_000),
         ] {
             let load = if how.contains("width") {
                 Load::ToHalfWidth(exact)
+            } else if how.contains("peak") {
+                Load::ToPeak(exact / std::f64::consts::PI)
             } else {
                 Load::PerLength(0.05)
             };
@@ -140,14 +149,16 @@ fn strategies_that_lie() {
                 },
                 |outcome| match outcome {
                     Ok(_) => true,
-                    Err(Wrong::Contact(error)) => matches!(
-                        error,
-                        ContactError::Inversion { .. }
-                            | ContactError::Profile { .. }
-                            | ContactError::LimitSearch { .. }
-                            | ContactError::OutsideBodies { .. }
-                            | ContactError::Overflow { .. }
-                    ),
+                    Err(Wrong::Contact(error)) => {
+                        matches!(
+                            error,
+                            ContactError::Inversion { .. }
+                                | ContactError::Profile { .. }
+                                | ContactError::LimitSearch { .. }
+                                | ContactError::OutsideBodies { .. }
+                                | ContactError::Overflow { .. }
+                        ) || (how.contains("peak") && matches!(error, ContactError::NoPeak { .. }))
+                    }
                     Err(_) => false,
                 },
             );

@@ -55,6 +55,7 @@ fn loads_scales_and_edges() {
                                 ContactError::TooShort { .. }
                                     | ContactError::Overflow { .. }
                                     | ContactError::NoPeak { .. }
+                                    | ContactError::PeakTooHigh { .. }
                                     | ContactError::NoBalance { .. }
                                     | ContactError::OutsideBodies { .. }
                             ) || (name == "Constant" && *error == ContactError::Load { load: 0.0 })
