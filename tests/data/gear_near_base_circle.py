@@ -112,8 +112,9 @@ def main():
         "body2": {
             "pieces": [
                 {
-                    "X": f"75/2*(cos(k) + {unwound}*sin(k) - 1)",
-                    "Y": f"75/2*(sin(k) - {unwound}*cos(k) + 1/64)",
+                    # cos(k) - 1 = -2*sin(k/2)**2, without the loss of digits.
+                    "X": f"75/2*({unwound}*sin(k) - 2*sin(k/2)**2)",
+                    "Y": "75/2*(sin(k/2)**2/32 + sin(k) - k*cos(k))",
                     "dX": f"75/2*{unwound}*cos(k)",
                     "dY": f"75/2*{unwound}*sin(k)",
                     "k_from": LEFT,
