@@ -29,6 +29,7 @@ mod quadrature;
 mod quantities;
 mod references_f32;
 mod reuse;
+mod search_counts;
 mod searches;
 mod shapes;
 mod solver;
