@@ -268,13 +268,6 @@ impl<T: Real> Excess<T> {
 }
 
 impl<T: Real> Goal<T> {
-    pub fn kappa(&self) -> T {
-        match *self {
-            Self::Strength { conditions, .. } => conditions.kappa,
-            Self::Pressure { kappa, .. } => kappa,
-        }
-    }
-
     /// The limits -b and a, where they are given.
     pub fn limits(&self) -> [Option<T>; 2] {
         match *self {

@@ -271,7 +271,10 @@ impl<'s, T: Real> Search<'s, T> {
                         half_width = half * last + half * adrift;
                     }
                     if half_width <= last {
-                        return Err(self.too_short(1, trial.on));
+                        return Err(match adrift {
+                            Some(_) => self.no_balance(last),
+                            None => self.too_short(1, trial.on),
+                        });
                     }
                 }
                 _ => {
@@ -461,13 +464,17 @@ impl<'s, T: Real> Search<'s, T> {
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
-        if let Goal::Pressure { wanted, .. } = self.goal {
-            let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
-            return met.err().unwrap_or(self.no_balance(on.half_width()));
-        }
+        let conditions = match self.goal {
+            Goal::Strength { conditions, .. } => conditions,
+            Goal::Pressure { wanted, .. } => {
+                let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
+                return met.err().unwrap_or(self.no_balance(on.half_width()));
+            }
+        };
         match self.engine.moments(self.gap, on) {
             Ok(m) => {
-                let carried = self.goal.kappa() * on.half_width() * m.first;
+                // One edge at least is not fixed, or no limit would be sought.
+                let carried = conditions.balance(on, &m).unwrap_or(T::zero());
                 ContactError::TooShort { end: self.range[end], carried, load: self.load }
             }
             Err(error) => error,

@@ -16,15 +16,15 @@ use common::{Profile, graph, parabola};
 use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Solution};
 use std::f64::consts::PI;
 
-const KAPPA: f64 = 1.7;
-const WORK: f64 = 1e-3;
+pub const KAPPA: f64 = 1.7;
+pub const WORK: f64 = 1e-3;
 
 /// The slope g₀ + g₁ x + g₂ x².
 #[derive(Clone, Copy)]
-struct Quadratic([f64; 3]);
+pub struct Quadratic(pub [f64; 3]);
 
 impl Quadratic {
-    fn body(self, from: f64, to: f64) -> Profile {
+    pub fn body(self, from: f64, to: f64) -> Profile {
         let Self([g0, g1, g2]) = self;
         graph(from, to, move |x| [x * (g0 + x * (g1 / 2.0 + x * g2 / 3.0)), g0 + x * (g1 + x * g2)])
     }
@@ -35,13 +35,13 @@ impl Quadratic {
     }
 
     /// c₀/2, c₁ and c₂, for κ = 1.
-    fn coefficients(self, on: Interval<f64>) -> [f64; 3] {
+    pub fn coefficients(self, on: Interval<f64>) -> [f64; 3] {
         let (Self([g0, g1, g2]), c, l) = (self, on.centre(), on.half_width());
         [g0 + g1 * c + g2 * c * c + g2 * l * l / 2.0, l * (g1 + 2.0 * g2 * c), g2 * l * l / 2.0]
     }
 
     /// K_a and K_b.
-    fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
+    pub fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
         let [mean, first, _] = self.coefficients(on);
         let alpha = (load / on.half_width() - KAPPA * first / 2.0) / PI;
         [alpha - KAPPA * mean / PI, alpha + KAPPA * mean / PI]
@@ -57,7 +57,7 @@ impl Quadratic {
 }
 
 /// The strength that an edge asks for; `None` at a fixed one, which takes what comes.
-fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
+pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
     match edge {
         Edge::Free => Some(0.0),
         Edge::Adhesive(work) => Some(-2.0 * (KAPPA * work / half_width).sqrt() / PI),

@@ -7,6 +7,9 @@ mod common;
 mod forms;
 #[path = "../common/integrals.rs"]
 mod integrals;
+#[allow(dead_code)]
+#[path = "../common/kept.rs"]
+mod kept;
 
 mod accuracy;
 mod bad_input;
@@ -23,6 +26,7 @@ mod estimates;
 mod found;
 mod invariants;
 mod limits;
+mod one_at_a_time;
 mod peak;
 mod profiles;
 mod quadrature;
