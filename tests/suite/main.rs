@@ -38,6 +38,7 @@ mod searches;
 mod shapes;
 mod solver;
 mod spline;
+mod starts;
 mod stress;
 mod threads;
 mod undeclared;

@@ -308,3 +308,65 @@ fn pressures_wanted_at_a_distance() {
     }
     check(&PRESSURES, &found);
 }
+
+#[test]
+fn pressures_missed_are_those_of_the_best_contact() {
+    // A search that stops early; the pressures at the two places are those between fixed limits.
+    let (load, distances) = (0.1, [0.07, 0.03]);
+    let body = BENT.body(-0.5, 1.1);
+    let [at_a, at_b] = [0.05, 0.04];
+    let wanted = EdgePressure {
+        at_a,
+        at_b,
+        distance_a: distances[0],
+        distance_b: distances[1],
+        tolerance_a: 1e-7,
+        tolerance_b: 1e-7,
+    };
+    let sloppy = Brent { tolerance: Tolerance::relative(0.02) };
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).quadrature(&RULE);
+    let missed = |wanted| {
+        let contact = contact.clone().search(&sloppy).edge_pressure(wanted);
+        match contact.solve(Load::PerLength(load)) {
+            Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => (best, [at_a, at_b]),
+            other => panic!("{other:?}"),
+        }
+    };
+    let (best, by) = missed(wanted);
+    let fixed = contact.clone().edges(Edge::Fixed(best.left), Edge::Fixed(best.right));
+    let fixed = fixed.solve(Load::PerLength(load)).unwrap();
+    let pressure = fixed.pressure().unwrap();
+    let at = |x| pressure.estimate(x, &mut Default::default()).unwrap().value;
+    let exact = [at(best.right - distances[0]) - at_a, at(best.left + distances[1]) - at_b];
+    assert_relative_eq!(by[..], exact[..], epsilon = 0.0, max_relative = 1e-9);
+    // Either alone is enough to refuse it.
+    let [most_a, most_b] = by.map(|by| 2.0 * by.abs());
+    let one = missed(EdgePressure { tolerance_a: most_a, ..wanted });
+    let other = missed(EdgePressure { tolerance_b: most_b, ..wanted });
+    assert_eq!([one.0, other.0], [best; 2]);
+}
+
+#[test]
+fn edges_take_the_place_of_edge_pressures() {
+    let body = BENT.body(-0.5, 1.1);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let asked = contact.clone().edge_pressure(EdgePressure::zero(0.1, 1e-6));
+    let again = asked.edges(Edge::Free, Edge::Free);
+    let limits = |contact: &Contact<f64>| {
+        contact.solve(Load::PerLength(0.1)).map(|solution| solution.interval()).unwrap()
+    };
+    assert_eq!(limits(&again), limits(&contact));
+}
+
+#[test]
+fn forces_beyond_any_number_are_an_overflow() {
+    let body = graph(-1.0, 1.0, |x| [1e200 * x * x / 2.0, 1e200 * x]);
+    for strategy in strategies(Tolerance::FULL) {
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).search(&*strategy);
+        for load in [1e-3, 1e300] {
+            let error = contact.solve(Load::PerLength(load)).unwrap_err();
+            let ContactError::Overflow { interval } = error else { panic!("{error}") };
+            assert!(interval.left < 0.0 && interval.right > 0.0, "{interval:?}");
+        }
+    }
+}
