@@ -261,7 +261,7 @@ impl<'s, T: Real> Search<'s, T> {
                 (Some(narrow), Some(wide)) => {
                     let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                     let inside = half_width > from && half_width < to;
-                    if !inside || to <= T::of(1.5) * from || stride.is_long() {
+                    if !inside || to <= T::of(1.5) * from {
                         return Ok([narrow, wide]);
                     }
                 }
