@@ -13,7 +13,7 @@ use crate::common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{Profile, graph, parabola};
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Solution};
+use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Solution};
 use std::f64::consts::PI;
 
 pub const KAPPA: f64 = 1.7;
@@ -450,6 +450,9 @@ fn edges_that_make_no_sense() {
     ] {
         let range = [-1.0, 1.0];
         assert_eq!(error(left, right, load), ContactError::OutsideBodies { x, range });
+        let by_rule = contact.clone().edges(left, right).quadrature(&Midpoint::DEFAULT);
+        let error = by_rule.solve(load).unwrap_err();
+        assert_eq!(error, ContactError::OutsideBodies { x, range });
     }
     let [left, right] = [0.4, -0.4];
     let reversed = error(Edge::Fixed(left), Edge::Fixed(right), load);
