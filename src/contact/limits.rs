@@ -69,9 +69,6 @@ pub(super) fn find<T: Real>(
     };
     let mut search = Search { load, ..Search::new(contact, goal, engine, origin, cost) };
     let trial = search.widen(half_width)?;
-    if trial.cornered {
-        return Err(search.no_balance(trial.on.half_width()));
-    }
     if let Goal::Pressure { wanted, .. } = goal {
         wanted.met(trial.on, &trial.excess)?;
     }
@@ -119,8 +116,6 @@ pub(super) fn place<T: Real>(
 struct Trial<T> {
     on: Interval<T>,
     excess: Excess<T>,
-    /// Not balanced: it would have to let go of the point of first contact.
-    cornered: bool,
 }
 
 /// What became of a contact of given width.
@@ -182,7 +177,7 @@ impl<'s, T: Real> Search<'s, T> {
         if !excess.is_finite() {
             return Err(ContactError::Overflow { interval: on });
         }
-        Ok(Trial { on, excess, cornered: false })
+        Ok(Trial { on, excess })
     }
 
     /// Finds the half-width at which the spread vanishes, starting from a guess.
@@ -343,8 +338,9 @@ impl<'s, T: Real> Search<'s, T> {
                 } else {
                     Ok(match self.goal {
                         Goal::Strength { .. } => Placed::Adrift,
-                        // It still tells whether to widen; then it may find its balance.
-                        Goal::Pressure { .. } => Placed::At(Trial { cornered: true, ..trial }),
+                        // Not balanced, it still tells whether to widen; then it may find its
+                        // balance, and if not, the pressures at its edges show it.
+                        Goal::Pressure { .. } => Placed::At(trial),
                     })
                 };
             }
