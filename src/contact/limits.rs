@@ -73,9 +73,6 @@ pub(super) fn find<T: Real>(
     };
     let mut search = Search { load, ..Search::new(contact, goal, engine, origin, cost) };
     let trial = search.widen(half_width)?;
-    if trial.cornered {
-        return Err(search.no_balance(trial.on.half_width()));
-    }
     if let Goal::Pressure { wanted, .. } = goal {
         wanted.met(trial.on, &trial.excess)?;
     }
@@ -123,8 +120,6 @@ pub(super) fn place<T: Real>(
 struct Trial<T> {
     on: Interval<T>,
     excess: Excess<T>,
-    /// Not balanced: it would have to let go of the point of first contact.
-    cornered: bool,
 }
 
 /// What became of a contact of given width.
@@ -191,7 +186,7 @@ impl<'s, T: Real> Search<'s, T> {
         if !excess.is_finite() {
             return Err(ContactError::Overflow { interval: on });
         }
-        Ok(Trial { on, excess, cornered: false })
+        Ok(Trial { on, excess })
     }
 
     /// Finds the half-width at which the spread vanishes, starting from a guess.
@@ -270,7 +265,7 @@ impl<'s, T: Real> Search<'s, T> {
                 (Some(narrow), Some(wide)) => {
                     let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                     let inside = half_width > from && half_width < to;
-                    if !inside || to <= T::of(1.5) * from || stride.is_long() {
+                    if !inside || to <= T::of(1.5) * from {
                         return Ok([narrow, wide]);
                     }
                 }
@@ -280,7 +275,10 @@ impl<'s, T: Real> Search<'s, T> {
                         half_width = half * last + half * adrift;
                     }
                     if half_width <= last {
-                        return Err(self.too_short(1, trial.on));
+                        return Err(match adrift {
+                            Some(_) => self.no_balance(last),
+                            None => self.too_short(1, trial.on),
+                        });
                     }
                 }
                 _ => {
@@ -357,8 +355,9 @@ impl<'s, T: Real> Search<'s, T> {
                 } else {
                     Ok(match self.goal {
                         Goal::Strength { .. } => Placed::Adrift,
-                        // It still tells whether to widen; then it may find its balance.
-                        Goal::Pressure { .. } => Placed::At(Trial { cornered: true, ..trial }),
+                        // Not balanced, it still tells whether to widen; then it may find its
+                        // balance, and if not, the pressures at its edges show it.
+                        Goal::Pressure { .. } => Placed::At(trial),
                     })
                 };
             }

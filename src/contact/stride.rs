@@ -47,9 +47,4 @@ impl<T: Real> Stride<T> {
         (self.power, self.beyond) = (self.power + self.power, self.beyond.powi(4));
         half_width * factor
     }
-
-    /// Whether four strides have been made, and more would lead astray.
-    pub fn is_long(&self) -> bool {
-        self.power > T::of(17.0)
-    }
 }

@@ -108,13 +108,13 @@ fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ende
         }
     };
     let mut rule = Rule { run: &run, patience: method.patience() };
-    // The root it returns is left aside: the tracker knows more.
-    let result = match method {
+    // What it returns is left aside: the tracker knows more.
+    let _ = match method {
         Method::Brent => roots::find_root_brent(lo, hi, f, &mut rule),
         Method::Secant => roots::find_root_secant(lo, hi, f, &mut rule),
     };
     let ended = run.borrow_mut().ended.take();
-    ended.unwrap_or(Ok(if result.is_ok() { Ended::Close } else { Ended::Stuck }))
+    ended.unwrap_or(Ok(Ended::Stuck))
 }
 
 struct Run<'r, 'f, T: Real> {
@@ -131,13 +131,13 @@ struct Rule<'c, 'r, 'f, T: Real> {
 }
 
 impl<T: Real> roots::Convergency<Number<T>> for Rule<'_, '_, '_, T> {
-    fn is_root_found(&mut self, Number(y): Number<T>) -> bool {
-        y == T::zero() || self.run.borrow().ended.is_some()
+    // Every iteration ends with the question after its limit, and that ends the run.
+    fn is_root_found(&mut self, _: Number<T>) -> bool {
+        false
     }
 
-    fn is_converged(&mut self, Number(x1): Number<T>, Number(x2): Number<T>) -> bool {
-        let run = self.run.borrow();
-        run.ended.is_some() || run.tracker.close(x1, x2)
+    fn is_converged(&mut self, _: Number<T>, _: Number<T>) -> bool {
+        false
     }
 
     fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {

@@ -203,6 +203,29 @@ fn a_given_peak() {
     );
 }
 
+/// The same where the peak is not in proportion to the width: for `g = c x³` it is `P = c L³ (3/2 s -
+/// s³)/π` with s = sin θ, largest at s² = 1/2, and `L³ = sqrt(2) π P₀/c`.
+#[test]
+fn a_given_peak_of_a_body_that_stiffens() {
+    let (c, wanted) = (0.7f64, 0.31);
+    let l = (2f64.sqrt() * PI * wanted / c).cbrt();
+    for (seed, exact) in [([1.0, 0.0], -l / (3.0 * c)), ([0.0, 1.0], l / (3.0 * wanted))] {
+        let c = Dual64::new(c, seed[0]);
+        let body = Curve::new([-2.0, 2.1].map(plain), move |k: Dual64| CurvePoint {
+            x: k,
+            y: c * k * k * k * k / 4.0,
+            dx: plain(1.0),
+            dy: c * k * k * k,
+        });
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToPeak(Dual64::new(wanted, seed[1]))).unwrap();
+        for limit in [solution.a(), solution.b()] {
+            assert_relative_eq!(limit.re, l, epsilon = 0.0, max_relative = 1e-13);
+            assert_relative_eq!(limit.eps, exact, epsilon = 0.0, max_relative = 1e-12);
+        }
+    }
+}
+
 /// The edges of the paper's Eq. (6), against differences of tight solutions.
 #[test]
 fn given_pressures_at_the_edges() {

@@ -13,11 +13,11 @@ use crate::common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{Profile, graph, parabola};
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Solution};
+use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Solution};
 use std::f64::consts::PI;
 
 pub const KAPPA: f64 = 1.7;
-const WORK: f64 = 1e-3;
+pub const WORK: f64 = 1e-3;
 
 /// The slope g₀ + g₁ x + g₂ x².
 #[derive(Clone, Copy)]
@@ -35,13 +35,13 @@ impl Quadratic {
     }
 
     /// c₀/2, c₁ and c₂, for κ = 1.
-    fn coefficients(self, on: Interval<f64>) -> [f64; 3] {
+    pub fn coefficients(self, on: Interval<f64>) -> [f64; 3] {
         let (Self([g0, g1, g2]), c, l) = (self, on.centre(), on.half_width());
         [g0 + g1 * c + g2 * c * c + g2 * l * l / 2.0, l * (g1 + 2.0 * g2 * c), g2 * l * l / 2.0]
     }
 
     /// K_a and K_b.
-    fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
+    pub fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
         let [mean, first, _] = self.coefficients(on);
         let alpha = (load / on.half_width() - KAPPA * first / 2.0) / PI;
         [alpha - KAPPA * mean / PI, alpha + KAPPA * mean / PI]
@@ -57,7 +57,7 @@ impl Quadratic {
 }
 
 /// The strength that an edge asks for; `None` at a fixed one, which takes what comes.
-fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
+pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
     match edge {
         Edge::Free => Some(0.0),
         Edge::Adhesive(work) => Some(-2.0 * (KAPPA * work / half_width).sqrt() / PI),
@@ -360,6 +360,9 @@ fn edges_that_make_no_sense() {
     ] {
         let range = [-1.0, 1.0];
         assert_eq!(error(left, right, load), ContactError::OutsideBodies { x, range });
+        let by_rule = contact.clone().edges(left, right).quadrature(&Midpoint::DEFAULT);
+        let error = by_rule.solve(load).unwrap_err();
+        assert_eq!(error, ContactError::OutsideBodies { x, range });
     }
     let peak = error(Edge::Free, Edge::UpTo(1.5), Load::ToPeak(0.1));
     assert_eq!(peak, ContactError::OutsideBodies { x: 1.5, range: [-1.0, 1.0] });

@@ -221,3 +221,34 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
         }
     }
 }
+
+#[test]
+fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
+    // Hertz, from limits that are only nearly right. P = κ sqrt(L² - x²)/(π R).
+    use linecontact::search::{Brent, Tolerance};
+    for (length, kappa) in [(1.0, 1.0), (1e-4, 1e-3), (1e3, 1e4)] {
+        let body = Curve::new([-2.0 * length, 2.0 * length], move |x: f64| CurvePoint {
+            x,
+            y: x * x / (2.0 * length),
+            dx: 1.0,
+            dy: x / length,
+        });
+        let (l, scale) = (0.4 * length, kappa * 0.4 / PI);
+        for relative in [1e-2, 1e-4, 1e-6] {
+            let sloppy = Brent { tolerance: Tolerance::relative(relative) };
+            let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).search(&sloppy);
+            let solution = contact.solve(Load::PerLength(kappa * 0.08 * length)).unwrap();
+            let pressure = solution.pressure().unwrap();
+            for z in [-0.999, -0.9, -0.3, 0.0, 0.5, 0.95, 0.99] {
+                let exact = scale * (1.0f64 - z * z).sqrt();
+                let got = pressure.estimate(z * l, &mut Cost::default()).unwrap();
+                let error = (got.value - exact).abs();
+                assert!(
+                    error <= 4.0 * got.error + 1e-14 * scale,
+                    "{length} {relative} {z}: {error:e} {:e}",
+                    got.error
+                );
+            }
+        }
+    }
+}

@@ -7,6 +7,9 @@ mod common;
 mod forms;
 #[path = "../common/integrals.rs"]
 mod integrals;
+#[allow(dead_code)]
+#[path = "../common/kept.rs"]
+mod kept;
 
 mod accuracy;
 mod bad_input;
@@ -23,6 +26,7 @@ mod estimates;
 mod found;
 mod invariants;
 mod limits;
+mod one_at_a_time;
 mod peak;
 mod pieces;
 mod profiles;
@@ -31,10 +35,12 @@ mod quadrature;
 mod quantities;
 mod references_f32;
 mod reuse;
+mod search_counts;
 mod searches;
 mod shapes;
 mod solver;
 mod spline;
+mod starts;
 mod stress;
 mod threads;
 mod undeclared;

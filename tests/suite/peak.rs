@@ -3,7 +3,7 @@
 
 use crate::common;
 
-use common::{graph, parabola};
+use common::{graph, parabola, power};
 use linecontact::{
     Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise,
 };
@@ -88,4 +88,24 @@ fn of_many_pieces_one_of_which_has_a_corner() {
     assert!(solution.peak().is_ok());
     let found = solution.certify();
     assert!(matches!(found, Err(ContactError::Tension { x, .. }) if x == end(517)), "{found:?}");
+}
+
+#[test]
+fn an_infinite_peak_is_refused_whatever_its_unit() {
+    // A flat punch, tilted: K > 0 at both edges. And a wedge, of which one point is infinite.
+    for unit in [1e-150, 1e-20, 1.0, 1e20] {
+        let punch = graph(-1.0, 1.0, |x| [0.1 * x, 0.1]);
+        let contact = Contact::new(&Flat, &*punch).unwrap().kappa(unit);
+        let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
+        let solution = contact.solve(Load::PerLength(2.0 * unit)).unwrap();
+        assert_eq!(solution.peak(), Err(ContactError::Singular { x: 0.5 }), "{unit}");
+        let wedge = power(1.0);
+        let contact = Contact::new(&Flat, &*wedge).unwrap().kappa(unit);
+        let solution = contact.solve(Load::ToHalfWidth(0.5)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        let mut three = [0.0; 3];
+        let refused = pressure.at_many(&[0.1, 0.0, -0.2], &mut three);
+        assert_eq!(refused, Err(ContactError::Singular { x: 0.0 }), "{unit}");
+        assert_eq!(three[0], pressure.at(0.1).unwrap());
+    }
 }

@@ -409,3 +409,27 @@ fn an_engine_need_not_keep_samples_or_tell_slopes() {
         assert_relative_eq!(peak, l / PI, epsilon = 0.0, max_relative = 1e-14);
     }
 }
+
+#[test]
+fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
+    // Within a sixteenth of a segment the pole is taken with the point; the two formulas are one.
+    let body = graph(-1.0, 1.0, |x| {
+        let (u, v) = (x * x, 1.0 + x * (0.3 + x * (2.0 + x * (1.0 + 3.0 * x))));
+        [u / 2.0 + x.powi(3) / 10.0 + u * u / 2.0 + x.powi(5) / 5.0 + u.powi(3) / 2.0, x * v]
+    });
+    let rule = rule(8, 1, EVEN);
+    let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+    let solution = contact.solve(Load::ToHalfWidth(0.5)).unwrap();
+    let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+    let at = |place: f64| {
+        let x = on.left + (on.right - on.left) * (place / 8.0);
+        pressure.estimate(x, &mut Default::default()).unwrap().value
+    };
+    for i in [1, 3, 4, 6] {
+        let point = f64::from(i) + 0.5;
+        for border in [point - 0.0625, point + 0.0625] {
+            let [below, above] = [at(border - 1e-9), at(border + 1e-9)];
+            assert!((above / below - 1.0).abs() < 1e-8, "{i}: {below} {above}");
+        }
+    }
+}

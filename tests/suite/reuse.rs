@@ -5,8 +5,8 @@ use crate::common;
 
 use common::{Counting, graph, paper, power, scenes};
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load, ParametricProfile,
-    Solution,
+    Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load, Midpoint,
+    ParametricProfile, Solution,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -318,5 +318,32 @@ fn given_limits_are_sampled_once() {
         let want = (root + (load - 0.08) / root) / std::f64::consts::PI;
         let got = solution.pressure().unwrap().at(0.1).unwrap();
         assert!((got / want - 1.0).abs() < 1e-13, "{got} {want}");
+    }
+}
+
+#[test]
+fn the_papers_rule_starts_afresh_with_other_bodies() {
+    // A curve and the same run through the other way and shifted: what the sampler remembers of one
+    // is wrong of the other. Each solution counts its own evaluations.
+    let calls = AtomicUsize::new(0);
+    let curve = |sign: f64, shift: f64| {
+        let ends = if sign > 0.0 { [-1.0, 1.2] } else { [-1.2, 1.0] };
+        Box::new(Curve::new(ends, move |k: f64| {
+            let (u, du) = (sign * (k + 0.3 * k * k * k), sign * (1.0 + 0.9 * k * k));
+            CurvePoint { x: u + shift, y: u * u / 2.0, dx: du, dy: u * du }
+        }))
+    };
+    let bodies = [Counting(curve(1.0, 0.0), &calls), Counting(curve(-1.0, 0.4), &calls)];
+    let rule = Midpoint { segments: 16, ..Midpoint::DEFAULT };
+    let scenes = [0, 1].map(|i| Contact::new(&Flat, &bodies[i]).unwrap().quadrature(&rule));
+    let mut solver = scenes[0].solver().unwrap();
+    for i in [0, 0, 1, 0, 1, 1] {
+        let before = calls.load(Ordering::Relaxed);
+        let solution = solver.solve(&scenes[i], Load::PerLength(0.02)).unwrap();
+        let cost = calls.load(Ordering::Relaxed) - before;
+        assert_eq!(cost, solution.cost().evaluations, "what the solution says of it");
+        let middle = [0.0, 0.4][i];
+        assert!((solution.a() - 0.2 - middle).abs() < 1e-14, "{solution:?}");
+        assert!((solution.b() - 0.2 + middle).abs() < 1e-14, "{solution:?}");
     }
 }

@@ -1,0 +1,153 @@
+//! Gaps with more than one solution: from whatever start, what is found is the contact that grows with
+//! its load and at whose free edges the bodies open, or an error.
+#![allow(missing_docs)]
+
+use crate::common;
+
+use common::{Profile, graph};
+use linecontact::search::Brent;
+use linecontact::{Contact, Edge, Flat, Interval, Load};
+
+struct Scene {
+    body: Profile,
+    edges: [Edge<f64>; 2],
+    load: f64,
+    /// The half-width of the contact that grows with its load.
+    half_width: f64,
+    /// Centres and half-widths of the starts.
+    centres: [f64; 3],
+    half_widths: [f64; 5],
+}
+
+/// The least positive root of a load that rises, less the one asked for.
+fn rising(load: f64, at: impl Fn(f64) -> f64, most: f64) -> f64 {
+    let (mut lo, mut hi) = (0.0, most);
+    for _ in 0..80 {
+        let middle = 0.5 * (lo + hi);
+        if at(middle) < load { lo = middle } else { hi = middle }
+    }
+    0.5 * (lo + hi)
+}
+
+fn scenes() -> Vec<Scene> {
+    // g = x + 3 x²: F = L² sqrt(1 - 18 L²)/2 between free edges, which falls from L² = 1/27 on.
+    let bent = || graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3), x + 3.0 * x * x]);
+    let of_bent = |l: f64| l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
+    // g = x - 4 x³: F = L² (1 - 3 L²)/2, which falls from L² = 1/6 on; beyond 1/2 it closes.
+    let double = || graph(-0.95, 0.95, |x| [x * x / 2.0 - x.powi(4), x - 4.0 * x.powi(3)]);
+    let of_double = |l: f64| l * l * (1.0 - 3.0 * l * l) / 2.0;
+    // The same, and e x²: e (c² + L²/2) + c - 4 c³ - 6 c L² = 0 and F = L² (1 + 2 e c - 12 c² - 3 L²)/2.
+    // The contact beyond closes at one edge only.
+    let lopsided = |e: f64| {
+        graph(-0.95, 0.95, move |x| {
+            let (u, v) = (x * x, 1.0 + x * (e - 4.0 * x));
+            [u * (0.5 + x * (e / 3.0 - x)), x * v]
+        })
+    };
+    let of_lopsided = |e: f64, l: f64| {
+        let mut c = 0.0f64;
+        for _ in 0..100 {
+            c = 4.0 * c.powi(3) + 6.0 * c * l * l - e * (c * c + l * l / 2.0);
+        }
+        l * l * (1.0 + 2.0 * e * c - 12.0 * c * c - 3.0 * l * l) / 2.0
+    };
+    // g = x - 3 x²/2 from a corner at 0: F = L² (3/2 - 15 L/4), which falls from L = 4/15 on.
+    let cornered = |sign: f64| {
+        graph(-0.9, 0.9, move |x| {
+            let u = sign * x;
+            [u * u / 2.0 - u.powi(3) / 2.0, sign * (u - 1.5 * u * u)]
+        })
+    };
+    let of_cornered = |l: f64| l * l * (1.5 - 3.75 * l);
+    let (free, corner) = (Edge::Free, Edge::Fixed(0.0));
+    let mut all = Vec::new();
+    for load in [1e-3, 0.01] {
+        all.push(Scene {
+            body: bent(),
+            edges: [free; 2],
+            load,
+            half_width: rising(load, of_bent, 27f64.recip().sqrt()),
+            centres: [0.0, -0.1, -0.3],
+            half_widths: [0.02, 0.1, 0.2, 0.3, 0.6],
+        });
+    }
+    for load in [5e-3, 0.03] {
+        all.push(Scene {
+            body: double(),
+            edges: [free; 2],
+            load,
+            half_width: rising(load, of_double, 6f64.recip().sqrt()),
+            centres: [0.0, 0.05, -0.3],
+            half_widths: [0.05, 0.3, 0.45, 0.505, 0.6],
+        });
+    }
+    for e in [0.05, 0.2, 0.4, -0.4] {
+        for load in [5e-3, 0.02] {
+            all.push(Scene {
+                body: lopsided(e),
+                edges: [free; 2],
+                load,
+                half_width: rising(load, |l| of_lopsided(e, l), 0.3),
+                centres: [0.0, 0.05, -0.1],
+                half_widths: [0.05, 0.3, 0.45, 0.505, 0.6],
+            });
+        }
+    }
+    for (sign, edges) in [(1.0, [corner, free]), (-1.0, [free, corner])] {
+        for load in [5e-3, 0.03] {
+            all.push(Scene {
+                body: cornered(sign),
+                edges,
+                load,
+                half_width: rising(load, of_cornered, 4.0 / 15.0),
+                centres: [0.2, 0.3, 0.4].map(|c| sign * c),
+                half_widths: [0.05, 0.15, 0.25, 0.33, 0.38],
+            });
+        }
+    }
+    all
+}
+
+#[test]
+fn the_contact_found_grows_with_its_load() {
+    let brent = Brent::default();
+    let mut solved = 0;
+    for scene in scenes() {
+        let Scene { body, edges: [left, right], load, half_width, centres, half_widths } = scene;
+        let newton = Contact::new(&Flat, &*body).unwrap().edges(left, right);
+        for (centre, reach) in centres.iter().flat_map(|&c| half_widths.map(|l| (c, l))) {
+            let start = Interval { left: centre - reach, right: centre + reach };
+            for contact in [newton.clone(), newton.clone().search(&brent)] {
+                let contact = contact.start(start);
+                let Ok(solution) = contact.solve(Load::PerLength(load)) else { continue };
+                let found = solution.interval().half_width();
+                assert!(
+                    (found / half_width - 1.0).abs() < 1e-12,
+                    "{left:?} {right:?} {load} {start:?}: {found}, not {half_width}"
+                );
+                solved += 1;
+            }
+        }
+    }
+    assert!(solved > 300, "{solved} of 480");
+}
+
+#[test]
+fn first_contact_between_the_ends_of_the_start() {
+    // At both ends of the start the bodies close outward: the lowest place is inside. The one of
+    // g = u - 4 u³ is at 0.
+    let place = 0.2;
+    let body = graph(place - 0.95, place + 0.95, move |x| {
+        let u = x - place;
+        [u * u / 2.0 - u.powi(4), u - 4.0 * u.powi(3)]
+    });
+    let brent = Brent::default();
+    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent);
+    for (left, right) in [(-0.6, 0.6), (-0.55, 0.7), (-0.8, 0.55), (-0.51, 0.9)] {
+        let contact = contact.clone().start(Interval { left: place + left, right: place + right });
+        let solution = contact.solve(Load::PerLength(5e-3)).unwrap();
+        let l = solution.interval().half_width();
+        assert!((solution.interval().centre() - place).abs() < 1e-13, "{solution:?}");
+        assert!((l * l * (1.0 - 3.0 * l * l) / 0.01 - 1.0).abs() < 1e-12, "{l}");
+    }
+}
