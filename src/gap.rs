@@ -271,11 +271,11 @@ impl<'a, T: Real> Gap<'a, T> {
         Ok((index, piece))
     }
 
-    /// The slope of a body at a point of it, by a central difference.
-    pub(crate) fn difference(&self, body: Body, x: T, k: T) -> T {
+    /// The slope of a body at a point of it, by a central difference over a share of its piece.
+    pub(crate) fn difference(&self, body: Body, x: T, k: T, share: T) -> T {
         let (_, piece) = self.piece_at(body, x, Side::Left);
         let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
-        let step = T::epsilon().cbrt() * (to - from);
+        let step = share * (to - from);
         let [one, other] = [(k - step).max(from), (k + step).min(to)].map(|k| piece.curve.at(k));
         (other.y - one.y) / (other.x - one.x)
     }

@@ -21,6 +21,7 @@ mod cover;
 mod far;
 mod groups;
 mod integrals;
+mod nodes;
 mod panel;
 
 pub(crate) use angles::Gauss;

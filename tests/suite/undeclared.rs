@@ -387,3 +387,18 @@ fn a_tip_far_narrower_than_a_panel_beside_a_joint() {
         assert!(solution.cost().evaluations < 1000);
     }
 }
+
+#[test]
+fn a_wave_that_is_shorter_than_a_difference() {
+    // Both bodies have it, so that the gap is a parabola.
+    let wavy = |bend: f64| {
+        graph(-1.0, 1.0, move |x| {
+            let (sin, cos) = (3e5 * x).sin_cos();
+            [bend * x * x / 2.0 + 1e-5 * cos, bend * x - 3.0 * sin]
+        })
+    };
+    let bodies = [wavy(1.0), wavy(2.0)];
+    let contact = Contact::new(&*bodies[0], &*bodies[1]).unwrap();
+    let solution = contact.solve(Load::PerLength(0.005)).unwrap();
+    assert_relative_eq!(solution.a(), 0.1, epsilon = 0.0, max_relative = 1e-9);
+}
