@@ -73,8 +73,19 @@ struct Points {
 /// 101 equidistant places.
 fn places(on: Interval<f64>) -> [f64; 101] {
     let (c, half) = (on.centre(), on.half_width());
-    std::array::from_fn(|i| c + half * (-1.0 + 2.0 * (i + 1) as f64 / 102.0))
+    Z.map(|z| c + half * z)
 }
+
+/// The same on [-1, 1], as a table, which the other programs have, too.
+const Z: [f64; 101] = {
+    let mut z = [0.0; 101];
+    let mut i = 0;
+    while i < 101 {
+        z[i] = -1.0 + 2.0 * (i + 1) as f64 / 102.0;
+        i += 1;
+    }
+    z
+};
 
 impl Points {
     fn new() -> Self {

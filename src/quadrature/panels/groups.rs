@@ -62,11 +62,11 @@ pub(super) fn group<T: Real>(
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
     let (parts_of, next) = (numbers.clone(), number + 1);
     groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
-    let mut sums = Sums { left, by_half: T::one() / half, sums: [T::zero(); POINTS] };
+    let mut sums = Sums { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] };
     if numbers.len() <= FEW {
         for part in within {
-            for &[along, weighted] in &nodes[part.nodes.clone()] {
-                sums.add(part.panel.x[0], along, weighted);
+            for nodes in nodes[part.nodes.clone()].as_chunks().0 {
+                sums.add(part.panel.x[0], nodes);
             }
         }
     } else {
@@ -75,36 +75,55 @@ pub(super) fn group<T: Real>(
             let half = groups.len();
             group(groups, parts, numbers, nodes);
             let half = &groups[half];
-            for (&z, &weight) in Table::of(POINTS).z[..POINTS].iter().zip(&half.weights) {
-                sums.add(half.left, half.half * T::of(1.0 + z), weight);
+            let points = half.points();
+            let nodes: [_; POINTS] = std::array::from_fn(|m| [points[m], half.weights[m]]);
+            for nodes in nodes.as_chunks().0 {
+                sums.add(half.left, nodes);
             }
         }
     }
     let next = groups.len();
     let group = &mut groups[number];
-    (group.weights, group.next) = (Table::of(POINTS).shares(&sums.sums), next);
+    (group.weights, group.next) = (Table::of(POINTS).shares(&sums.values()), next);
 }
 
-/// `∫ g T_k dθ` over a group.
+/// Nodes treated together: their numbers are multiples of this.
+const W: usize = 8;
+
+/// `∫ g T_k dθ` over a group, in lanes.
 struct Sums<T> {
     left: T,
     by_half: T,
-    sums: [T; POINTS],
+    lanes: [[T; W]; POINTS],
 }
 
 impl<T: Real> Sums<T> {
-    /// Adds a node by the start of a panel in the group and the distance from there.
-    fn add(&mut self, start: T, along: T, weighted: T) {
-        let s = ((start - self.left) + along) * self.by_half - T::one();
-        let (mut t0, mut t1) = (weighted, weighted * s);
-        for sum in &mut self.sums {
-            *sum += t0;
-            (t0, t1) = (t1, (s + s) * t1 - t0);
+    /// Adds nodes by the place that they count from.
+    fn add(&mut self, from: T, nodes: &[[T; 2]; W]) {
+        let offset = from - self.left;
+        let s: [T; W] = std::array::from_fn(|i| (offset + nodes[i][0]) * self.by_half - T::one());
+        let mut t0 = nodes.map(|[_, weighted]| weighted);
+        let mut t1: [T; W] = std::array::from_fn(|i| t0[i] * s[i]);
+        for lanes in &mut self.lanes {
+            for i in 0..W {
+                lanes[i] += t0[i];
+                (t0[i], t1[i]) = (t1[i], (s[i] + s[i]) * t1[i] - t0[i]);
+            }
         }
+    }
+
+    fn values(&self) -> [T; POINTS] {
+        self.lanes.map(|lanes| lanes.into_iter().fold(T::zero(), |sum, lane| sum + lane))
     }
 }
 
 impl<T: Real> Group<T> {
+    /// The points that stand for it, from its left end on.
+    fn points(&self) -> [T; POINTS] {
+        let z = &Table::of(POINTS).z;
+        std::array::from_fn(|m| self.half * T::of(1.0 + z[m]))
+    }
+
     /// Whether the parts are to be looked at one by one.
     pub fn is_near(&self, x: T) -> bool {
         x > self.near[0] && x < self.near[1]
@@ -123,9 +142,8 @@ impl<T: Real> Group<T> {
 
     /// `∫ g(t)/(t - x) dθ`
     pub fn integral(&self, x: T) -> T {
-        let (offset, z) = (self.left - x, &Table::of(POINTS).z);
-        let terms: [T; POINTS] =
-            std::array::from_fn(|m| self.weights[m] / (offset + self.half * T::of(1.0 + z[m])));
+        let (offset, points) = (self.left - x, self.points());
+        let terms: [T; POINTS] = std::array::from_fn(|m| self.weights[m] / (offset + points[m]));
         terms.into_iter().fold(T::zero(), |sum, term| sum + term)
     }
 }
