@@ -211,8 +211,7 @@ impl<'a, T: Real> Gap<'a, T> {
 
     /// Of the joints strictly inside an interval those where the slope jumps in the direction of
     /// `sign`, so that the pressure is infinite; and of the others no more than about `most`,
-    /// evenly. (A pressure takes time for each piece: at every joint it would take as much as the
-    /// square.)
+    /// evenly. (Pressures at all of very many joints would take longer than all else.)
     pub(crate) fn telling_joints(
         &self,
         on: crate::Interval<T>,

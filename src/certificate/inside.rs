@@ -18,10 +18,8 @@ use crate::{ContactError, Interval, Real};
 const NODES: usize = 16;
 /// How often a stretch between two joints is halved.
 const MOST_LEVELS: usize = 52;
-/// Cells in all; fewer where there are many joints, each of which every pressure takes time for.
-const MOST_CELLS: usize = 1 << 14;
-/// Cells times joints.
-const MOST_WORK: usize = 1 << 24;
+/// Cells in all.
+const MOST_CELLS: usize = 1 << 16;
 /// Joints at which the pressure is asked for, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 512;
 
@@ -58,9 +56,8 @@ impl<T: Real> Inside<'_, T> {
             self.engine.pressures(self.gap, &self.pressing, &[x], &mut pressure, cost)?;
             meet(x, pressure[0]);
         }
-        let joints = self.gap.joints(on).count();
-        let most = MOST_CELLS.min(MOST_WORK / (joints + 1));
-        let crowded = joints >= most;
+        // Each stretch between two joints is a cell or more.
+        let crowded = self.gap.joints(on).count() >= MOST_CELLS;
         // The ratio that is smallest, and where.
         let mut ratio: Option<Place<T>> = None;
         let (mut waiting, mut cells, mut left) = (Vec::new(), 0, Some(on.left));
@@ -70,7 +67,7 @@ impl<T: Real> Inside<'_, T> {
             left = joint;
             while let Some(([from, to], level)) = waiting.pop() {
                 cells += 1;
-                if cells > most {
+                if cells > MOST_CELLS {
                     return Err(undecided(from, *cost));
                 }
                 let middle = T::of(0.5) * from + T::of(0.5) * to;

@@ -59,6 +59,25 @@ fn a_circle_in_thousands_of_arcs() {
     assert_relative_eq!(moment, shift * form.load(1.0), epsilon = 0.0, max_relative = 1e-12);
 }
 
+/// Neither does the certificate of a gap that is not convex.
+#[test]
+fn a_certified_wave_in_thousands_of_pieces() {
+    let wave = |ends: &[f64]| {
+        Curve::new([ends[0], ends[1]], |x: f64| {
+            let (sin, cos) = (12.0 * x).sin_cos();
+            CurvePoint { x, y: x * x / 2.0 + 0.0072 * cos, dx: 1.0, dy: x - 0.0864 * sin }
+        })
+    };
+    let least = [1, 9000].map(|pieces| {
+        let body = Piecewise::new(joints(pieces).windows(2).map(wave).collect()).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+        solution.certify().unwrap().pressure.unwrap()
+    });
+    assert_relative_eq!(least[0].value, least[1].value, epsilon = 0.0, max_relative = 1e-7);
+    assert!((least[0].x.abs() - least[1].x.abs()).abs() < 1e-3, "{least:?}");
+}
+
 /// A polygon has a jump of the slope at each joint, with a logarithm each:
 /// `P = (κ/π²) Σ Δ_j 2 artanh(min(m, n)/max(m, n))`.
 #[test]
