@@ -6,8 +6,8 @@ use crate::common;
 use common::{graph, join, parabola, power};
 use linecontact::search::{Bracket, Brent, LimitSearch, Newton, Root, SearchError, Tolerance};
 use linecontact::{
-    Contact, ContactError, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat, Interval, Load,
-    Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
+    Body, Contact, ContactError, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat, Interval,
+    Load, Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
 };
 use std::f64::consts::PI;
 
@@ -201,6 +201,38 @@ fn derivatives_that_are_wrong() {
             panic!("{error}")
         };
         assert_eq!(quantity, "the slope Y'/X'");
+    }
+}
+
+#[test]
+fn slopes_that_are_a_third_off() {
+    // The slope of a parabola is x, whatever its parameter; heights may be counted from far away.
+    let with = |factor: f64, sign: f64, falls: f64, height: f64| {
+        Curve::new([-1.0, 1.0], move |k: f64| {
+            let (x, dx) = (falls * (k + 0.2 * k * k * k), falls * (1.0 + 0.6 * k * k));
+            let y = height + sign * x * x / 2.0;
+            CurvePoint { x, y, dx, dy: factor * sign * x * dx }
+        })
+    };
+    for (falls, height) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 1e3)] {
+        for (factor, seen) in [(0.6, false), (1.8, false), (0.45, true), (2.1, true), (9.0, true)] {
+            let bodies = [with(factor, -1.0, falls, height), with(factor, 1.0, falls, height)];
+            let (left, right) = (Contact::new(&bodies[0], &Flat), Contact::new(&Flat, &bodies[1]));
+            for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
+                let error = contact.unwrap().solve(Load::PerLength(0.02)).map(|_| ()).err();
+                assert_eq!(error.is_some(), seen, "{factor}: {error:?}");
+                let Some(error) = error else { continue };
+                let ContactError::Profile { body: at_fault, source } = error else { panic!() };
+                let ProfileError::Derivative { k, given, difference, .. } = source else {
+                    panic!()
+                };
+                assert_eq!(at_fault, body);
+                let sign = if body == Body::Lower { -1.0 } else { 1.0 };
+                let slope = sign * falls * (k + 0.2 * k * k * k);
+                assert!((given / slope - factor).abs() < 1e-12, "{given} {slope}");
+                assert!((difference / slope - 1.0).abs() < 1e-4, "{difference} {slope}");
+            }
+        }
     }
 }
 
