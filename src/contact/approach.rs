@@ -71,6 +71,15 @@ pub(super) fn find<T: Real>(
         }
         found = attempt(contact, &conditions, engine, Some(on), cost)?;
     }
+    let on = found.interval;
+    for (i, corner) in corners.iter().enumerate() {
+        let Edge::UpTo(x) = *corner else { continue };
+        let beyond = if i == 0 { x - on.left } else { on.right - x };
+        // Neither held by the corner nor within it.
+        if beyond > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
+            return Err(ContactError::NoBalance { half_width: on.half_width(), near: x });
+        }
+    }
     Ok(found)
 }
 
@@ -121,9 +130,17 @@ pub(super) fn with_edges<T: Real>(
             return Err(ContactError::OutsideBodies { x: limit, range });
         }
     }
+    let range = gap.range();
+    if let Some(on) = conditions.both_limits() {
+        let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
+        for (x, beyond) in [(on.left, range[0] - on.left), (on.right, on.right - range[1])] {
+            if beyond > rounding {
+                return Err(ContactError::OutsideBodies { x, range });
+            }
+        }
+    }
     engine.hold(gap, limits);
     let mut settled = None;
-    let range = gap.range();
     let warm = warm.filter(|on| on.left >= range[0] && on.right <= range[1]);
     if contact.search.is_none() {
         let guess = match warm {
@@ -375,7 +392,11 @@ fn nested<T: Real>(
             Ok((nested, Some(load)))
         }
         Control::HalfWidth(half_width) => {
-            Ok((limits::place(contact, goal, engine, half_width, cost)?, None))
+            let nested = match conditions.both_limits() {
+                Some(on) => Nested { on, error: T::epsilon() },
+                None => limits::place(contact, goal, engine, half_width, cost)?,
+            };
+            Ok((nested, None))
         }
     }
 }

@@ -95,6 +95,17 @@ impl<T: Real> Conditions<T> {
         }
     }
 
+    /// The interval, where the half-width is given and one of the limits.
+    pub fn both_limits(&self) -> Option<Interval<T>> {
+        let Control::HalfWidth(half_width) = self.control else { return None };
+        let width = half_width + half_width;
+        match self.edges.map(|edge| edge.limit()) {
+            [Some(left), None] => Some(Interval { left, right: left + width }),
+            [None, Some(right)] => Some(Interval { left: right - width, right }),
+            _ => None,
+        }
+    }
+
     /// The interval with its limits moved by steps in units of the half-width, given the load as a
     /// share of what the interval would carry. The half-width moves as its square would, by no more
     /// than a factor of 33 down or 4 up.

@@ -7,7 +7,7 @@ use super::edges::{Conditions, Control, Edge};
 use super::widest::widest;
 use super::{Contact, Found, approach};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Pressing, complete};
+use crate::quadrature::{Engine, Estimate, Pressing, complete};
 use crate::search::Bracket;
 use crate::{ContactError, Interval, Real};
 
@@ -103,10 +103,14 @@ impl<T: Real> Trials<'_, T> {
         self.engine.prepare(&contact.gap, on)?;
         complete(self.engine, &contact.gap, on, self.cost)?;
         let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };
-        let [_, pressure] = peak(self.engine, &contact.gap, &pressing, on)?;
+        let [x, pressure] = peak(self.engine, &contact.gap, &pressing, on)?;
         if pressure.is_finite() {
             self.last = Some(on);
-            Ok((found, pressure))
+            // The half-width goes with the peak, and is known no better.
+            let Estimate { error: doubt, .. } =
+                self.engine.estimate(&contact.gap, &pressing, x, self.cost)?;
+            let error = found.error.map(|error| error + doubt / pressure.abs());
+            Ok((Found { error, ..found }, pressure))
         } else {
             Err(ContactError::NoPeak { wanted: self.wanted, half_width, found: pressure })
         }
@@ -222,6 +226,13 @@ fn by_search<T: Real>(
             // All the room there is.
             let met = wanted - pressure <= T::of(8.0) * T::epsilon() * wanted;
             return if met { Ok(found) } else { Err(too_high(wanted, [half_width, pressure])) };
+        }
+        if !(pressure > T::zero()) {
+            // So narrow a contact there is none: the bodies touch beside a hollow.
+            let wider = half_width + half_width;
+            let half_way = |end: T| T::of(0.5) * half_width + T::of(0.5) * end;
+            half_width = too_wide.filter(|&end| wider >= end).map_or(wider, half_way);
+            continue;
         }
         *(if pressure < wanted { &mut low } else { &mut high }) = Some([half_width, pressure]);
         if let (Some(low), Some(high)) = (low, high) {

@@ -24,6 +24,7 @@ mod edges;
 mod errors;
 mod estimates;
 mod found;
+mod held_widths;
 mod invariants;
 mod limits;
 mod one_at_a_time;

@@ -1,0 +1,75 @@
+//! Given widths and peaks where an edge is held, or the tip is hollow.
+#![allow(missing_docs)]
+
+use crate::common::{graph, parabola};
+use approx::assert_relative_eq;
+use linecontact::search::Brent;
+use linecontact::{Contact, ContactError, Edge, Flat, Load, Midpoint};
+use std::f64::consts::PI;
+
+/// One limit and the width give the other: F = L²/2 + L c with the free edge on the far side, c the
+/// centre beyond that of the parabola on that side.
+#[test]
+fn a_width_beside_a_fixed_edge() {
+    let (body, brent) = (parabola(1.0), Brent::default());
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let others = [contact.clone().search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
+    for contact in [contact].into_iter().chain(others) {
+        for (held, half_width) in [(0.5, 0.5), (0.5, 0.7), (0.1, 0.5), (0.7, 0.85)] {
+            let far = held - 2.0 * half_width;
+            // K = 0 at the free edge: F = κ L (m₁ - m₀) = L²/2 - L c.
+            let load = half_width * (0.5 * half_width - (held - half_width));
+            let mirrored = contact.clone().edges(Edge::Fixed(-held), Edge::Free);
+            let contact = contact.clone().edges(Edge::Free, Edge::Fixed(held));
+            let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+            assert_relative_eq!(solution.interval().left, far, epsilon = 0.0, max_relative = 1e-14);
+            assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-9);
+            let solution = mirrored.solve(Load::ToHalfWidth(half_width)).unwrap();
+            assert_relative_eq!(solution.a(), -far, epsilon = 0.0, max_relative = 1e-14);
+            assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-9);
+        }
+        for other in [Edge::Free, Edge::Adhesive(1e-3)] {
+            let contact = contact.clone().edges(other, Edge::Fixed(0.1));
+            let error = contact.solve(Load::ToHalfWidth(5.0)).map(|_| ()).unwrap_err();
+            assert!(matches!(error, ContactError::OutsideBodies { x: -9.9, .. }), "{error}");
+        }
+    }
+}
+
+#[test]
+fn a_corner_is_not_passed() {
+    let hollow = graph(-1.0, 1.0, |x| [-x * x / 2.0, -x]);
+    let contact = Contact::new(&Flat, &*hollow).unwrap();
+    let contact = contact.edges(Edge::UpTo(-0.1), Edge::Adhesive(0.0));
+    assert!(contact.solve(Load::ToHalfWidth(0.3)).is_err());
+}
+
+/// Two tips with a hollow between them: no narrow contact presses anywhere.
+#[test]
+fn a_peak_of_a_hollow_tip() {
+    let body = graph(-1.0, 1.0, |x| {
+        let square = x * x;
+        [square * square - 0.02 * square, 4.0 * square * x - 0.04 * x]
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let under = contact.solve(Load::PerLength(0.1)).unwrap();
+    let peak = under.peak().unwrap().pressure;
+    let found = contact.solve(Load::ToPeak(peak)).unwrap();
+    assert_relative_eq!(found.a(), under.a(), epsilon = 0.0, max_relative = 1e-7);
+    assert_relative_eq!(found.load(), 0.1, epsilon = 0.0, max_relative = 1e-7);
+}
+
+/// Peaks by a rule of a few points are off, and so is the width.
+#[test]
+fn a_doubtful_peak_is_a_doubtful_width() {
+    let body = parabola(1.0);
+    for segments in [4, 8, 16, 32] {
+        let rule = Midpoint { segments, ..Midpoint::DEFAULT };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        if let Ok(solution) = contact.solve(Load::ToPeak(0.1)) {
+            let off = (solution.a() / (0.1 * PI) - 1.0).abs();
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= 4.0 * estimate + 1e-14, "{segments}: {off} {estimate}");
+        }
+    }
+}
