@@ -1,11 +1,13 @@
 //! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! All of the gap is sampled, as panels of its slope: the contact first, then the way from either
-//! edge to the ends of the bodies. The signs are those of pieces: bounds on a Chebyshev series by
+//! All of the gap is sampled, as panels of its slope: the contact first, and once more in short cells
+//! to see whether the panels have missed anything; then the way from either edge to the ends of the
+//! bodies. The signs are those of pieces: bounds on a Chebyshev series by
 //! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
 //! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
 
 mod inside;
+mod missed;
 mod outside;
 mod series;
 mod view;
@@ -89,7 +91,12 @@ pub(crate) fn certify<T: Real>(
             return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
         }
     }
-    let mut more = Cost::default();
+    // Bodies without an end, which are given by x itself, are followed for a million half-widths.
+    let reach = T::of(1e6) * on.half_width();
+    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
+    let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
+    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let mut more = missed::compare(gap, &cover, sampled, spacing, view.steepest())?;
     let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * view.steepest()) {
         None
     } else {
@@ -107,11 +114,6 @@ pub(crate) fn certify<T: Real>(
         if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
     };
     let both = [bearing(0), bearing(1)];
-    // Bodies without an end, which are given by x itself, are followed for a million half-widths.
-    let reach = T::of(1e6) * on.half_width();
-    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
-    let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
-    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
     let allowed = share * view.steepest() * on.half_width();
     let (mut worst, mut closest): (Option<Place<T>>, Option<Place<T>>) = (None, None);
     let nearer = |one: Option<Place<T>>, other: Option<Place<T>>| match (one, other) {

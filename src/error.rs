@@ -221,6 +221,20 @@ pub enum ContactError<T: Real> {
         /// The gap there, negative.
         gap: T,
     },
+    /// The slope of the gap inside the contact is not what the samples say from which the contact was
+    /// found: something lies between two of them.
+    #[error(
+        "the slope of the gap at x = {x:?} is {slope:?}, where the panels say {assumed:?}: something \
+         narrow has been missed there; declare joints at its ends, or correct the curve"
+    )]
+    Missed {
+        /// Where.
+        x: T,
+        /// The slope of the gap.
+        slope: T,
+        /// What it was taken for.
+        assumed: T,
+    },
     /// The certificate has spent its budget.
     #[error(
         "whether the bodies touch in one place is not decided after {evaluations} evaluations and \

@@ -92,6 +92,7 @@ impl<'s, T: Real> Solution<'s, T> {
     /// bodies may pull at each other, and only the outside is looked at.
     ///
     /// # Errors
+    /// [`ContactError::Missed`] where the panels do not know of something in the contact;
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {

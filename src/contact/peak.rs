@@ -227,7 +227,7 @@ fn by_search<T: Real>(
             let met = wanted - pressure <= T::of(8.0) * T::epsilon() * wanted;
             return if met { Ok(found) } else { Err(too_high(wanted, [half_width, pressure])) };
         }
-        if !(pressure > T::zero()) {
+        if pressure <= T::zero() {
             // So narrow a contact there is none: the bodies touch beside a hollow.
             let wider = half_width + half_width;
             let half_way = |end: T| T::of(0.5) * half_width + T::of(0.5) * end;

@@ -497,3 +497,37 @@ fn a_corner_without_adhesion_bears_no_tension_beside_an_adhesive_edge() {
     assert!(matches!(found, Err(ContactError::Tension { x: -0.1, .. })), "{found:?}");
     assert!(contact.solve(Load::PerLength(0.05)).unwrap().certify().is_ok());
 }
+
+/// A bump between two nodes, which the panels know nothing of: it is not certified.
+#[test]
+fn what_the_panels_have_missed_is_not_certified() {
+    let mut missed = 0;
+    for i in 0..50 {
+        let (at, wide) = (0.19 * (f64::from(i) + 0.5) / 50.0, 0.006);
+        let body = graph(-1.0, 1.0, move |x| {
+            let (y, dy) = (x * x / 2.0, x);
+            let angle = PI * (x - at) / wide;
+            if angle.abs() >= PI / 2.0 {
+                return [y, dy];
+            }
+            let (sin, cos) = angle.sin_cos();
+            let deep = 0.015;
+            [y - deep * cos.powi(4), dy + deep * 4.0 * PI / wide * cos.powi(3) * sin]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let Ok(solution) = contact.solve(Load::PerLength(0.02)) else { continue };
+        let unaware = (solution.a() - 0.2).abs() < 1e-12;
+        match solution.certify() {
+            Err(ContactError::Missed { x, slope, assumed }) if unaware => {
+                missed += 1;
+                assert!((x - at).abs() < wide / 2.0, "{x} {at}");
+                assert!(
+                    (assumed - x).abs() < 1e-9 && (slope - x).abs() > 1e-7,
+                    "{slope} {assumed}"
+                );
+            }
+            other => assert!(!unaware || other.is_err(), "{at}: {other:?}"),
+        }
+    }
+    assert!(missed > 5, "{missed}");
+}

@@ -151,9 +151,17 @@ impl<T: Real> Cover<T> {
 
     /// The slope at `x`, from the nearest panel.
     pub fn slope(&self, x: T) -> Option<T> {
+        self.panel_at(x).map(|panel| panel.value(x))
+    }
+
+    /// The error that it may have.
+    pub fn tail(&self, x: T) -> Option<T> {
+        self.panel_at(x).map(|panel| panel.tail)
+    }
+
+    fn panel_at(&self, x: T) -> Option<&Panel<T>> {
         let last = self.panels.len().checked_sub(1)?;
-        let panel = &self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)];
-        Some(value_at(panel.coefficients(), panel.local(x)))
+        Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
     }
 
     /// Covers an interval, sampling only what is missing.
