@@ -25,8 +25,8 @@ const MOST_PARTS: usize = 12;
 /// How often a range is divided.
 const LEVELS: usize = 4;
 
-/// Compares `X'` and `Y'` with `X` and `Y` all over the domain: for profiles whose derivatives are
-/// written by hand. A compound profile is looked at piece by piece.
+/// Compares `X'` and `Y'` with `X` and `Y` all over the domain, and
+/// [`slope_at`](ParametricProfile::slope_at) with both: for profiles whose derivatives are written by hand. A compound profile is looked at piece by piece.
 ///
 /// The derivatives may be off by the square root of the rounding unit (1.5e-8 in `f64`, 3.5e-4 in
 /// `f32`), as a share of their mean size over about a thousandth of the domain, or by what the rounding
@@ -51,7 +51,8 @@ const LEVELS: usize = 4;
 /// ```
 ///
 /// # Errors
-/// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none),
+/// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none, and
+/// `slope_at` only if neither has),
 /// [`ProfileError::Domain`], [`ProfileError::NotFinite`].
 pub fn check_derivatives<T: Real>(
     profile: &dyn ParametricProfile<T>,
@@ -85,7 +86,36 @@ fn check<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<(), ProfileError<T
             });
         }
     }
-    Ok(())
+    check_slope_at(curve, &ranges)
+}
+
+/// Compares the slope that is given by x, if it is, with `Y'/X'` in the middle of each range.
+fn check_slope_at<T: Real>(
+    curve: &dyn ParametricProfile<T>,
+    ranges: &[Range<T>],
+) -> Result<(), ProfileError<T>> {
+    let mut worst: Option<(T, [T; 3])> = None;
+    let mut largest = T::zero();
+    for range in ranges {
+        let k = T::of(0.5) * range.k[0] + T::of(0.5) * range.k[1];
+        let at = curve.at(k);
+        let slope = at.dy / at.dx;
+        let Some(given) = curve.slope_at(at.x).filter(|given| (*given - slope).is_finite()) else {
+            continue;
+        };
+        largest = largest.max(slope.abs());
+        let missed = (given - slope).abs();
+        if worst.is_none_or(|(most, _)| missed > most) {
+            worst = Some((missed, [k, given, slope]));
+        }
+    }
+    match worst {
+        Some((missed, [k, given, difference])) if missed > T::epsilon().sqrt() * largest => {
+            let quantity = "slope_at(x)";
+            Err(ProfileError::Derivative { quantity, k, given, difference })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A short range of k, with what holds for X and for Y.

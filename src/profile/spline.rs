@@ -84,7 +84,9 @@ struct Cubic<T> {
 }
 
 impl<T: Real> Spline<T> {
-    /// The spline through the points.
+    /// The spline through the points. One that stands out from its neighbours is refused, as in any
+    /// [`Fit`] by default; exact points beside a corner or an upright end may, too, and are passed by
+    /// `Fit { outliers: None, ..Fit::default() }`.
     ///
     /// # Errors
     /// [`SplineError`], with the row of the point at fault.

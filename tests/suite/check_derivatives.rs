@@ -215,3 +215,30 @@ fn what_is_not_finite_is_reported() {
     let empty = Curve::new([1.0, 1.0], |k: f64| CurvePoint { x: k, y: k, dx: 1.0, dy: 1.0 });
     assert!(matches!(check_derivatives(&empty), Err(ProfileError::Domain { .. })));
 }
+
+#[test]
+fn a_slope_by_x_that_is_another() {
+    /// A parabola, with a factor in the slope that it gives by x.
+    struct Given(f64);
+    impl ParametricProfile<f64> for Given {
+        fn domain(&self) -> [f64; 2] {
+            [-1.0, 1.0]
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            let x = k + 0.1 * k * k * k;
+            let dx = 1.0 + 0.3 * k * k;
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            Some(self.0 * x)
+        }
+    }
+    assert_eq!(check_derivatives(&Given(1.0)), Ok(()));
+    for factor in [2.0, -1.0, 1.0 + 1e-6] {
+        let error = check_derivatives(&Given(factor)).unwrap_err();
+        let ProfileError::Derivative { quantity, k, given, difference } = error else { panic!() };
+        assert_eq!(quantity, "slope_at(x)");
+        let x = k + 0.1 * k * k * k;
+        assert!((difference / x - 1.0).abs() < 1e-14 && (given / x - factor).abs() < 1e-14);
+    }
+}
