@@ -353,16 +353,20 @@ impl<'a, T: Real> Contact<'a, T> {
     fn strategy(&self) -> &dyn LimitSearch<T> {
         self.search.unwrap_or(&BRENT)
     }
+}
 
-    fn check_on_bodies(&self, interval: Interval<T>) -> Result<(), ContactError<T>> {
-        let range = self.gap.range();
-        for x in [interval.left, interval.right] {
-            if x < range[0] || x > range[1] {
-                return Err(ContactError::OutsideBodies { x, range });
-            }
+/// Whether an interval lies in a range, up to the rounding of its limits.
+fn check_within<T: Real>(
+    Interval { left, right }: Interval<T>,
+    range: [T; 2],
+    rounding: T,
+) -> Result<(), ContactError<T>> {
+    for (x, beyond) in [(left, range[0] - left), (right, right - range[1])] {
+        if beyond > rounding {
+            return Err(ContactError::OutsideBodies { x, range });
         }
-        Ok(())
     }
+    Ok(())
 }
 
 fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {

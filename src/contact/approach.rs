@@ -113,7 +113,7 @@ pub(super) fn with_edges<T: Real>(
     if let [Edge::Fixed(left), Edge::Fixed(right)] = conditions.edges {
         let on = Interval { left, right };
         super::check(on)?;
-        contact.check_on_bodies(on)?;
+        super::check_within(on, gap.range(), T::zero())?;
         let Control::Load(load) = conditions.control else {
             return Err(ContactError::Control { interval: on });
         };
@@ -133,11 +133,7 @@ pub(super) fn with_edges<T: Real>(
     let range = gap.range();
     if let Some(on) = conditions.both_limits() {
         let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
-        for (x, beyond) in [(on.left, range[0] - on.left), (on.right, on.right - range[1])] {
-            if beyond > rounding {
-                return Err(ContactError::OutsideBodies { x, range });
-            }
-        }
+        super::check_within(on, range, rounding)?;
     }
     engine.hold(gap, limits);
     let mut settled = None;

@@ -93,13 +93,9 @@ impl<T: Real> Trials<'_, T> {
     fn at(&mut self, half_width: T) -> Result<(Found<T>, T), ContactError<T>> {
         let (contact, conditions) = (self.contact, self.conditions(half_width));
         let found = approach::find(contact, conditions, self.engine, self.last, self.cost)?;
-        let (on, range) = (found.interval, contact.ends());
+        let on = found.interval;
         let rounding = T::of(8.0) * T::epsilon() * half_width;
-        for (x, beyond) in [(on.left, range[0] - on.left), (on.right, on.right - range[1])] {
-            if beyond > rounding {
-                return Err(ContactError::OutsideBodies { x, range });
-            }
-        }
+        super::check_within(on, contact.ends(), rounding)?;
         self.engine.prepare(&contact.gap, on)?;
         complete(self.engine, &contact.gap, on, self.cost)?;
         let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };

@@ -7,8 +7,8 @@ use linecontact::search::Brent;
 use linecontact::{Contact, ContactError, Edge, Flat, Load, Midpoint};
 use std::f64::consts::PI;
 
-/// One limit and the width give the other: F = L²/2 + L c with the free edge on the far side, c the
-/// centre beyond that of the parabola on that side.
+/// One limit and the width give the other, and K = 0 at the free edge the load: F = L²/2 - L c with
+/// that edge on the left, c the centre of the contact.
 #[test]
 fn a_width_beside_a_fixed_edge() {
     let (body, brent) = (parabola(1.0), Brent::default());
@@ -17,7 +17,6 @@ fn a_width_beside_a_fixed_edge() {
     for contact in [contact].into_iter().chain(others) {
         for (held, half_width) in [(0.5, 0.5), (0.5, 0.7), (0.1, 0.5), (0.7, 0.85)] {
             let far = held - 2.0 * half_width;
-            // K = 0 at the free edge: F = κ L (m₁ - m₀) = L²/2 - L c.
             let load = half_width * (0.5 * half_width - (held - half_width));
             let mirrored = contact.clone().edges(Edge::Fixed(-held), Edge::Free);
             let contact = contact.clone().edges(Edge::Free, Edge::Fixed(held));
