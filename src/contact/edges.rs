@@ -288,6 +288,13 @@ impl<T: Real> Goal<T> {
         }
     }
 
+    /// Whether adhesion pulls at one edge more than at the other.
+    pub fn is_lopsided(&self) -> bool {
+        let Self::Strength { conditions, .. } = self else { return false };
+        let [at_b, at_a] = conditions.pull(T::one());
+        at_b != at_a
+    }
+
     /// Whether the conditions can be looked at on bodies that cover this range of x.
     pub fn check(&self, range: [T; 2]) -> Result<(), ContactError<T>> {
         if let Self::Pressure { wanted, .. } = self {

@@ -37,6 +37,10 @@ const MOST_WIDTHS: usize = 2200;
 /// as much narrower would fall between the nodes.
 const WIDEST: f64 = 16.0;
 
+/// Contacts side by side that are looked at for one that is pulled away from the point of first
+/// contact. (A parabola that is pulled at one edge presses at the other up to two half-widths away.)
+const MOST_BESIDE: usize = 16;
+
 /// Limits that meet the conditions at the edges.
 pub(super) struct Nested<T> {
     pub on: Interval<T>,
@@ -99,20 +103,29 @@ pub(super) fn place<T: Real>(
     // The load is not known, and tells nothing of how well the contact has to be in balance.
     let unbalance = Excess::shift;
     let mut search = Search { unbalance, ..Search::new(contact, goal, engine, origin, cost) };
-    match search.place(half_width)? {
-        Placed::At(trial) => {
-            let Excess { at_a, at_b, carried, error, .. } = trial.excess;
-            let missed = carried.map_or(T::zero(), |carried| T::of(0.5) * (at_a - at_b) / carried);
-            let width = Some(half_width);
-            let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
-            Ok(Nested { on, error: error + missed.abs() })
+    for _ in 0..MOST_BESIDE {
+        match search.place(half_width)? {
+            Placed::At(trial) => {
+                let Excess { at_a, at_b, carried, error, .. } = trial.excess;
+                let missed =
+                    carried.map_or(T::zero(), |carried| T::of(0.5) * (at_a - at_b) / carried);
+                let width = Some(half_width);
+                let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
+                return Ok(Nested { on, error: error + missed.abs() });
+            }
+            Placed::Beyond(end) => {
+                let x = [origin - half_width, origin + half_width][end];
+                return Err(ContactError::OutsideBodies { x, range });
+            }
+            // Pulled at one edge more than at the other, it may sit further on.
+            Placed::Adrift(on) if goal.is_lopsided() => {
+                let before = search.origin;
+                search.origin = if on.left < before { on.left } else { on.right };
+            }
+            Placed::Adrift(_) => break,
         }
-        Placed::Beyond(end) => Err(ContactError::OutsideBodies {
-            x: [origin - half_width, origin + half_width][end],
-            range,
-        }),
-        Placed::Adrift => Err(search.no_balance(half_width)),
     }
+    Err(search.no_balance(half_width))
 }
 
 /// A contact tried, and by how much it misses the conditions.
@@ -128,8 +141,8 @@ enum Placed<T> {
     At(Trial<T>),
     /// It would have to reach beyond the left (0) or the right (1) end of the bodies.
     Beyond(usize),
-    /// It would have to let go of the point of first contact, and be no contact.
-    Adrift,
+    /// It would have to let go of the point of first contact, and be no contact; or one beyond this.
+    Adrift(Interval<T>),
 }
 
 struct Search<'s, T: Real> {
@@ -201,7 +214,7 @@ impl<'s, T: Real> Search<'s, T> {
         self.run(&ends, &mut best, Excess::deficit, |search, half_width| {
             match search.place(half_width)? {
                 Placed::At(trial) => Ok(trial),
-                Placed::Beyond(_) | Placed::Adrift => Err(search.no_balance(half_width)),
+                Placed::Beyond(_) | Placed::Adrift(_) => Err(search.no_balance(half_width)),
             }
         })
     }
@@ -221,7 +234,7 @@ impl<'s, T: Real> Search<'s, T> {
             tries += 1;
             let trial = match (self.place(half_width)?, narrow) {
                 (Placed::At(trial), _) => trial,
-                (Placed::Adrift, _) => {
+                (Placed::Adrift(_), _) => {
                     adrift = Some(half_width);
                     let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
                     half_width = half * from + half * half_width;
@@ -354,7 +367,7 @@ impl<'s, T: Real> Search<'s, T> {
                     Ok(Placed::Beyond(far))
                 } else {
                     Ok(match self.goal {
-                        Goal::Strength { .. } => Placed::Adrift,
+                        Goal::Strength { .. } => Placed::Adrift(trial.on),
                         // Not balanced, it still tells whether to widen; then it may find its
                         // balance, and if not, the pressures at its edges show it.
                         Goal::Pressure { .. } => Placed::At(trial),

@@ -72,3 +72,56 @@ fn a_doubtful_peak_is_a_doubtful_width() {
         }
     }
 }
+
+/// Pulled at one edge, K = 0 at the other: c = sqrt(w/L) towards the pull, and F = L²/2 - L c. With c
+/// beyond L the contact sits beside the lowest point of the parabola.
+#[test]
+fn a_width_pulled_at_one_edge() {
+    let (body, brent) = (parabola(2.0), Brent::default());
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let others = [contact.clone().search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
+    for contact in [contact].into_iter().chain(others) {
+        for (half_width, leaning) in
+            [(0.3f64, 0.2), (0.3, 1.0), (0.3, 1.5), (0.1, 1.9), (0.01, 1.2)]
+        {
+            let centre = leaning * half_width;
+            let pull = Edge::Adhesive(centre * centre * half_width);
+            let load = half_width * (0.5 * half_width - centre);
+            for (edges, sign) in [([Edge::Free, pull], 1.0), ([pull, Edge::Free], -1.0)] {
+                let contact = contact.clone().edges(edges[0], edges[1]);
+                let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+                let on = solution.interval();
+                assert_relative_eq!(
+                    on.centre(),
+                    sign * centre,
+                    epsilon = 0.0,
+                    max_relative = 1e-13
+                );
+                assert_relative_eq!(
+                    on.half_width(),
+                    half_width,
+                    epsilon = 0.0,
+                    max_relative = 1e-14
+                );
+                assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-12);
+            }
+        }
+    }
+}
+
+/// Beside so narrow a contact there is no balance within many widths: the error says so.
+#[test]
+fn a_width_pulled_far_away_ends() {
+    let (body, brent) = (parabola(2.0), Brent::default());
+    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent);
+    for (edges, work) in
+        [([Edge::Free, Edge::Adhesive(1e-2)], 1e-2), ([Edge::Adhesive(1.0), Edge::Free], 1.0)]
+    {
+        let contact = contact.clone().edges(edges[0], edges[1]);
+        let error = contact.solve(Load::ToHalfWidth(1e-9)).map(|_| ()).unwrap_err();
+        assert!(
+            matches!(error, ContactError::NoBalance { .. } | ContactError::OutsideBodies { .. }),
+            "{work}: {error}"
+        );
+    }
+}
