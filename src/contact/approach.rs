@@ -210,8 +210,9 @@ fn check_strengths<T: Real>(
     let stiffness = conditions.kappa * on.half_width();
     let share = T::of(0.01).max(T::of(10.0) * nested.error);
     let allowed = share * (load.abs() + stiffness * m.size);
-    // Where the load is less than the rounding of the forces, any interval would do.
-    let lost = T::epsilon() * stiffness * m.size > load.abs();
+    // Where load and adhesion are less than the rounding of the forces, any interval would do.
+    let [pull_b, pull_a] = conditions.pull(on.half_width());
+    let lost = T::epsilon() * stiffness * m.size > load.abs() + pull_a + pull_b;
     for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
         let missed = load - stiffness * (m.first + sign * m.mean);
         if edge.is_free() && (lost || missed.abs() > allowed) {

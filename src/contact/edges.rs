@@ -59,10 +59,11 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`.
+    /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`. By roots, so as not to
+    /// underflow.
     pub fn pull(&self, half_width: T) -> [T; 2] {
         self.edges.map(|edge| match edge {
-            Edge::Adhesive(work) => (self.kappa * work * half_width).sqrt(),
+            Edge::Adhesive(work) => self.kappa.sqrt() * work.sqrt() * half_width.sqrt(),
             _ => T::zero(),
         })
     }
@@ -229,6 +230,8 @@ pub(super) struct Excess<T> {
     floor: T,
     /// The load that the contact carries, where that is known.
     pub carried: Option<T>,
+    /// The force that the conditions are missed by a share of.
+    pub size: T,
     /// By what factor the width of a round body should change, whose load goes with its square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
@@ -334,25 +337,24 @@ impl<T: Real> Goal<T> {
                 let rounding = T::epsilon() * largest / on.half_width();
                 let carried = stiffness * m.first;
                 let balance = stiffness * m.mean;
-                let pull = conditions.edges.map(|edge| match edge {
-                    Edge::Adhesive(work) => two * (stiffness * work).sqrt(),
-                    _ => T::zero(),
-                });
+                let pull = conditions.pull(on.half_width()).map(|pull| pull + pull);
                 let half = T::of(0.5);
+                // Beside a corner the two may cancel, and little load be left.
+                let both = m.first.abs() + m.mean.abs();
                 // Only the free edges count.
                 let (at_a, at_b, needed, borne, sum) = match self.limits() {
                     [Some(_), None] => {
                         let (needed, borne) = (load + pull[1], carried + balance);
-                        (needed - borne, needed - borne, needed, borne, m.first + m.mean)
+                        (needed - borne, needed - borne, needed, borne, both)
                     }
                     [None, Some(_)] => {
                         let (needed, borne) = (load + pull[0], carried - balance);
-                        (needed - borne, needed - borne, needed, borne, m.first - m.mean)
+                        (needed - borne, needed - borne, needed, borne, both)
                     }
                     _ => {
                         let (at_a, at_b) = (load + pull[1] - carried, load + pull[0] - carried);
                         let needed = load + half * (pull[0] + pull[1]);
-                        (at_a - balance, at_b + balance, needed, carried, m.first)
+                        (at_a - balance, at_b + balance, needed, carried, m.first.abs())
                     }
                 };
                 let ratio = needed / borne;
@@ -371,8 +373,9 @@ impl<T: Real> Goal<T> {
                     // The estimated error errs on the safe side.
                     floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.size),
                     carried: Some(borne),
+                    size: stiffness * sum,
                     growth,
-                    error: m.error / sum.abs() + m.inversion / on.half_width() + rounding,
+                    error: m.error / sum + m.inversion / on.half_width() + rounding,
                 })
             }
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
@@ -394,7 +397,7 @@ impl<T: Real> Goal<T> {
                 let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
                 let tolerance_a = tolerance(x_a, wanted.tolerance_a);
                 let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
-                Ok(Excess { at_a, at_b, floor, carried: None, growth, error })
+                Ok(Excess { at_a, at_b, floor, carried: None, size: load, growth, error })
             }
         }
     }

@@ -81,8 +81,8 @@ pub(super) fn find<T: Real>(
         wanted.met(trial.on, &trial.excess)?;
     }
     // What the quadrature leaves open, and what the search has left of the conditions.
-    let Excess { at_a, at_b, .. } = trial.excess;
-    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / load.abs();
+    let Excess { at_a, at_b, size, .. } = trial.excess;
+    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / size;
     let on = further(&goal, gap, search.engine, trial.on, None, search.cost)?;
     Ok(Nested { on, error: trial.excess.error + missed })
 }
@@ -106,12 +106,11 @@ pub(super) fn place<T: Real>(
     for _ in 0..MOST_BESIDE {
         match search.place(half_width)? {
             Placed::At(trial) => {
-                let Excess { at_a, at_b, carried, error, .. } = trial.excess;
-                let missed =
-                    carried.map_or(T::zero(), |carried| T::of(0.5) * (at_a - at_b) / carried);
+                let Excess { at_a, at_b, size, error, .. } = trial.excess;
+                let missed = T::of(0.5) * (at_a - at_b).abs() / size;
                 let width = Some(half_width);
                 let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
-                return Ok(Nested { on, error: error + missed.abs() });
+                return Ok(Nested { on, error: error + missed });
             }
             Placed::Beyond(end) => {
                 let x = [origin - half_width, origin + half_width][end];
@@ -222,7 +221,10 @@ impl<'s, T: Real> Search<'s, T> {
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
     fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        let least = half * self.goal.least_width();
+        let given = self.goal.limits().iter().any(Option::is_some);
+        // Closer to a given limit the other is the same number.
+        let resolution = if given { self.resolution() } else { zero };
+        let least = (half * self.goal.least_width()).max(resolution);
         let most = half * (self.range[1] - self.range[0]);
         let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
@@ -263,7 +265,6 @@ impl<'s, T: Real> Search<'s, T> {
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(last));
             }
-            let given = self.goal.limits().iter().any(Option::is_some);
             if given && spread > zero {
                 for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
                     if self.goal.limits()[end].is_none() && x == self.range[end] {

@@ -37,6 +37,7 @@ pub(super) fn find<T: Real>(
     }
     let mut fault = None;
     let (mut least, mut last) = match with_edges(contact, &under(T::zero()), engine, None, cost) {
+        Ok(found) if load.is_zero() => return Ok(found),
         Ok(found) => (T::zero(), found.interval),
         // Those of a contact that does not fit.
         Err(

@@ -3,9 +3,11 @@
 
 use crate::common;
 
-use common::{power, reference, scenes};
+use approx::assert_relative_eq;
+use common::{parabola, power, reference, scenes};
 use linecontact::reference::{ClosedForm, Jkr, body};
-use linecontact::{Contact, Cost, Curve, CurvePoint, Edge, Flat, Load, Piecewise};
+use linecontact::search::Brent;
+use linecontact::{Contact, Cost, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise};
 use std::f64::consts::PI;
 
 /// Estimate and error, and what rounding alone makes of it.
@@ -248,6 +250,50 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
                     "{length} {relative} {z}: {error:e} {:e}",
                     got.error
                 );
+            }
+        }
+    }
+}
+
+/// The load says nothing of the forces at work where adhesion or a corner bears most of them: the share
+/// that a search has left of the conditions is one of those. Closed forms of a parabola: F = L²/2 -
+/// 2 sqrt(w L) with adhesion at both edges, and F = L²/2 + L c with the left edge held.
+#[test]
+fn a_load_next_to_nothing_leaves_no_doubt() {
+    let (body, brent) = (parabola(2.0), Brent::default());
+    let scene = Contact::new(&Flat, &*body).unwrap();
+    for contact in
+        [scene.clone().search(&brent), scene.clone().quadrature(&Midpoint::DEFAULT), scene]
+    {
+        for work in [5e-324, 1e-320, 1e-300, 1e-100, 1e-3] {
+            for load in [0.0, 1e-320, 1e-250, 1e-30] {
+                let pulled = Edge::Adhesive(work);
+                let held = contact.clone().edges(Edge::Fixed(-0.1), pulled);
+                let solution = held.solve(Load::PerLength(load)).unwrap();
+                assert!(
+                    solution.limits_error().unwrap() < 1e-13,
+                    "{work:e} {load:e} {:?}",
+                    solution.limits_error()
+                );
+                if work < 1e-90 {
+                    let half_width = (0.1 + (0.01f64 + 6.0 * load).sqrt()) / 3.0;
+                    let half = solution.interval().half_width();
+                    assert_relative_eq!(half, half_width, epsilon = 0.0, max_relative = 1e-14);
+                }
+                if load < 1e-3 * work {
+                    let both = contact.clone().edges(pulled, pulled);
+                    let solution = both
+                        .solve(Load::PerLength(load))
+                        .map_err(|e| format!("{work:e} {load:e} {e}"))
+                        .unwrap();
+                    let exact = (16.0 * work).cbrt();
+                    assert_relative_eq!(solution.a(), exact, epsilon = 0.0, max_relative = 1e-13);
+                    assert!(
+                        solution.limits_error().unwrap() < 1e-13,
+                        "{work:e} {load:e} {:?}",
+                        solution.limits_error()
+                    );
+                }
             }
         }
     }
