@@ -127,16 +127,22 @@ impl<'f, T: Real> Tracker<'f, T> {
 
     /// Steps from the best point to where the sign changes, by lengths that grow from the
     /// tolerance: if the root is as close as it seems the first step closes the bracket on it,
-    /// and if noise has hidden it, one of the next does.
+    /// and if noise has hidden it, one of the next does. Where the chord of a step leads out of the
+    /// bracket the root only seemed to be close, next to a value that is small beside the other.
     pub fn close_in(&mut self) -> Result<(), SearchError<T>> {
         let best = self.best().x;
         let rightward = best == self.lo.x;
         let mut step = T::of(0.75) * self.tolerance.width(best);
         while !self.done() && step < T::of(0.5) * self.half_width() {
             let x = if rightward { best + step } else { best - step };
+            let before = if rightward { self.lo } else { self.hi };
             let crossed = |it: &Self| if rightward { it.hi.x == x } else { it.lo.x == x };
             // From x = 0 there is no relative step.
             if self.visit(x)?.is_none() || crossed(self) {
+                break;
+            }
+            let change = (self.last.f - before.f).abs() * self.half_width();
+            if change < before.f.abs() * T::of(0.5) * (x - before.x).abs() {
                 break;
             }
             step *= T::of(8.0);
