@@ -12,9 +12,16 @@
 //!
 //! Angles are counted from that of x, so that the distance `x - s` keeps its relative accuracy
 //! however close the two are, and with it a kernel as narrow as wanted.
+//!
+//! Most panels are the same whatever x is. `P w` at their nodes, and at those of their halves, is kept:
+//! among a thousand joints only the panels next to x ask for pressures again.
+
+mod view;
 
 use crate::quadrature::Gauss;
 use crate::{ContactError, Interval, Pressure, Real, Solution};
+use std::sync::OnceLock;
+use view::View;
 
 /// Nodes of a panel.
 const NODES: usize = 16;
@@ -29,14 +36,41 @@ pub(crate) struct Integrals<'p, T: Real> {
     pub joints: Vec<T>,
     /// Whether `P w` vanishes at a and at -b.
     free: [bool; 2],
+    /// `P w` on the panels between the joints, from the right one on.
+    kept: OnceLock<Result<Vec<Kept<T>>, ContactError<T>>>,
 }
+
+/// `P w` at the nodes of a panel, of its right half and of its left one, each from right to left.
+type Kept<T> = [[T; NODES]; 3];
 
 impl<'p, T: Real> Integrals<'p, T> {
     pub fn new(solution: &'p Solution<'_, T>) -> Result<Self, ContactError<T>> {
         let on = solution.interval();
         let joints = solution.gap().joints(on).collect();
         let free = solution.found().free;
-        Ok(Self { pressure: solution.pressure()?, joints, free })
+        Ok(Self { pressure: solution.pressure()?, joints, free, kept: OnceLock::new() })
+    }
+
+    /// Taken from whichever edge is nearer.
+    fn kept(&self) -> Result<&[Kept<T>], ContactError<T>> {
+        let kept = self.kept.get_or_init(|| {
+            let on = self.pressure.interval();
+            let views = [on.right, on.left].map(|x| View::new(on, x));
+            let ends = [0, 1].map(|i| views[i].ends(&self.joints));
+            let count = self.joints.len() + 1;
+            let keep = |i: usize| {
+                let j = count - 1 - i;
+                let seen = [[ends[0][i], ends[0][i + 1]], [ends[1][j], ends[1][j + 1]]];
+                let nearer = usize::from(seen[1][1] < seen[0][1]);
+                let (view, [from, to]) = (&views[nearer], seen[nearer]);
+                let middle = T::of(0.5) * (from + to);
+                let bounded = |ends| self.bounded(view, ends);
+                let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
+                Ok([0, 1, 2].map(|part| view.seen(&kept, part)))
+            };
+            (0..count).map(keep).collect()
+        });
+        kept.as_deref().map_err(Clone::clone)
     }
 
     /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
@@ -57,32 +91,37 @@ impl<'p, T: Real> Integrals<'p, T> {
         kernel: impl Fn(T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
         let view = View::new(self.pressure.interval(), x);
+        let kept = self.kept()?;
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
-        for ends in view.ends(&self.joints).windows(2) {
-            let panel = self.panel(&view, [ends[0], ends[1]], &kernel)?;
-            add(&mut size, &panel.size);
-            pending.push(panel);
+        let panel = |ends: [T; 2], known: Option<usize>, part: usize| {
+            let bounded = match known {
+                Some(i) => view.seen(&kept[i], part),
+                None => self.bounded(&view, ends)?,
+            };
+            Ok::<_, ContactError<T>>(Panel::new(&view, ends, &bounded, &kernel))
+        };
+        for (ends, known) in view.panels(&self.joints) {
+            let whole = panel(ends, known, 0)?;
+            add(&mut size, &whole.size);
+            pending.push((whole, known));
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
         // Below the least normal number, which is about that, there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
         let mut left = MOST_PANELS;
-        while let Some(panel) = pending.pop() {
-            let [from, to] = panel.ends;
+        while let Some((whole, known)) = pending.pop() {
+            let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
-            let halves = [
-                self.panel(&view, [from, middle], &kernel)?,
-                self.panel(&view, [middle, to], &kernel)?,
-            ];
+            let halves = [panel([from, middle], known, 1)?, panel([middle, to], known, 2)?];
             let noise = self.noise(view.place(middle, self.free).0);
             let mut agreed = true;
             let mut refined = [T::zero(); N];
             for i in 0..N {
                 refined[i] = halves[0].sum[i] + halves[1].sum[i];
-                size[i] += halves[0].size[i] + halves[1].size[i] - panel.size[i];
-                let allowed = tolerance * size[i].max(least) + noise * panel.size[i];
-                agreed &= (refined[i] - panel.sum[i]).abs() <= allowed;
+                size[i] += halves[0].size[i] + halves[1].size[i] - whole.size[i];
+                let allowed = tolerance * size[i].max(least) + noise * whole.size[i];
+                agreed &= (refined[i] - whole.sum[i]).abs() <= allowed;
             }
             if agreed {
                 add(&mut total, &refined);
@@ -92,7 +131,7 @@ impl<'p, T: Real> Integrals<'p, T> {
                 return Err(ContactError::Integral { x, panels: MOST_PANELS });
             }
             left -= 1;
-            pending.extend(halves);
+            pending.extend(halves.map(|half| (half, None)));
         }
         Ok(total)
     }
@@ -110,42 +149,18 @@ impl<'p, T: Real> Integrals<'p, T> {
         if distance > rounding { rounding / distance } else { T::one() }
     }
 
-    fn panel<const N: usize>(
-        &self,
-        view: &View<T>,
-        ends: [T; 2],
-        kernel: &impl Fn(T, T) -> [T; N],
-    ) -> Result<Panel<T, N>, ContactError<T>> {
-        let half = T::of(0.5) * (ends[1] - ends[0]);
-        let rule = Gauss::sixteen();
-        let zero = [T::zero(); NODES];
-        let (mut s, mut distance, mut share) = (zero, zero, zero);
-        for i in 0..NODES {
-            // From the nearer end, since either may be at x.
-            let node = T::of(rule.nodes[i]);
-            let turn = if node < T::zero() {
-                ends[0] + half * (T::one() + node)
-            } else {
-                ends[1] - half * (T::one() - node)
-            };
-            (s[i], distance[i], share[i]) = view.place(turn, self.free);
+    /// `P w` at the nodes of a panel.
+    fn bounded(&self, view: &View<T>, ends: [T; 2]) -> Result<[T; NODES], ContactError<T>> {
+        let (mut s, mut share) = ([T::zero(); NODES], [T::zero(); NODES]);
+        for (i, turn) in turns(ends).into_iter().enumerate() {
+            (s[i], share[i]) = view.place(turn, self.free);
         }
-        let mut pressure = [T::zero(); NODES];
-        self.pressure.values(&s, &mut pressure)?;
-        let mut panel = Panel { ends, sum: [T::zero(); N], size: [T::zero(); N] };
+        let mut bounded = [T::zero(); NODES];
+        self.pressure.values(&s, &mut bounded)?;
         for i in 0..NODES {
-            // A node may have been rounded to the joint where the pressure is infinite.
-            if !pressure[i].is_finite() {
-                continue;
-            }
-            let terms = kernel(distance[i], share[i] * pressure[i] * view.on.edge_root(s[i]));
-            let weight = T::of(rule.weights[i]) * half;
-            for (k, term) in terms.into_iter().enumerate() {
-                panel.sum[k] += weight * term;
-                panel.size[k] += weight * term.abs();
-            }
+            bounded[i] *= share[i] * view.on.edge_root(s[i]);
         }
-        Ok(panel)
+        Ok(bounded)
     }
 }
 
@@ -155,6 +170,17 @@ fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
     }
 }
 
+/// The angles of the nodes of a panel, each from the nearer end, since either may be at x.
+fn turns<T: Real>([from, to]: [T; 2]) -> [T; NODES] {
+    let half = T::of(0.5) * (to - from);
+    let nodes = Gauss::sixteen().nodes;
+    std::array::from_fn(|i| {
+        let node = T::of(nodes[i]);
+        let from_left = node < T::zero();
+        if from_left { from + half * (T::one() + node) } else { to - half * (T::one() - node) }
+    })
+}
+
 /// A range of angles with the integrals over it, and those of the absolute values.
 struct Panel<T, const N: usize> {
     ends: [T; 2],
@@ -162,85 +188,28 @@ struct Panel<T, const N: usize> {
     size: [T; N],
 }
 
-/// The contact as seen from x: angles are counted from the point nearest to x, away from the edge
-/// nearest to x.
-struct View<T> {
-    on: Interval<T>,
-    /// Whether that is the right edge.
-    right: bool,
-    /// The angle between that edge and the nearest point, up to π/2.
-    theta: T,
-    /// How far outside the contact x is.
-    beyond: T,
-    /// How far inside, and x itself.
-    inward: T,
-    x: T,
-}
-
-impl<T: Real> View<T> {
-    fn new(on: Interval<T>, x: T) -> Self {
-        let right = x > on.centre();
-        let inward = if right { on.right - x } else { x - on.left };
-        let beyond = (-inward).max(T::zero());
-        let mut view = Self { on, right, theta: T::zero(), beyond, inward, x };
-        if inward > T::zero() {
-            view.theta = view.angle(x);
+impl<T: Real, const N: usize> Panel<T, N> {
+    fn new(
+        view: &View<T>,
+        ends: [T; 2],
+        bounded: &[T; NODES],
+        kernel: &impl Fn(T, T) -> [T; N],
+    ) -> Self {
+        let half = T::of(0.5) * (ends[1] - ends[0]);
+        let weights = Gauss::sixteen().weights;
+        let mut panel = Self { ends, sum: [T::zero(); N], size: [T::zero(); N] };
+        for (i, turn) in turns(ends).into_iter().enumerate() {
+            // A node may have been rounded to the joint where the pressure is infinite.
+            if !bounded[i].is_finite() {
+                continue;
+            }
+            let terms = kernel(view.distance(turn), bounded[i]);
+            let weight = T::of(weights[i]) * half;
+            for (k, term) in terms.into_iter().enumerate() {
+                panel.sum[k] += weight * term;
+                panel.size[k] += weight * term.abs();
+            }
         }
-        view
-    }
-
-    /// The angle of a point of the contact from the edge.
-    fn angle(&self, x: T) -> T {
-        let angle = self.on.angle(x);
-        if self.right {
-            angle
-        } else {
-            let Interval { left, right } = self.on;
-            T::of(2.0) * (x - left).sqrt().atan2((right - x).sqrt())
-        }
-    }
-
-    /// The ends of the panels: both edges, the joints, and the nearest point itself.
-    fn ends(&self, joints: &[T]) -> Vec<T> {
-        let mut ends = vec![-self.theta, T::pi() - self.theta];
-        if self.theta > T::zero() {
-            ends.push(T::zero());
-        }
-        let apart = |turn: &T| turn.abs() > T::of(16.0) * T::epsilon();
-        ends.extend(joints.iter().map(|&joint| self.angle(joint) - self.theta).filter(apart));
-        ends.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        ends.dedup();
-        ends
-    }
-
-    /// A point s strictly inside the contact, `x - s`, and by how much the distance of s from the
-    /// nearer edge, if free, was rounded: `P w` goes with it there.
-    fn place(&self, turn: T, free: [bool; 2]) -> (T, T, T) {
-        let half = T::of(0.5);
-        let Interval { left, right } = self.on;
-        let width = right - left;
-        let half_angle = half * (self.theta + turn);
-        let rounding = T::epsilon() * left.abs().max(right.abs());
-        let near = half_angle < T::frac_pi_4();
-        let inward = width * if near { half_angle.sin() } else { half_angle.cos() }.powi(2);
-        let along = width * (self.theta + half * turn).sin() * (half * turn).sin();
-        let distance = self.beyond + along;
-        let distance = if self.right { distance } else { -distance };
-        let at_right = near == self.right;
-        // From whichever of x and the edge is nearer.
-        let s = if along.abs() < half * self.inward {
-            self.x - distance
-        } else if at_right {
-            right - inward
-        } else {
-            left + inward
-        };
-        let s = s.max(left + rounding).min(right - rounding);
-        let share = match (at_right, free) {
-            (true, [true, _]) => inward / (right - s),
-            (false, [_, true]) => inward / (s - left),
-            _ => T::one(),
-        };
-        (s, distance, share)
+        panel
     }
 }

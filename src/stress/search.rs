@@ -19,8 +19,8 @@ impl<T: Real> Subsurface<'_, T> {
     /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
     /// the depth goes to zero: then the depth is about a millionth of the half-width.
     ///
-    /// It takes some thousand stresses, each of them time for each piece of the bodies in the contact: a
-    /// minute for a thousand pieces.
+    /// It takes some thousand stresses, each of them time for each piece of the bodies in the contact,
+    /// but pressures only next to its place: three seconds for a thousand pieces.
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and

@@ -5,10 +5,11 @@ use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
 use linecontact::stress::{Stress, Subsurface};
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint};
 use linecontact::{ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 const KAPPA: f64 = 1.7;
 
@@ -531,4 +532,51 @@ fn a_field_shows_its_contact_and_its_friction() {
     for part in [format!("{:?}", solution.interval()), "friction: 0.375".into()] {
         assert!(shown.contains(&part), "{shown}");
     }
+}
+
+type Part<'a> = Box<dyn ParametricProfile<f64> + 'a>;
+
+/// A parabola in pieces, with a parameter that has to be inverted.
+fn in_pieces(pieces: usize, calls: &AtomicUsize) -> Piecewise<f64, Part<'_>> {
+    let ends = |i: usize| i as f64 / pieces as f64 - 0.5;
+    let piece = |i: usize| {
+        let point = |k: f64| {
+            calls.fetch_add(1, Relaxed);
+            let square = k * k;
+            let x = k + k * square;
+            let slope = 1.0 + 3.0 * square;
+            CurvePoint { x, y: x * x / 2.0, dx: slope, dy: x * slope }
+        };
+        Box::new(Curve::new([ends(i), ends(i + 1)], point)) as Part<'_>
+    };
+    Piecewise::new((0..pieces).map(piece).collect::<Vec<_>>()).unwrap()
+}
+
+/// Johnson, Eq. (4.47), below a hundred pieces.
+#[test]
+fn the_largest_shear_below_many_pieces() {
+    let calls = AtomicUsize::new(0);
+    let body = in_pieces(100, &calls);
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+    let shear = solution.subsurface().unwrap().max_shear().unwrap();
+    assert!((shear.value / (0.6 / PI) - 0.300_283_1).abs() < 1e-7, "{shear:?}");
+    assert!((shear.depth / 0.6 - 0.786_151_4).abs() < 1e-6, "{shear:?}");
+}
+
+/// The paper's rule calls the curves for each pressure: a second stress takes those next to it only.
+#[test]
+fn a_second_stress_knows_most_pressures() {
+    let calls = AtomicUsize::new(0);
+    let body = in_pieces(32, &calls);
+    let rule = Midpoint { segments: 64, ..Midpoint::DEFAULT };
+    let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule);
+    let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+    let below = solution.subsurface().unwrap();
+    let taken = [0.013, -0.211, 0.307].map(|x| {
+        let before = calls.load(Relaxed);
+        below.at(x, 0.5).unwrap();
+        calls.load(Relaxed) - before
+    });
+    assert!(taken[1].max(taken[2]) * 5 < taken[0], "{taken:?}");
 }
