@@ -107,17 +107,17 @@ impl<T: Real> Spline<T> {
             points::check_outliers(points, most)?;
         }
         if fit.noise > T::zero() {
-            Ok(Self::of(points, &smooth::smooth(points, fit.noise)?))
+            Self::of(points, &smooth::smooth(points, fit.noise)?)
         } else {
             let slopes = slopes::slopes(points);
             let knots: Vec<_> =
                 points.iter().zip(slopes).map(|(&[_, y], slope)| [y, slope]).collect();
-            Ok(Self::of(points, &knots))
+            Self::of(points, &knots)
         }
     }
 
     /// From height and slope at each knot.
-    fn of(points: &[[T; 2]], knots: &[[T; 2]]) -> Self {
+    fn of(points: &[[T; 2]], knots: &[[T; 2]]) -> Result<Self, SplineError<T>> {
         let cubic = |(x, y): (&[[T; 2]], &[[T; 2]])| {
             let (x, [from, to]) = ([x[0][0], x[1][0]], [y[0], y[1]]);
             let (h, two, three) = (x[1] - x[0], T::of(2.0), T::of(3.0));
@@ -126,7 +126,19 @@ impl<T: Real> Spline<T> {
             let third = (from[1] + to[1] - two * chord) / h / h;
             Cubic { x, coefficients: [from[0], from[1], second, third] }
         };
-        Self { cubics: points.windows(2).zip(knots.windows(2)).map(cubic).collect() }
+        let cubics: Vec<_> = points.windows(2).zip(knots.windows(2)).map(cubic).collect();
+        // Coefficients that have overflowed or vanished do not lead to the next knot.
+        let size = |i: usize| knots.iter().fold(T::zero(), |size, knot| size.max(knot[i].abs()));
+        let allowed = [0, 1].map(|i| T::epsilon().sqrt() * size(i));
+        for (i, (cubic, to)) in cubics.iter().zip(&knots[1..]).enumerate() {
+            let [before, x] = cubic.x;
+            let end = cubic.at(x);
+            let meets = (end.y - to[0]).abs() <= allowed[0] && (end.dy - to[1]).abs() <= allowed[1];
+            if !(meets && allowed[0].is_finite() && allowed[1].is_finite()) {
+                return Err(SplineError::Overflow { row: i + 2, x, before });
+            }
+        }
+        Ok(Self { cubics })
     }
 
     fn cubic(&self, x: T) -> &Cubic<T> {

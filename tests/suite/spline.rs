@@ -224,8 +224,8 @@ fn bad_points_are_named_by_their_row() {
         Err(SplineError::NothingLeft { line, .. }) => assert!((line - 0.31).abs() < 0.01, "{line}"),
         other => panic!("{other:?}"),
     }
-    let huge: Vec<_> = points.iter().map(|&[x, y]| [x, 1e200 * y]).collect();
-    let error = Spline::fitted(&huge, Fit { noise: 1e198, outliers: None }).map(|_| ());
+    let huge: Vec<_> = points.iter().map(|&[x, y]| [x, 1e308 * y]).collect();
+    let error = Spline::fitted(&huge, Fit { noise: 1e306, outliers: None }).map(|_| ());
     assert!(matches!(error, Err(SplineError::Smoothing { .. })), "{error:?}");
 }
 
@@ -296,5 +296,43 @@ fn noise_far_below_that_of_the_points_leaves_them_as_they_are() {
     let spline = Spline::fitted(&points, fit).unwrap();
     for &[x, y] in &points {
         assert!((spline.at(x).y - y).abs() < 1e-10, "{x}: {} {y}", spline.at(x).y);
+    }
+}
+
+/// In any unit the spline is the same, or an error says that its numbers are too large or too small.
+#[test]
+fn points_of_any_size() {
+    let height = |x: f64| 0.5 * x * x + 0.1 * x * x * x + 0.2 * (3.0 * x).sin();
+    let points = |[along, across]: [f64; 2]| -> Vec<[f64; 2]> {
+        (-10..=10).map(|i| 0.1 * f64::from(i)).map(|x| [x * along, height(x) * across]).collect()
+    };
+    let units = [1e-320, 1e-300, 1e-200, 1e-155, 1e-100, 1.0, 1e100, 1e160, 1e300, 1e308];
+    for noise in [0.0, 1e-4] {
+        let fit = |unit| Fit { noise: noise * unit, ..Fit::default() };
+        let plain = Spline::fitted(&points([1.0; 2]), fit(1.0)).unwrap();
+        let mut made = 0;
+        let pairs = units.map(|along| units[1..].iter().map(move |&across| [along, across]));
+        for [along, across] in pairs.into_iter().flatten() {
+            let body = match Spline::fitted(&points([along, across]), fit(across)) {
+                Ok(body) => body,
+                Err(error) => {
+                    let cubic = across.log10() - 3.0 * along.log10();
+                    let extreme =
+                        cubic.abs() > 290.0 || along.log10().abs().max(across.log10()) > 290.0;
+                    assert!(extreme, "{along:e} {across:e}: {error}");
+                    assert!(error.to_string().contains("unit of their own size"), "{error}");
+                    continue;
+                }
+            };
+            made += 1;
+            for i in 0..200 {
+                let x = 0.01 * f64::from(i) - 0.995;
+                let (got, wanted) = (body.at(x * along), plain.at(x));
+                let missed = (got.y / across - wanted.y).abs();
+                let tilted = (got.dy / (across / along) - wanted.dy).abs();
+                assert!(missed < 1e-9 && tilted < 1e-9, "{along:e} {across:e}: {missed} {tilted}");
+            }
+        }
+        assert!(made >= 20, "{made}");
     }
 }

@@ -91,6 +91,19 @@ pub enum SplineError<T: Real> {
         /// Root mean square distance of the points from the line.
         line: T,
     },
+    /// The curve up to a point is beyond the range of the number type.
+    #[error(
+        "row {row}: the numbers of the curve from x = {before:?} to {x:?} overflow, or vanish. Give \
+         the points in a unit of their own size"
+    )]
+    Overflow {
+        /// Row of the point.
+        row: usize,
+        /// Its x.
+        x: T,
+        /// x of the row before.
+        before: T,
+    },
     /// The smoothing that the noise asks for was not found: the squares of the numbers overflow.
     #[error("no smoothing was found: {source}. Give the points in a unit of their own size")]
     Smoothing {

@@ -10,7 +10,8 @@ pub(super) fn slopes<T: Real>(points: &[[T; 2]]) -> Vec<T> {
     let chord = |i: usize| (points[i + 1][1] - points[i][1]) / h(i);
     // The condition at an end, from the two distances next to it, the outer one first.
     let end = |[h0, h1]: [T; 2], [c0, c1]: [T; 2]| {
-        ((three * h0 + two * h1) * h1 * c0 + h0 * h0 * c1) / (h0 + h1)
+        let sum = h0 + h1;
+        (three * h0 + two * h1) * (h1 / sum) * c0 + h0 * (h0 / sum) * c1
     };
     // Elimination from the left: slope i is `right[i] - above[i]` times slope i + 1.
     let mut above = Vec::with_capacity(n);

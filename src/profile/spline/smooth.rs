@@ -32,11 +32,13 @@ pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>
 
     let mut scratch = Vec::with_capacity(points.len());
     let mut knots = vec![[T::zero(); 2]; points.len()];
-    // The reach of the smoothing in points: α = reach⁴ spacing³.
+    // In units of the noise, so that no square of a small number vanishes. The reach of the smoothing is
+    // in points: α = reach⁴ spacing³.
     let mut distance = |reach: T, knots: &mut Vec<[T; 2]>| {
         let stiffness = reach * reach * spacing * spacing.sqrt();
         penalised(&rest, stiffness, &mut scratch, knots);
-        let square = |sum: T, (point, knot): (&[T; 2], &[T; 2])| sum + (point[1] - knot[0]).powi(2);
+        let off = |(point, knot): (&[T; 2], &[T; 2])| (point[1] - knot[0]) / noise;
+        let square = |sum: T, pair| sum + off(pair).powi(2);
         (rest.iter().zip(knots.iter()).fold(T::zero(), square) / count).sqrt()
     };
     let [least, most] = [T::of(1e-3), T::of(3.0) * count];
@@ -45,15 +47,14 @@ pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>
         let source = SearchError::NotFinite { x: most, value: line_off };
         return Err(SplineError::Smoothing { source });
     }
-    if line_off <= noise {
-        return Err(SplineError::NothingLeft { noise, line: line_off });
+    if line_off <= T::one() {
+        return Err(SplineError::NothingLeft { noise, line: line_off * noise });
     }
     // Both in logarithms, and nothing below a millionth of what is sought.
-    let mut off =
-        |reach: T, knots: &mut Vec<[T; 2]>| (distance(reach, knots) / noise).max(T::of(1e-6)).ln();
+    let mut off = |reach: T, knots: &mut Vec<[T; 2]>| distance(reach, knots).max(T::of(1e-6)).ln();
     let near = off(least, &mut knots);
     if near < T::zero() {
-        let bracket = Bracket::new(least.ln(), most.ln()).values(near, (line_off / noise).ln());
+        let bracket = Bracket::new(least.ln(), most.ln()).values(near, line_off.ln());
         let search = Brent { tolerance: Tolerance { residual: 1e-4, ..Tolerance::FULL } };
         let found = search.find(&mut |reach: T| off(reach.exp(), &mut knots), &bracket);
         let reach = found.map_err(|source| SplineError::Smoothing { source })?.x.exp();
