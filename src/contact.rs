@@ -281,6 +281,9 @@ impl<'a, T: Real> Contact<'a, T> {
         };
         // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
+        if found.strengths.iter().any(|strength| !strength.is_finite()) {
+            return Err(ContactError::Overflow { interval: found.interval });
+        }
         let known = found.error.is_none_or(|error| error >= T::zero());
         if !known && found.adhesive == [false; 2] {
             return Err(ContactError::Overflow { interval: found.interval });

@@ -89,7 +89,8 @@ pub enum ContactError<T: Real> {
     },
     /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
     #[error(
-        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B finite, distances shorter than the bodies"
+        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
+         finite, distances shorter than the bodies and longer than the rounding of x"
     )]
     EdgePressure {
         /// Which of them.

@@ -48,21 +48,12 @@ enum Surface<'a, T: Real> {
 
 impl<'a, T: Real> Surface<'a, T> {
     fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
-        if let Some(first) = profile.piece(0) {
-            // The others are looked at where they are used: there may be very many.
-            let count = profile.pieces();
-            let last = count.checked_sub(1).and_then(|last| profile.piece(last));
-            let rising = last.is_some_and(|last| first.x()[0] < last.x()[1]);
-            if !rising {
-                let source = ProfileError::Pieces { count, index: count.saturating_sub(1) };
-                return Err(ContactError::Profile { body, source });
-            }
-            return Ok(Self::Joined(profile, count, first));
-        }
-        match Piece::new(profile) {
-            Ok(piece) => Ok(Self::Smooth(piece)),
-            Err(source) => Err(ContactError::Profile { body, source }),
-        }
+        let surface = match Piece::outermost(profile) {
+            Ok(Some((count, [first, _]))) => Ok(Self::Joined(profile, count, first)),
+            Ok(None) => Piece::new(profile).map(Self::Smooth),
+            Err(source) => Err(source),
+        };
+        surface.map_err(|source| ContactError::Profile { body, source })
     }
 
     fn len(&self) -> usize {

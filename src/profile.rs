@@ -287,8 +287,9 @@ pub enum ProfileError<T: Real> {
     },
     /// A compound profile does not have the pieces that it says it has.
     #[error(
-        "of {count} pieces, piece {index} (from 0, left to right) is missing, or does not start where \
-         the one before ends: check piece() and pieces()"
+        "pieces() is {count}, but piece({index}) {}: count them from 0, from left to right",
+        if index < count { "is missing, or does not start where the one before ends" }
+        else { "is there, too" }
     )]
     Pieces {
         /// How many pieces it says it has.

@@ -381,10 +381,18 @@ impl<T: Real> Goal<T> {
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
             // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
+                let [x_a, x_b] = wanted.places(on);
+                for (name, value, x, end) in [
+                    ("ε_a", wanted.distance_a, x_a, on.right),
+                    ("ε_b", wanted.distance_b, x_b, on.left),
+                ] {
+                    if x == end {
+                        return Err(ContactError::EdgePressure { name, value });
+                    }
+                }
                 engine.prepare(gap, on)?;
                 complete(engine, gap, on, cost)?;
                 let pressing = Pressing { kappa, load, free: [false; 2] };
-                let [x_a, x_b] = wanted.places(on);
                 let mut error = T::zero();
                 let mut excess = |x, pressure| -> Result<T, ContactError<T>> {
                     let estimate = engine.estimate(gap, &pressing, x, cost)?;

@@ -12,7 +12,7 @@
 //! - what rounding makes of a formula changes its sign, and its sum does not grow with their number.
 
 use super::interval;
-use super::{ParametricProfile, ProfileError};
+use super::{ParametricProfile, Piece, ProfileError};
 use crate::Real;
 use crate::quadrature::Gauss;
 
@@ -53,16 +53,15 @@ const LEVELS: usize = 4;
 /// # Errors
 /// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none, and
 /// `slope_at` only if neither has),
-/// [`ProfileError::Domain`], [`ProfileError::NotFinite`].
+/// [`ProfileError::Domain`], [`ProfileError::NotFinite`], [`ProfileError::Pieces`].
 pub fn check_derivatives<T: Real>(
     profile: &dyn ParametricProfile<T>,
 ) -> Result<(), ProfileError<T>> {
-    if profile.piece(0).is_none() {
-        return check(profile);
-    }
-    (0..profile.pieces())
-        .filter_map(|index| profile.piece(index))
-        .try_for_each(|piece| check(piece.curve))
+    let Some((count, _)) = Piece::outermost(profile)? else { return check(profile) };
+    (0..count).try_for_each(|index| match profile.piece(index) {
+        Some(piece) => check(piece.curve),
+        None => Err(ProfileError::Pieces { count, index }),
+    })
 }
 
 fn check<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<(), ProfileError<T>> {

@@ -72,7 +72,10 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let Piece { k, ends: points, .. } =
                 check(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
             ends.push((k, points));
-            smooth.extend((0..part.pieces().max(1)).map(|inner| (piece, inner)));
+            let inner = Piece::outermost(part)
+                .map_err(|source| PiecewiseError::InPiece { piece, source })?
+                .map_or(1, |(count, _)| count);
+            smooth.extend((0..inner).map(|inner| (piece, inner)));
         }
         if parts.is_empty() {
             return Err(PiecewiseError::NoPieces);

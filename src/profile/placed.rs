@@ -1,6 +1,6 @@
 //! A body moved, turned, mirrored or scaled.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, finite};
+use super::{CurvePoint, ParametricProfile, Piece, ProfileError, finite};
 use crate::Real;
 
 /// Where a body is put: a map of the plane that keeps angles, made step by step.
@@ -28,18 +28,32 @@ pub struct Placement<T> {
     /// `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
     matrix: [[T; 2]; 2],
     shift: [T; 2],
+    /// The first step that cannot be done, and its value.
+    fault: Option<(&'static str, T)>,
 }
 
 impl<T: Real> Default for Placement<T> {
     fn default() -> Self {
         let (zero, one) = (T::zero(), T::one());
-        Self { matrix: [[one, zero], [zero, one]], shift: [zero; 2] }
+        Self { matrix: [[one, zero], [zero, one]], shift: [zero; 2], fault: None }
     }
 }
 
 impl<T: Real> Placement<T> {
+    fn asked(mut self, what: &'static str, value: T, possible: bool) -> Self {
+        if !(possible && value.is_finite()) {
+            self.fault = self.fault.or(Some((what, value)));
+        }
+        self
+    }
+
     /// Moved by `along` in the direction of `X` and by `across` in that of `Y`.
     pub fn shifted(mut self, along: T, across: T) -> Self {
+        self = self.asked("a shift of a placement", along, true).asked(
+            "a shift of a placement",
+            across,
+            true,
+        );
         self.shift[0] += along;
         self.shift[1] += across;
         self
@@ -65,13 +79,15 @@ impl<T: Real> Placement<T> {
         let turn = |[x, y]: [T; 2]| [cos * x - sin * y, sin * x + cos * y];
         let [[a, b], [c, d]] = self.matrix;
         let [[a, c], [b, d]] = [turn([a, c]), turn([b, d])];
-        Self { matrix: [[a, b], [c, d]], shift: turn(self.shift) }
+        let turned = Self { matrix: [[a, b], [c, d]], shift: turn(self.shift), ..self };
+        turned.asked("an angle of a placement", angle, true)
     }
 
     /// All lengths multiplied by a factor; a negative one adds half a turn.
     pub fn scaled(self, factor: T) -> Self {
         let times = |row: [T; 2]| row.map(|entry| entry * factor);
-        Self { matrix: self.matrix.map(times), shift: times(self.shift) }
+        let scaled = Self { matrix: self.matrix.map(times), shift: times(self.shift), ..self };
+        scaled.asked("a factor of a placement", factor, !factor.is_zero())
     }
 
     /// Whether `X` depends on `X` alone, and `Y` on `Y`.
@@ -114,14 +130,23 @@ impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
     /// [`ProfileError::Parameter`] if a step of the placement was not finite, or a factor was zero;
     /// [`ProfileError::Joined`] for a body of several pieces.
     pub fn new(curve: P, placement: Placement<T>) -> Result<Self, ProfileError<T>> {
+        if let Some((what, value)) = placement.fault {
+            let must = if value.is_finite() { "not zero" } else { "finite" };
+            return Err(ProfileError::Parameter { name: what, value, must });
+        }
         let [[a, b], [c, d]] = placement.matrix;
         let size = a.hypot(b);
-        finite("the factor of a placement", size, size > T::zero(), "finite and not zero")?;
-        for value in [a, b, c, d, placement.shift[0], placement.shift[1]] {
-            finite("a shift, angle or factor of a placement", value, true, "finite")?;
+        finite(
+            "the product of all factors of a placement",
+            size,
+            size > T::zero(),
+            "finite and not zero",
+        )?;
+        for value in [c, d, placement.shift[0], placement.shift[1]] {
+            finite("the sum of the shifts of a placement", value, true, "finite")?;
         }
-        if curve.pieces() > 0 {
-            return Err(ProfileError::Joined { pieces: curve.pieces() });
+        if let Some((pieces, _)) = Piece::outermost(&curve)? {
+            return Err(ProfileError::Joined { pieces });
         }
         Ok(Self { curve, placement })
     }

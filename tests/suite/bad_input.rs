@@ -14,6 +14,7 @@ mod scene;
 mod searches;
 
 use common::{Profile, power};
+use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
 use linecontact::search::{
     Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, Tolerance,
@@ -22,7 +23,7 @@ use linecontact::stress::Stress;
 use linecontact::{
     Body, Contact, ContactError, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents,
     Flat, Gap, Interval, Load, Midpoint, Panels, ParametricProfile, Piece, Piecewise,
-    PiecewiseError, ProfileError, Solution,
+    PiecewiseError, ProfileError, Solution, check_derivatives,
 };
 use std::cell::Cell;
 use std::f64::consts::PI;

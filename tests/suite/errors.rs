@@ -427,3 +427,27 @@ fn a_spent_budget_of_a_peak_carries_the_best_limits() {
     };
     assert!((best.half_width() / exact - 1.0).abs() < 0.5, "{best:?} {exact}");
 }
+
+/// Where the numbers are at fault, and not the contact.
+#[test]
+fn distances_and_loads_that_numbers_cannot_hold() {
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for distance in [1e-20, 1e-300] {
+        for contact in [contact.clone(), contact.clone().quadrature(&Midpoint::DEFAULT)] {
+            let contact = contact.edge_pressure(EdgePressure::zero(distance, 1e-6));
+            let error = contact.solve(Load::PerLength(0.01)).map(|_| ()).unwrap_err();
+            assert_eq!(error, ContactError::EdgePressure { name: "ε_a", value: distance });
+        }
+    }
+    let held = contact.edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
+    for load in [1e308, -1e308, f64::MAX] {
+        let error = held.solve(Load::PerLength(load)).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::Overflow { .. }), "{error}");
+    }
+    // P = F/(π sqrt(L² - x²)), next to which the parabola is nothing.
+    let pressure =
+        held.solve(Load::PerLength(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
+    let exact = 1e300 / (std::f64::consts::PI * 0.08);
+    assert!((pressure / exact - 1.0).abs() < 1e-14, "{pressure:e}");
+}

@@ -299,15 +299,27 @@ fn what_is_no_shape_is_refused() {
     named(Crowning::new(1.0, -1.0, unit), "the half-length");
     named(Crowning::new(1.0, 1.0, [-1.0, 1.5]), "an end");
     let parabola = Parabola::new(1.0, unit).unwrap();
-    for wrong in [
-        Placement::default().scaled(0.0),
-        Placement::default().scaled(f64::INFINITY),
-        Placement::default().rotated(f64::NAN),
+    // The first step that cannot be done, and what was asked for.
+    let place = Placement::default;
+    for (wrong, name, asked) in [
+        (place().scaled(0.0), "a factor of a placement", 0.0),
+        (place().scaled(f64::INFINITY).rotated(f64::NAN), "a factor of a placement", f64::INFINITY),
+        (place().rotated(f64::NAN), "an angle of a placement", f64::NAN),
+        (place().rotated(f64::INFINITY), "an angle of a placement", f64::INFINITY),
+        (place().shifted(f64::INFINITY, 0.0), "a shift of a placement", f64::INFINITY),
+        (place().shifted(0.0, f64::NAN).scaled(2.0), "a shift of a placement", f64::NAN),
+        (place().scaled(1e-200).scaled(1e-200), "the product of all factors of a placement", 0.0),
+        (
+            place().shifted(1e308, 0.0).scaled(10.0),
+            "the sum of the shifts of a placement",
+            f64::INFINITY,
+        ),
     ] {
-        named(Placed::new(parabola, wrong), "the factor of a placement");
+        let refused = Placed::new(parabola, wrong);
+        let Err(ProfileError::Parameter { value, .. }) = refused else { panic!("{refused:?}") };
+        assert_eq!(value.to_bits(), asked.to_bits(), "{name}");
+        named(refused, name);
     }
-    let astray = Placement::default().shifted(f64::INFINITY, 0.0);
-    named(Placed::new(parabola, astray), "a shift, angle or factor of a placement");
 
     for domain in [[1.0, -1.0], [0.0, 0.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
         let wrong = |made: Option<ProfileError<f64>>| {

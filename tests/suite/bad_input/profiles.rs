@@ -108,12 +108,21 @@ fn compound_profiles_that_are_none() {
     let parts = || vec![at(-1.0, 0.0), at(0.0, 1.0), at(1.0, 2.0)];
     let bad = [
         ("no pieces but one", 0, 1, parts(), 0),
+        ("one more piece than it says", 2, 3, parts(), 2),
+        ("pieces of which there is none", 2, 0, parts(), 0),
         ("more pieces than it has", 9, 3, parts(), 8),
         ("the wrong order", 2, 2, vec![at(0.0, 1.0), at(-1.0, 0.0)], 1),
         ("pieces apart", 2, 2, vec![at(-1.0, -0.5), at(0.5, 1.0)], 1),
     ];
     for (name, says, has, parts, fault) in bad {
         let compound = Compound { says, has, parts };
+        if name != "pieces apart" && name != "the wrong order" {
+            let faults = [
+                check_derivatives(&compound).unwrap_err(),
+                Placed::new(&compound, Placement::default()).map(|_| ()).unwrap_err(),
+            ];
+            assert_eq!(faults, [ProfileError::Pieces { count: says, index: fault }; 2], "{name}");
+        }
         table.row(name, 100, || solve(&compound, Load::PerLength(0.02)), |wrong| {
             matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper,
                 source: ProfileError::Pieces { count, index } }) if (*count, *index) == (says, fault))
