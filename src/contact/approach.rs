@@ -8,7 +8,7 @@
 //! the user has chosen a strategy or the quadrature knows no derivatives; it ends on panels made for
 //! the contact, too.
 
-use super::edges::{Conditions, Control, Edge, Goal};
+use super::edges::{Conditions, Control, Edge, Goal, relative_error};
 use super::limits::{self, Nested};
 use super::newton::{Effort, Settled, load_of, settle};
 use super::{Contact, Found, pull};
@@ -110,30 +110,14 @@ pub(super) fn with_edges<T: Real>(
 ) -> Result<Found<T>, ContactError<T>> {
     let gap = &contact.gap;
     let limits = conditions.edges.map(|edge| edge.limit());
-    if let [Edge::Fixed(left), Edge::Fixed(right)] = conditions.edges {
-        let on = Interval { left, right };
-        super::check(on)?;
-        super::check_within(on, gap.range(), T::zero())?;
-        let Control::Load(load) = conditions.control else {
-            return Err(ContactError::Control { interval: on });
-        };
-        engine.hold(gap, limits);
-        if engine.covered() != Some(on) {
-            engine.cover(gap, on, false)?;
-        }
-        let m = engine.moments(gap, on)?;
-        return Ok(Found::new(conditions, on, load, None, &m));
+    let range = gap.range();
+    if let Some(on) = conditions.both_limits() {
+        return given(contact, conditions, engine, on);
     }
     for limit in limits.into_iter().flatten() {
-        let range = gap.range();
         if !(limit >= range[0] && limit <= range[1]) {
             return Err(ContactError::OutsideBodies { x: limit, range });
         }
-    }
-    let range = gap.range();
-    if let Some(on) = conditions.both_limits() {
-        let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
-        super::check_within(on, range, rounding)?;
     }
     engine.hold(gap, limits);
     let mut settled = None;
@@ -196,6 +180,39 @@ pub(super) fn with_edges<T: Real>(
         Some(settled) => contact_of(contact, conditions, engine, settled),
         None => unreachable!("one of the two ways has been taken"),
     }
+}
+
+/// The contact between limits that are both known. What is not given is the load.
+fn given<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    engine: &mut dyn Engine<T>,
+    on: Interval<T>,
+) -> Result<Found<T>, ContactError<T>> {
+    let (gap, range) = (&contact.gap, contact.gap.range());
+    super::check(on)?;
+    let sought = conditions.edges.iter().any(|edge| edge.limit().is_none());
+    if !sought && matches!(conditions.control, Control::HalfWidth(_)) {
+        return Err(ContactError::Control { interval: on });
+    }
+    let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
+    super::check_within(on, range, if sought { rounding } else { T::zero() })?;
+    let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+    engine.hold(gap, conditions.edges.map(|edge| edge.limit()));
+    // What was sampled for the last load serves for the next.
+    let serves = |covered: Interval<T>| {
+        let within = covered.left <= on.left && covered.right >= on.right;
+        within && on.half_width() >= T::of(0.3) * covered.half_width()
+    };
+    if !engine.covered().is_some_and(serves) {
+        engine.cover(gap, around(contact, conditions, on, T::of(0.02)), false)?;
+    }
+    let m = engine.moments(gap, on)?;
+    let Some(load) = conditions.balance(on, &m) else {
+        return Ok(Found::new(conditions, on, conditions.load(), None, &m));
+    };
+    let error = Some(relative_error(on, &m, m.first.abs() + m.mean.abs()));
+    Ok(Found::new(conditions, on, load, error, &m))
 }
 
 /// What the nested search has found on panels that were changed under way must hold on those that
@@ -333,6 +350,22 @@ fn beyond<T: Real>(contact: &Contact<'_, T>, on: Interval<T>, share: T) -> [T; 2
     [on.left - share * (right_end - on.left), on.right + share * (on.right - left_end)]
 }
 
+/// A stretch a little wider than a contact, by no more than half the way to the ends of the bodies.
+fn around<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    share: T,
+) -> Interval<T> {
+    let (half, range) = (T::of(0.5), contact.gap.range());
+    let [left, right] = beyond(contact, on, share);
+    let stretch = Interval {
+        left: left.max(half * on.left + half * range[0]),
+        right: right.min(half * on.right + half * range[1]),
+    };
+    with_corners(conditions, stretch.plain())
+}
+
 /// A stretch need not go beyond a fixed edge.
 fn with_corners<T: Real>(conditions: &Conditions<T>, on: Interval<T>) -> Interval<T> {
     let [left, right] = conditions.edges.map(|edge| edge.limit());
@@ -347,16 +380,9 @@ pub(super) fn in_full<T: Real>(
     (guess, doubt): (Interval<T>, T),
 ) -> Result<Option<Settled<T>>, ContactError<T>> {
     let gap = &contact.gap;
-    let range = gap.range();
-    let half = T::of(0.5);
     let (mut guess, mut best) = (guess.plain(), None);
     for _ in 0..3 {
-        let [left, right] = beyond(contact, guess, T::of(0.02) + doubt);
-        let stretch = Interval {
-            left: left.max(half * guess.left + half * range[0]),
-            right: right.min(half * guess.right + half * range[1]),
-        };
-        let stretch = with_corners(conditions, stretch.plain());
+        let stretch = around(contact, conditions, guess, T::of(0.02) + doubt);
         if engine.cover(gap, stretch, false)?.is_none() {
             return Ok(None);
         }
@@ -389,11 +415,7 @@ fn nested<T: Real>(
             Ok((nested, Some(load)))
         }
         Control::HalfWidth(half_width) => {
-            let nested = match conditions.both_limits() {
-                Some(on) => Nested { on, error: T::epsilon() },
-                None => limits::place(contact, goal, engine, half_width, cost)?,
-            };
-            Ok((nested, None))
+            Ok((limits::place(contact, goal, engine, half_width, cost)?, None))
         }
     }
 }

@@ -96,13 +96,17 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The interval, where the half-width is given and one of the limits.
+    /// The interval, where both limits are given, or the half-width and one of them.
     pub fn both_limits(&self) -> Option<Interval<T>> {
-        let Control::HalfWidth(half_width) = self.control else { return None };
-        let width = half_width + half_width;
-        match self.edges.map(|edge| edge.limit()) {
-            [Some(left), None] => Some(Interval { left, right: left + width }),
-            [None, Some(right)] => Some(Interval { left: right - width, right }),
+        let limits = self.edges.map(|edge| edge.limit());
+        match (limits, self.control) {
+            ([Some(left), Some(right)], _) => Some(Interval { left, right }),
+            ([Some(left), None], Control::HalfWidth(half_width)) => {
+                Some(Interval { left, right: left + half_width + half_width })
+            }
+            ([None, Some(right)], Control::HalfWidth(half_width)) => {
+                Some(Interval { left: right - half_width - half_width, right })
+            }
             _ => None,
         }
     }
@@ -282,6 +286,17 @@ impl<T: Real> Excess<T> {
     }
 }
 
+/// Far from x = 0 the abscissae themselves are rounded: by how much, relative to the half-width.
+fn rounding<T: Real>(on: Interval<T>) -> T {
+    T::epsilon() * on.left.abs().max(on.right.abs()) / on.half_width()
+}
+
+/// Estimated error of the edges relative to the half-width, where the conditions there are that a sum of
+/// the moments of this size is what it is.
+pub(super) fn relative_error<T: Real>(on: Interval<T>, m: &Moments<T>, sum: T) -> T {
+    m.error / sum + m.inversion / on.half_width() + rounding(on)
+}
+
 impl<T: Real> Goal<T> {
     /// The limits -b and a, where they are given.
     pub fn limits(&self) -> [Option<T>; 2] {
@@ -332,9 +347,7 @@ impl<T: Real> Goal<T> {
             Self::Strength { conditions, load } => {
                 let m = engine.moments(gap, on)?;
                 let stiffness = conditions.kappa * on.half_width();
-                // Far from x = 0 the abscissae themselves are rounded.
-                let largest = on.left.abs().max(on.right.abs());
-                let rounding = T::epsilon() * largest / on.half_width();
+                let rounding = rounding(on);
                 let carried = stiffness * m.first;
                 let balance = stiffness * m.mean;
                 let pull = conditions.pull(on.half_width()).map(|pull| pull + pull);
@@ -375,7 +388,7 @@ impl<T: Real> Goal<T> {
                     carried: Some(borne),
                     size: stiffness * sum,
                     growth,
-                    error: m.error / sum + m.inversion / on.half_width() + rounding,
+                    error: relative_error(on, &m, sum),
                 })
             }
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is

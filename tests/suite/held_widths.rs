@@ -3,8 +3,9 @@
 
 use crate::common::{graph, parabola};
 use approx::assert_relative_eq;
+use linecontact::profile::{Ellipse, wedge};
 use linecontact::search::Brent;
-use linecontact::{Contact, ContactError, Edge, Flat, Load, Midpoint};
+use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Panels};
 use std::f64::consts::PI;
 
 /// One limit and the width give the other, and K = 0 at the free edge the load: F = L²/2 - L c with
@@ -31,6 +32,37 @@ fn a_width_beside_a_fixed_edge() {
             let contact = contact.clone().edges(other, Edge::Fixed(0.1));
             let error = contact.solve(Load::ToHalfWidth(5.0)).map(|_| ()).unwrap_err();
             assert!(matches!(error, ContactError::OutsideBodies { x: -9.9, .. }), "{error}");
+        }
+    }
+}
+
+/// Nothing is sought where one limit and the width are given: the limits are what they are, even at a
+/// joint, and the load is F = L (m₁ + m₀), by Gauss-Chebyshev sums. (A wedge up to its tip: m₁ = 0.)
+#[test]
+fn a_width_beside_a_fixed_edge_is_exact() {
+    let tip = wedge([-0.25, 1.75], 1.0).unwrap();
+    let contact = Contact::new(&Flat, &tip).unwrap().edges(Edge::Fixed(-0.5), Edge::Free);
+    let solution = contact.solve(Load::ToHalfWidth(0.25)).unwrap();
+    assert_eq!(solution.interval(), Interval { left: -0.5, right: 0.0 });
+    assert_relative_eq!(solution.load(), -0.0625, epsilon = 0.0, max_relative = 1e-14);
+
+    let arc = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
+    let slope = |x: f64| x / (1.0 - x * x).sqrt();
+    for (left, half_width) in [(-0.5, 0.25), (-0.1, 0.2), (-0.3, 0.5)] {
+        let (count, centre) = (400, left + half_width);
+        let nodes = (0..count).map(|i| ((f64::from(i) + 0.5) * PI / f64::from(count)).cos());
+        let sum: f64 = nodes.map(|t| slope(centre + half_width * t) * (1.0 + t)).sum();
+        let load = half_width * sum / f64::from(count);
+        for tolerance in [0.0, 1e-8, 1e-4] {
+            let panels = Panels { tolerance, ..Panels::FULL };
+            let contact = Contact::new(&Flat, &arc).unwrap().quadrature(&panels);
+            let contact = contact.edges(Edge::Fixed(left), Edge::Free);
+            let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+            assert_eq!(solution.interval().left, left);
+            let off = (solution.load() / load - 1.0).abs();
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= 4.0 * estimate + 1e-15, "{left} {tolerance}: {off} {estimate}");
+            assert!(estimate <= 1e-14 + tolerance, "{left} {tolerance}: {estimate}");
         }
     }
 }
