@@ -106,13 +106,18 @@ impl<'s, T: Real> Solution<'s, T> {
     /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
     /// inside.
     ///
+    /// It takes about a hundred pressures, which cost evaluations with [`Midpoint`](crate::Midpoint)
+    /// only; they are not in [`cost`](Self::cost).
+    ///
     /// # Errors
     /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
     /// slope of the gap jumps up; those of sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         let Found { interval: on, strengths, free, .. } = self.found;
         self.engine.engine().complete(self.gap)?;
-        let [x, pressure] = peak(self.engine.engine(), self.gap, &self.pressing(), on)?;
+        let (engine, cost) = (self.engine.engine(), &mut Cost::default());
+        let (x, Estimate { value: pressure, .. }) =
+            peak(engine, self.gap, &self.pressing(), on, cost)?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
@@ -125,7 +130,8 @@ impl<'s, T: Real> Solution<'s, T> {
         Ok(Peak { x, pressure })
     }
 
-    /// What finding the limits has cost.
+    /// What finding the limits has cost, the pressures that [`Load::ToPeak`](crate::Load::ToPeak) takes
+    /// for it included.
     pub fn cost(&self) -> Cost {
         self.cost
     }

@@ -17,19 +17,20 @@ const POINTS: usize = 64;
 /// Widths tried before the pressure is given up.
 const MOST_WIDTHS: usize = 200;
 
-/// Where the pressure of a prepared contact is largest, and how large.
+/// Where the pressure of a prepared contact is largest, and how large, adding to `cost` what it takes.
 pub(crate) fn peak<T: Real>(
     engine: &dyn Engine<T>,
     gap: &Gap<'_, T>,
     pressing: &Pressing<T>,
     on: Interval<T>,
-) -> Result<[T; 2], ContactError<T>> {
+    cost: &mut Cost,
+) -> Result<(T, Estimate<T>), ContactError<T>> {
     let mut x = [T::zero(); POINTS];
     for (i, x) in x.iter_mut().enumerate() {
         *x = on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS));
     }
     let mut pressures = [T::zero(); POINTS];
-    engine.pressures(gap, pressing, &x, &mut pressures, &mut Cost::default())?;
+    engine.pressures(gap, pressing, &x, &mut pressures, cost)?;
     let mut best = 0;
     for i in 0..POINTS {
         if pressures[i] > pressures[best] {
@@ -39,20 +40,19 @@ pub(crate) fn peak<T: Real>(
     let around = |i: usize| if i < POINTS { x[i] } else { on.left };
     let before = if best == 0 { on.right } else { x[best - 1] };
     let (mut lo, mut hi) = (around(best + 1), before);
-    let mut top = [x[best], pressures[best]];
-    // Joints are where a pressure is not smooth, and may be infinite.
-    let mut cost = Cost::default();
+    let mut top = (x[best], engine.estimate(gap, pressing, x[best], cost)?);
     let mut at = |x: T| -> Result<T, ContactError<T>> {
-        let pressure = engine.estimate(gap, pressing, x, &mut cost)?.value;
-        if pressure > top[1] {
-            top = [x, pressure];
+        let pressure = engine.estimate(gap, pressing, x, cost)?;
+        if pressure.value > top.1.value {
+            top = (x, pressure);
         }
-        Ok(pressure)
+        Ok(pressure.value)
     };
+    // Joints are where a pressure is not smooth, and may be infinite.
     for joint in gap.telling_joints(on, T::one(), 4 * POINTS) {
         let pressure = at(joint)?;
         if !pressure.is_finite() && pressure > T::zero() {
-            return Ok([joint, pressure]);
+            return Ok((joint, Estimate { value: pressure, error: T::zero() }));
         }
     }
     // Golden section: the pressure is flat at its peak, so half the digits of x are enough.
@@ -99,12 +99,11 @@ impl<T: Real> Trials<'_, T> {
         self.engine.prepare(&contact.gap, on)?;
         complete(self.engine, &contact.gap, on, self.cost)?;
         let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };
-        let [x, pressure] = peak(self.engine, &contact.gap, &pressing, on)?;
+        let (_, Estimate { value: pressure, error: doubt }) =
+            peak(self.engine, &contact.gap, &pressing, on, self.cost)?;
         if pressure.is_finite() {
             self.last = Some(on);
             // The half-width goes with the peak, and is known no better.
-            let Estimate { error: doubt, .. } =
-                self.engine.estimate(&contact.gap, &pressing, x, self.cost)?;
             let error = found.error.map(|error| error + doubt / pressure.abs());
             Ok((Found { error, ..found }, pressure))
         } else {

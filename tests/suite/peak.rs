@@ -8,6 +8,7 @@ use linecontact::{
     Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise,
 };
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 #[test]
 fn of_a_parabola_away_from_zero() {
@@ -107,5 +108,22 @@ fn an_infinite_peak_is_refused_whatever_its_unit() {
         let refused = pressure.at_many(&[0.1, 0.0, -0.2], &mut three);
         assert_eq!(refused, Err(ContactError::Singular { x: 0.0 }), "{unit}");
         assert_eq!(three[0], pressure.at(0.1).unwrap());
+    }
+}
+
+/// Every call of a curve while a peak is sought is in the cost.
+#[test]
+fn what_a_given_peak_costs() {
+    let calls = AtomicUsize::new(0);
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        calls.fetch_add(1, Relaxed);
+        CurvePoint { x: k + k * k * k, y: k * k / 2.0, dx: 1.0 + 3.0 * k * k, dy: k }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let rule = Midpoint { segments: 32, ..Midpoint::DEFAULT };
+    for contact in [contact.clone(), contact.quadrature(&rule)] {
+        let before = calls.load(Relaxed);
+        let solution = contact.solve(Load::ToPeak(0.05)).unwrap();
+        assert_eq!(solution.cost().evaluations, calls.load(Relaxed) - before);
     }
 }
