@@ -325,3 +325,22 @@ fn a_search_spends_no_more_than_its_budget() {
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
     assert!(contact.solve(Load::ToHalfWidth(0.3)).is_ok());
 }
+
+/// Seed 405059: bodies too short for the adhesion at one edge. The search goes down to the smallest
+/// numbers, and once kept the panels of all widths on its way, without end.
+#[test]
+fn a_search_down_to_the_smallest_numbers_ends() {
+    let calls = AtomicUsize::new(0);
+    let (bend, third) = (0.61893511878094, 3.141957594557101);
+    let body = Curve::new([-0.002435773353810994, 0.01970445824146324], |k: f64| {
+        calls.fetch_add(1, Ordering::Relaxed);
+        let (x, dx) = (k + third * k * k * k, 1.0 + 3.0 * third * k * k);
+        CurvePoint { x, y: bend * x * x / 2.0, dx, dy: bend * x * dx }
+    });
+    let panels = Panels { tolerance: 0.009530944428653484 };
+    let start = Interval { left: -0.28746906673291, right: 0.011354298351795801 };
+    let contact = Contact::new(&Flat, &body).unwrap().quadrature(&panels).start(start);
+    let contact = contact.edges(Edge::Adhesive(0.0010542937184648549), Edge::Free);
+    assert!(contact.solve(Load::PerLength(8.89447175874297e-247)).is_err());
+    assert!(calls.load(Ordering::Relaxed) < 200_000, "{calls:?}");
+}
