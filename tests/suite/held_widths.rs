@@ -54,7 +54,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
         let sum: f64 = nodes.map(|t| slope(centre + half_width * t) * (1.0 + t)).sum();
         let load = half_width * sum / f64::from(count);
         for tolerance in [0.0, 1e-8, 1e-4] {
-            let panels = Panels { tolerance, ..Panels::FULL };
+            let panels = Panels { tolerance };
             let contact = Contact::new(&Flat, &arc).unwrap().quadrature(&panels);
             let contact = contact.edges(Edge::Fixed(left), Edge::Free);
             let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
