@@ -113,7 +113,7 @@ pub(super) fn place<T: Real>(
                 return Ok(Nested { on, error: error + missed });
             }
             Placed::Beyond(end) => {
-                let x = [origin - half_width, origin + half_width][end];
+                let x = [search.origin - half_width, search.origin + half_width][end];
                 return Err(ContactError::OutsideBodies { x, range });
             }
             // Pulled at one edge more than at the other, it may sit further on.
