@@ -19,9 +19,6 @@ use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 /// The most targets at a time.
 const MOST: usize = 32;
 
-/// By how much of the distance to the next target a node may miss its own, and for a sketch.
-const NEAR: [f64; 2] = [0.1, 0.45];
-
 /// Steps of Newton's rule to a target, before it is left to the user's strategy.
 const STEPS: usize = 4;
 
@@ -114,13 +111,13 @@ impl<T: Real> Trace<T> {
     }
 }
 
-/// Samples a body near the targets, which rise and lie on one piece of it. Afterwards the trace has
-/// one knot for each, rising too.
+/// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by so
+/// much. Afterwards the trace has one knot for each, rising too.
 pub(crate) fn aim<const N: usize, T: Real>(
     gap: &Gap<'_, T>,
     body: Body,
     targets: &[T; N],
-    rough: bool,
+    room: &[T; N],
     trace: &mut Trace<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
@@ -147,18 +144,6 @@ pub(crate) fn aim<const N: usize, T: Real>(
         trace.piece = Some(index);
         trace.knots.set(ends, &[]);
     }
-    let near = T::of(NEAR[usize::from(rough)]);
-    let room = std::array::from_fn(|i| {
-        let before = targets[i] - targets[i.max(1) - 1];
-        let after = targets[(i + 1).min(N - 1)] - targets[i];
-        near * if i == 0 {
-            after
-        } else if i + 1 == N {
-            before
-        } else {
-            before.min(after)
-        }
-    });
     let shot = Shot { gap, body, piece, rises: piece.k[0] < piece.k[1], targets, room };
     shot.take(&mut trace.knots, cost).map_err(|error| turns(piece, error))
 }
@@ -171,7 +156,7 @@ struct Shot<'s, const N: usize, T: Real> {
     rises: bool,
     targets: &'s [T; N],
     /// By how much each may be missed.
-    room: [T; N],
+    room: &'s [T; N],
 }
 
 impl<const N: usize, T: Real> Shot<'_, N, T> {

@@ -41,6 +41,8 @@ pub(crate) struct Table {
     /// The nodes, rising, and `sin θ` there.
     pub z: [f64; MOST],
     pub sine: [f64; MOST],
+    /// From each node the distance to the nearest other.
+    pub spacing: [f64; MOST],
     /// `transform[j][k]`: the share of the value at node j in coefficient k.
     transform: [[f64; MOST]; MOST],
     /// The share of the value at node j in that at the right end.
@@ -55,6 +57,7 @@ impl Table {
         Self {
             z: [0.0; MOST],
             sine: [0.0; MOST],
+            spacing: [0.0; MOST],
             transform: [[0.0; MOST]; MOST],
             at_end: [0.0; MOST],
         }
@@ -73,13 +76,23 @@ impl Table {
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
         }
+        table.set_spacing(n);
         table
+    }
+
+    fn set_spacing(&mut self, n: usize) {
+        for j in 0..n {
+            let before = if j > 0 { self.z[j] - self.z[j - 1] } else { f64::INFINITY };
+            let after = if j + 1 < n { self.z[j + 1] - self.z[j] } else { f64::INFINITY };
+            self.spacing[j] = before.min(after);
+        }
     }
 
     /// Four nodes, two of them at the ends.
     fn with_ends() -> Self {
         let mut table = Self::empty();
         table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
+        table.set_spacing(4);
         for j in 0..4 {
             for k in 0..4 {
                 let halved = |i: usize| if i == 0 || i == 3 { 0.5 } else { 1.0 };

@@ -6,6 +6,9 @@ use super::panel::{Panel, Verdict, judge};
 use crate::gap::{Cost, Gap, Knot, Sampler, Trace, aim};
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
+/// By how much of the distance to the nearest other node a point may miss its own, and for a sketch.
+const NEAR: [f64; 2] = [0.1, 0.45];
+
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
 
@@ -414,8 +417,10 @@ impl<T: Real> Cover<T> {
         let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
         let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
+        let near = T::of(NEAR[usize::from(self.rough)]) * reach;
+        let room = std::array::from_fn(|i| near * T::of(table.spacing[i]));
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
-            aim(gap, body, &nodes, self.rough, trace, &mut self.cost)?;
+            aim(gap, body, &nodes, &room, trace, &mut self.cost)?;
         }
         self.cost.samples += N;
         let wanted = offsets.map(|offset| reach + offset);

@@ -31,10 +31,13 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
     let unit = T::of(2.0) / reach;
     let x: [T; N] = std::array::from_fn(|i| (knots[i].x - left) * unit);
     let at = nodes.map(|node| node * unit);
+    // Each with the one so many places further on, so that no place stands out.
     let mut weight = [T::one(); N];
-    for j in 0..N {
+    let around = [x, x];
+    for shift in 1..N {
+        let others = &around.as_flattened()[shift..shift + N];
         for i in 0..N {
-            weight[i] *= if i == j { T::one() } else { x[i] - x[j] };
+            weight[i] *= x[i] - others[i];
         }
     }
     let weight = weight.map(|weight| T::one() / weight);
