@@ -10,69 +10,24 @@
 //! get there it is searched for with the user's strategy, which is stopped as soon as it is near:
 //! it meets a zero there.
 
+mod knots;
+mod way;
+
+pub(crate) use knots::Knot;
+
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, turning_point};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+use knots::Knots;
+use way::{Way, is_between, newton};
 
 /// The most targets at a time.
 const MOST: usize = 32;
 
 /// Steps of Newton's rule to a target, before it is left to the user's strategy.
 const STEPS: usize = 4;
-
-/// A known point of a curve.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Knot<T> {
-    pub k: T,
-    pub x: T,
-    pub y: T,
-    dx: T,
-    /// `Y'/X'`
-    pub slope: T,
-}
-
-impl<T: Real> Knot<T> {
-    fn new(k: T, point: CurvePoint<T>) -> Self {
-        Self { k, x: point.x, y: point.y, dx: point.dx, slope: point.dy / point.dx }
-    }
-}
-
-/// The two ends of a piece and the known points between them, from left to right; none at all before
-/// the first.
-#[derive(Clone, Debug)]
-struct Knots<T> {
-    row: Vec<Knot<T>>,
-}
-
-impl<T: Real> Knots<T> {
-    fn new() -> Self {
-        Self { row: Vec::new() }
-    }
-
-    /// How many there are between the ends.
-    fn len(&self) -> usize {
-        self.row.len().saturating_sub(2)
-    }
-
-    fn ends(&self) -> [Knot<T>; 2] {
-        [self.row[0], self.row[self.row.len() - 1]]
-    }
-
-    /// Takes other knots in place of these.
-    fn set(&mut self, [left, right]: [Knot<T>; 2], inner: &[Knot<T>]) {
-        self.row.clear();
-        self.row.reserve(MOST + 2);
-        self.row.push(left);
-        self.row.extend_from_slice(inner);
-        self.row.push(right);
-    }
-
-    fn inner(&self) -> &[Knot<T>] {
-        &self.row[1..=self.len()]
-    }
-}
 
 /// The points of one body that were sampled last, from left to right.
 #[derive(Clone, Debug)]
@@ -388,13 +343,6 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
     }
 }
 
-/// A step of Newton's rule from the nearer of two points, kept between them.
-fn newton<T: Real>(left: Knot<T>, right: Knot<T>, target: T) -> T {
-    let nearer = if target - left.x < right.x - target { left } else { right };
-    let k = nearer.k + (target - nearer.x) / nearer.dx;
-    if is_between(k, left.k, right.k) { k } else { T::of(0.5) * left.k + T::of(0.5) * right.k }
-}
-
 /// Says where a curve that runs the wrong way turns.
 fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
     let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
@@ -403,56 +351,6 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
     let [left, _] = piece.k;
     let (k, x) = turning_point(piece.curve, left.min(k), left.max(k));
     ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
-}
-
-fn is_between<T: Real>(k: T, one: T, other: T) -> bool {
-    (k - one) * (other - k) > T::zero()
-}
-
-/// The parameter as a function of x by two knots: the cubic `k(x)` through both with their slopes, or
-/// where that is not monotone, the slope at the nearer one.
-struct Way<'k, T> {
-    left: &'k Knot<T>,
-    right: &'k Knot<T>,
-    /// The reciprocal of the distance.
-    share: T,
-    /// The coefficients of the cubic in the share of the way, without the constant.
-    cubic: Option<[T; 3]>,
-}
-
-impl<'k, T: Real> Way<'k, T> {
-    fn new(left: &'k Knot<T>, right: &'k Knot<T>) -> Self {
-        let width = right.x - left.x;
-        let rise = right.k - left.k;
-        let (at_left, at_right) = (width / left.dx, width / right.dx);
-        let three = T::of(3.0) * rise.abs();
-        let even = |slope: T| slope * rise > T::zero() && slope.abs() <= three;
-        let cubic = (even(at_left) && even(at_right)).then(|| {
-            let (twice, sum) = (rise + rise, at_left + at_right);
-            [at_left, rise + twice - at_left - sum, sum - twice]
-        });
-        Self { left, right, share: T::one() / width, cubic }
-    }
-
-    /// The parameter at x, which is between two other knots, or the same.
-    #[inline(always)]
-    fn parameter(&self, x: T, one: &Knot<T>, other: &Knot<T>) -> T {
-        let along = (x - self.left.x) * self.share;
-        let k = match self.cubic {
-            Some([first, second, third]) => {
-                self.left.k + along * (first + along * (second + along * third))
-            }
-            None => {
-                let nearer = if along < T::of(0.5) { self.left } else { self.right };
-                nearer.k + (x - nearer.x) / nearer.dx
-            }
-        };
-        if is_between(k, one.k, other.k) {
-            return k;
-        }
-        let share = (x - one.x) / (other.x - one.x);
-        if share.is_finite() { one.k + share * (other.k - one.k) } else { one.k }
-    }
 }
 
 fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {
