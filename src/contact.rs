@@ -1,17 +1,22 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod approach;
+mod edge_pressure;
 mod edges;
 mod first_contact;
 mod further;
+mod goal;
 mod limits;
 mod newton;
 mod peak;
 mod pull;
+mod sketch;
+mod stretch;
 mod stride;
 mod widest;
 
-pub use edges::{Edge, EdgePressure};
+pub use edge_pressure::EdgePressure;
+pub use edges::Edge;
 pub(crate) use peak::peak;
 
 use crate::gap::{Cost, Gap};
@@ -19,7 +24,8 @@ use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{Solution, Worker};
 use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
-use edges::{Conditions, Control, Goal};
+use edges::{Conditions, Control};
+use goal::Goal;
 
 /// Two bodies to be pressed together, and the way to find their contact.
 ///

@@ -4,7 +4,7 @@
 //! their values. A few steps with a fixed Jacobian, from differences, make up for that: each leaves
 //! a share of what is missing that is as small as the differences are good. Plain numbers need none.
 
-use super::edges::Goal;
+use super::goal::Goal;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};

@@ -1,7 +1,8 @@
 //! The widest contact that there is room for.
 
-use super::edges::{Conditions, Goal};
+use super::edges::Conditions;
 use super::first_contact::first_contact;
+use super::goal::Goal;
 use super::{BRENT, Contact};
 use crate::gap::{Cost, Sampler};
 use crate::quadrature::Engine;

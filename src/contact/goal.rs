@@ -1,0 +1,218 @@
+//! By how much a trial contact misses its conditions.
+
+use super::EdgePressure;
+use super::edges::Conditions;
+use crate::gap::{Cost, Gap};
+use crate::quadrature::{Engine, Moments, Pressing, complete};
+use crate::{ContactError, Interval, Real};
+
+/// The conditions at the edges, as two numbers to be brought to zero.
+#[derive(Clone, Copy)]
+pub(super) enum Goal<T> {
+    /// Singularities of given strength.
+    Strength { conditions: Conditions<T>, load: T },
+    /// Eq. (6).
+    Pressure { kappa: T, load: T, wanted: EdgePressure<T> },
+}
+
+/// By how much a trial contact misses its conditions, as forces per unit length. Positive at an
+/// edge: the edge must move outward (the paper's readjustment rule).
+#[derive(Clone, Copy)]
+pub(super) struct Excess<T> {
+    /// At `a`.
+    pub at_a: T,
+    /// At `-b`.
+    pub at_b: T,
+    /// Up to this, shift and spread are zero to rounding, or to the tolerances.
+    floor: T,
+    /// The load that the contact carries, where that is known.
+    pub carried: Option<T>,
+    /// The force that the conditions are missed by a share of.
+    pub size: T,
+    /// By what factor the width of a round body should change, whose load goes with its square.
+    pub growth: T,
+    /// Estimated error of the edges relative to the half-width, from the quadrature.
+    pub error: T,
+}
+
+impl<T: Real> Excess<T> {
+    /// Positive: the whole contact must move to the right.
+    pub fn shift(&self) -> T {
+        self.above(self.floor, self.at_a - self.at_b)
+    }
+
+    /// The shift, or zero if it is settled well enough for the load to be looked at: moving a
+    /// contact changes its spread by less than its shift, so with a shift a thousandth of the
+    /// spread the sign of the spread is certain. As the spread vanishes this tightens.
+    pub fn rough_shift(&self) -> T {
+        let spread = self.at_a + self.at_b;
+        self.above(self.floor.max(T::of(1e-3) * spread.abs()), self.at_a - self.at_b)
+    }
+
+    /// Positive: the contact must widen.
+    pub fn spread(&self) -> T {
+        self.above(self.floor, self.at_a + self.at_b)
+    }
+
+    /// The spread on a scale on which the width is found in fewer steps: the logarithm of the
+    /// load over the load carried, which falls evenly whatever the shape of the bodies.
+    pub fn deficit(&self) -> T {
+        let (half, spread) = (T::of(0.5), self.spread());
+        match self.carried {
+            Some(carried) if carried > T::zero() => {
+                let excess = half * spread / carried;
+                // Close to zero from the difference, elsewhere from the ratio, which may be huge.
+                if excess.abs() < half { excess.ln_1p() } else { self.growth.ln() / half }
+            }
+            // Nothing is carried: larger than any logarithm.
+            Some(_) => T::epsilon().recip(),
+            None => spread,
+        }
+    }
+
+    fn above(&self, floor: T, value: T) -> T {
+        if value.abs() <= floor { T::zero() } else { value }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        (self.at_a - self.at_b).is_finite() && (self.at_a + self.at_b).is_finite()
+    }
+}
+
+/// Far from x = 0 the abscissae themselves are rounded: by how much, relative to the half-width.
+fn rounding<T: Real>(on: Interval<T>) -> T {
+    T::epsilon() * on.left.abs().max(on.right.abs()) / on.half_width()
+}
+
+/// Estimated error of the edges relative to the half-width, where the conditions there are that a sum of
+/// the moments of this size is what it is.
+pub(super) fn relative_error<T: Real>(on: Interval<T>, m: &Moments<T>, sum: T) -> T {
+    m.error / sum + m.inversion / on.half_width() + rounding(on)
+}
+
+impl<T: Real> Goal<T> {
+    /// The limits -b and a, where they are given.
+    pub fn limits(&self) -> [Option<T>; 2] {
+        match *self {
+            Self::Strength { conditions, .. } => conditions.edges.map(|edge| edge.limit()),
+            Self::Pressure { .. } => [None; 2],
+        }
+    }
+
+    /// Whether adhesion pulls at one edge more than at the other.
+    pub fn is_lopsided(&self) -> bool {
+        let Self::Strength { conditions, .. } = self else { return false };
+        let [at_b, at_a] = conditions.pull(T::one());
+        at_b != at_a
+    }
+
+    /// Whether the conditions can be looked at on bodies that cover this range of x.
+    pub fn check(&self, range: [T; 2]) -> Result<(), ContactError<T>> {
+        if let Self::Pressure { wanted, .. } = self {
+            for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
+                if value >= range[1] - range[0] {
+                    return Err(ContactError::EdgePressure { name, value });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A contact must be wider than this.
+    pub fn least_width(&self) -> T {
+        match self {
+            Self::Strength { .. } => T::zero(),
+            Self::Pressure { wanted, .. } => wanted.distance_a.max(wanted.distance_b),
+        }
+    }
+
+    /// Tries a contact.
+    pub fn excess(
+        &self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        engine: &mut dyn Engine<T>,
+        cost: &mut Cost,
+    ) -> Result<Excess<T>, ContactError<T>> {
+        let two = T::of(2.0);
+        match *self {
+            // π L K at each edge: forces, which stay finite as the contact shrinks.
+            Self::Strength { conditions, load } => {
+                let m = engine.moments(gap, on)?;
+                let stiffness = conditions.kappa * on.half_width();
+                let rounding = rounding(on);
+                let carried = stiffness * m.first;
+                let balance = stiffness * m.mean;
+                let pull = conditions.pull(on.half_width()).map(|pull| pull + pull);
+                let half = T::of(0.5);
+                // Beside a corner the two may cancel, and little load be left.
+                let both = m.first.abs() + m.mean.abs();
+                // Only the free edges count.
+                let (at_a, at_b, needed, borne, sum) = match self.limits() {
+                    [Some(_), None] => {
+                        let (needed, borne) = (load + pull[1], carried + balance);
+                        (needed - borne, needed - borne, needed, borne, both)
+                    }
+                    [None, Some(_)] => {
+                        let (needed, borne) = (load + pull[0], carried - balance);
+                        (needed - borne, needed - borne, needed, borne, both)
+                    }
+                    _ => {
+                        let (at_a, at_b) = (load + pull[1] - carried, load + pull[0] - carried);
+                        let needed = load + half * (pull[0] + pull[1]);
+                        (at_a - balance, at_b + balance, needed, carried, m.first.abs())
+                    }
+                };
+                let ratio = needed / borne;
+                let least = T::epsilon().powi(5);
+                let growth = if !(borne > T::zero() && needed > T::zero()) {
+                    two
+                } else if ratio > least && ratio < least.recip() {
+                    ratio.sqrt()
+                } else {
+                    // By roots, so as not to underflow.
+                    needed.sqrt() / borne.sqrt()
+                };
+                Ok(Excess {
+                    at_a,
+                    at_b,
+                    // The estimated error errs on the safe side.
+                    floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.size),
+                    carried: Some(borne),
+                    size: stiffness * sum,
+                    growth,
+                    error: relative_error(on, &m, sum),
+                })
+            }
+            // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
+            // in the middle, however unlike the two distances are.
+            Self::Pressure { kappa, load, wanted } => {
+                let [x_a, x_b] = wanted.places(on);
+                for (name, value, x, end) in [
+                    ("ε_a", wanted.distance_a, x_a, on.right),
+                    ("ε_b", wanted.distance_b, x_b, on.left),
+                ] {
+                    if x == end {
+                        return Err(ContactError::EdgePressure { name, value });
+                    }
+                }
+                engine.prepare(gap, on)?;
+                complete(engine, gap, on, cost)?;
+                let pressing = Pressing { kappa, load, free: [false; 2] };
+                let mut error = T::zero();
+                let mut excess = |x, pressure| -> Result<T, ContactError<T>> {
+                    let estimate = engine.estimate(gap, &pressing, x, cost)?;
+                    let root = T::pi() * on.edge_root(x);
+                    error += root * estimate.error / load;
+                    Ok(root * (estimate.value - pressure))
+                };
+                let (at_a, at_b) = (excess(x_a, wanted.at_a)?, excess(x_b, wanted.at_b)?);
+                let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
+                let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
+                let tolerance_a = tolerance(x_a, wanted.tolerance_a);
+                let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
+                Ok(Excess { at_a, at_b, floor, carried: None, size: load, growth, error })
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The inner search: where a contact of given width sits.
+
+use super::{Search, Trial, nearer};
+use crate::contact::goal::Goal;
+use crate::contact::stride::ulps;
+use crate::search::Bracket;
+use crate::{ContactError, Interval, Real};
+
+/// What became of a contact of given width.
+pub(super) enum Placed<T> {
+    /// It sits here.
+    At(Trial<T>),
+    /// It would have to reach beyond the left (0) or the right (1) end of the bodies.
+    Beyond(usize),
+    /// It would have to let go of the point of first contact, and be no contact; or one beyond this.
+    Adrift(Interval<T>),
+}
+
+impl<T: Real> Search<'_, T> {
+    /// Finds where a contact of given half-width sits.
+    pub fn place(&mut self, half_width: T) -> Result<Placed<T>, ContactError<T>> {
+        let zero = T::zero();
+        let width = T::of(2.0) * half_width;
+        let room = self.room();
+        let [room_left, room_right] = room;
+        match self.goal.limits() {
+            [Some(left), _] if width >= room_right => {
+                return self.attempt(Interval { left, right: self.range[1] }).map(Placed::At);
+            }
+            [Some(left), _] => {
+                return self.attempt(Interval { left, right: left + width }).map(Placed::At);
+            }
+            [_, Some(right)] if width >= room_left => {
+                return self.attempt(Interval { left: self.range[0], right }).map(Placed::At);
+            }
+            [_, Some(right)] => {
+                return self.attempt(Interval { left: right - width, right }).map(Placed::At);
+            }
+            [None, None] => {}
+        }
+        let (near, far) = (self.near, 1 - self.near);
+        let (lo, hi) = ((width - room[far]).max(zero), width.min(room[near]));
+        if lo >= hi {
+            // All of the bodies, up to rounding, may be just wide enough.
+            let [left, right] = self.range;
+            if lo - hi <= ulps::<T>() * (left.abs() + right.abs()) {
+                let trial = self.attempt(Interval { left, right })?;
+                if (self.unbalance)(&trial.excess) == zero {
+                    return Ok(Placed::At(trial));
+                }
+            }
+            return Ok(Placed::Beyond(usize::from(room_right < room_left)));
+        }
+        let origin = self.origin;
+        let on = |reach: T| match near {
+            0 => Interval { left: origin - reach, right: origin + (width - reach) },
+            _ => Interval { left: origin + (reach - width), right: origin + reach },
+        };
+        let reached = |trial: &Trial<T>| reaches(trial.on, origin)[near];
+        let mut reach = (self.share * width).max(lo).min(hi);
+        let mut trial = self.attempt(on(reach))?;
+        let widest = T::of(0.125) * width;
+        let mut factor = T::of(2.0);
+        let [low, high] = loop {
+            let shift = (self.unbalance)(&trial.excess);
+            if shift == zero {
+                return Ok(self.placed(trial, width));
+            }
+            // Twice as far as the balance seems to be, so as to pass it.
+            let past = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
+            let step = past.filter(|&past| past < widest).unwrap_or(widest * factor * T::of(0.5));
+            let step = step.max(ulps::<T>() * reach).max(self.resolution());
+            let outward = (shift > zero) == (near == 1);
+            let next = if outward { (reach + step).min(hi) } else { (reach - step).max(lo) };
+            if next == reach {
+                // The balance lies beyond what is left of the bodies, or of the contact.
+                return if reach == room[near] {
+                    Ok(Placed::Beyond(near))
+                } else if reach == width - room[far] {
+                    Ok(Placed::Beyond(far))
+                } else {
+                    Ok(match self.goal {
+                        Goal::Strength { .. } => Placed::Adrift(trial.on),
+                        // Not balanced, it still tells whether to widen; then it may find its
+                        // balance, and if not, the pressures at its edges show it.
+                        Goal::Pressure { .. } => Placed::At(trial),
+                    })
+                };
+            }
+            let before = trial;
+            trial = self.attempt(on(next))?;
+            let moved = (self.unbalance)(&trial.excess);
+            reach = next;
+            if moved != zero {
+                let rightward = reached(&trial) - reached(&before);
+                let rightward = if near == 1 { rightward } else { -rightward };
+                let stiffness = (shift - moved) / rightward;
+                self.stiffness = Some(stiffness).filter(|&stiffness| stiffness > zero);
+                if (shift > zero) != (moved > zero) {
+                    break if outward { [before, trial] } else { [trial, before] };
+                }
+            }
+            factor *= T::of(4.0);
+        };
+        let unbalance = self.unbalance;
+        let ends = Bracket::new(reached(&low), reached(&high))
+            .values(unbalance(&low.excess), unbalance(&high.excess));
+        let mut best = nearer(low, high, unbalance);
+        let trial =
+            self.run(&ends, &mut best, unbalance, |search, reach| search.attempt(on(reach)))?;
+        Ok(self.placed(trial, width))
+    }
+
+    /// Remembers the near edge of a placed contact, and its share, for the next.
+    fn placed(&mut self, trial: Trial<T>, width: T) -> Placed<T> {
+        let reaches = reaches(trial.on, self.origin);
+        if reaches[1 - self.near] < T::of(0.125) * reaches[self.near] {
+            self.near = 1 - self.near;
+        }
+        self.share = reaches[self.near] / width;
+        Placed::At(trial)
+    }
+}
+
+/// How far a contact reaches to the left and to the right of a point in it.
+fn reaches<T: Real>(on: Interval<T>, origin: T) -> [T; 2] {
+    [origin - on.left, on.right - origin]
+}

@@ -1,0 +1,154 @@
+//! The outer search: how wide the contact is.
+
+use super::place::Placed;
+use super::{Search, Trial, nearer};
+use crate::contact::goal::{Excess, Goal};
+use crate::contact::stride::{Stride, ulps};
+use crate::search::Bracket;
+use crate::{ContactError, Interval, Real};
+
+/// Widths tried before the search gives up bracketing the load: what halving takes from the
+/// largest number to the smallest.
+const MOST_WIDTHS: usize = 2200;
+
+impl<T: Real> Search<'_, T> {
+    /// Finds the half-width at which the spread vanishes, starting from a guess.
+    pub fn widen(&mut self, guess: T) -> Result<Trial<T>, ContactError<T>> {
+        let [narrow, wide] = self.enclose(guess)?;
+        if narrow.excess.spread() == T::zero() {
+            return Ok(narrow);
+        }
+        let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
+            .values(narrow.excess.deficit(), wide.excess.deficit());
+        let mut best = nearer(narrow, wide, Excess::deficit);
+        self.run(&ends, &mut best, Excess::deficit, |search, half_width| {
+            match search.place(half_width)? {
+                Placed::At(trial) => Ok(trial),
+                Placed::Beyond(_) | Placed::Adrift(_) => Err(search.no_balance(half_width)),
+            }
+        })
+    }
+
+    /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
+    fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
+        let (zero, half) = (T::zero(), T::of(0.5));
+        let given = self.goal.limits().iter().any(Option::is_some);
+        // Closer to a given limit the other is the same number.
+        let resolution = if given { self.resolution() } else { zero };
+        let least = (half * self.goal.least_width()).max(resolution);
+        let most = half * (self.range[1] - self.range[0]);
+        let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
+        let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
+        let mut stride = Stride::new();
+        // The least width known to have no balance.
+        let mut adrift: Option<T> = None;
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            let trial = match (self.place(half_width)?, narrow) {
+                (Placed::At(trial), _) => trial,
+                (Placed::Adrift(_), _) => {
+                    adrift = Some(half_width);
+                    let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
+                    half_width = half * from + half * half_width;
+                    if half_width - from <= T::of(1e-3) * from || half_width <= least {
+                        return Err(self.no_balance(half_width));
+                    }
+                    continue;
+                }
+                (Placed::Beyond(end), Some(narrow)) => {
+                    let trial = self.pin(end, narrow.on)?;
+                    if trial.excess.spread() > zero {
+                        return Err(self.too_short(end, trial.on));
+                    }
+                    trial
+                }
+                (Placed::Beyond(_), None) if half_width * half > least && tries < MOST_WIDTHS => {
+                    half_width *= half;
+                    continue;
+                }
+                (Placed::Beyond(_), None) => return Err(self.no_balance(half_width)),
+            };
+            let (last, spread) = (trial.on.half_width(), trial.excess.spread());
+            if spread == zero {
+                return Ok([trial, trial]);
+            }
+            if tries > MOST_WIDTHS {
+                return Err(self.no_balance(last));
+            }
+            if given && spread > zero {
+                for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
+                    if self.goal.limits()[end].is_none() && x == self.range[end] {
+                        return Err(self.too_short(end, trial.on));
+                    }
+                }
+            }
+            half_width = stride.next(last, trial.excess.growth, spread > zero);
+            *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
+            match (narrow, wide) {
+                // A wide bracket is narrowed from the end last tried, as long as that helps.
+                (Some(narrow), Some(wide)) => {
+                    let (from, to) = (narrow.on.half_width(), wide.on.half_width());
+                    let inside = half_width > from && half_width < to;
+                    if !inside || to <= T::of(1.5) * from {
+                        return Ok([narrow, wide]);
+                    }
+                }
+                _ if spread > zero => {
+                    half_width = half_width.min(most);
+                    if let Some(adrift) = adrift.filter(|&adrift| half_width >= adrift) {
+                        half_width = half * last + half * adrift;
+                    }
+                    if half_width <= last {
+                        return Err(match adrift {
+                            Some(_) => self.no_balance(last),
+                            None => self.too_short(1, trial.on),
+                        });
+                    }
+                }
+                _ => {
+                    half_width = half_width.max(least * (T::one() + ulps()));
+                    if half_width >= last || half_width <= zero {
+                        return Err(self.no_balance(last));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
+    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+        let (origin, range, room) = (self.origin, self.range, self.room());
+        let on = |other: T| match end {
+            0 => Interval { left: range[0], right: origin + other },
+            _ => Interval { left: origin - other, right: range[1] },
+        };
+        let least = if end == 0 { narrow.right - origin } else { origin - narrow.left };
+        let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
+        let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
+        if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {
+            return Ok(far);
+        }
+        let ends = Bracket::new(least, room[1 - end]).values(f_near, f_far);
+        let mut best = nearer(near, far, Excess::shift);
+        self.run(&ends, &mut best, Excess::shift, |search, other| search.attempt(on(other)))
+    }
+
+    /// The error for a contact that reaches the end of the bodies and must still widen.
+    fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
+        match self.goal {
+            Goal::Pressure { wanted, .. } => {
+                let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
+                met.err().unwrap_or(self.no_balance(on.half_width()))
+            }
+            Goal::Strength { conditions, .. } => match self.engine.moments(self.gap, on) {
+                Ok(m) => ContactError::TooShort {
+                    end: self.range[end],
+                    carried: conditions.balance(on, &m).unwrap_or(self.load),
+                    load: self.load,
+                },
+                Err(error) => error,
+            },
+        }
+    }
+}
