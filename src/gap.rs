@@ -225,7 +225,8 @@ impl<'a, T: Real> Gap<'a, T> {
             let (i, left) = self.piece_at(body, joint, Side::Left);
             let (j, right) = self.piece_at(body, joint, Side::Right);
             if i != j {
-                let [left, right] = [left.ends[1], right.ends[0]].map(|end| end.dy / end.dx);
+                let [left, right] =
+                    [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
                 jump += sign * (right - left);
                 size += left.abs() + right.abs();
             }

@@ -95,7 +95,10 @@ pub(crate) fn aim<const N: usize, T: Real>(
     }
     trace.direct = false;
     if trace.piece != Some(index) {
-        let ends = [0, 1].map(|i| Knot::new(piece.k[i], piece.ends[i]));
+        let ends = [0, 1].map(|i| {
+            let slope = piece.end_slope(i, &mut cost.evaluations);
+            Knot { slope, ..Knot::new(piece.k[i], piece.ends[i]) }
+        });
         trace.piece = Some(index);
         trace.knots.set(ends, &[]);
     }

@@ -97,7 +97,10 @@ impl<T: Real> Sampler<T> {
             return if slope.is_finite() { Ok(slope) } else { fault("slope_at(x)", x, slope) };
         }
         let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
-        let slope = point.dy / point.dx;
+        let slope = match piece.k.iter().position(|&end| end == k) {
+            Some(end) => piece.end_slope(end, &mut self.cost.evaluations),
+            None => point.dy / point.dx,
+        };
         if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", k, slope) }
     }
 

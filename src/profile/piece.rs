@@ -23,6 +23,23 @@ impl<'a, T: Real> Piece<'a, T> {
         [self.ends[0].x, self.ends[1].x]
     }
 
+    /// `Y'/X'` at an end. Where both are zero, as with `X = k²` from `k = 0`, it is the limit, by a
+    /// parabola in `k` through three points inside, which are added to the evaluations.
+    pub(crate) fn end_slope(&self, end: usize, evaluations: &mut usize) -> T {
+        let CurvePoint { dx, dy, .. } = self.ends[end];
+        if !(dx.is_zero() && dy.is_zero()) {
+            return dy / dx;
+        }
+        *evaluations += 3;
+        // Its third power is nothing, even where the curve is a thousand times as long as what it shows.
+        let step = (self.k[1 - end] - self.k[end]) * T::of(16.0) * T::epsilon().sqrt();
+        let slope = |steps: f64| {
+            let CurvePoint { dx, dy, .. } = self.curve.at(self.k[end] + step * T::of(steps));
+            dy / dx
+        };
+        (T::of(8.0) * slope(1.0) - T::of(6.0) * slope(2.0) + slope(4.0)) / T::of(3.0)
+    }
+
     /// A smooth curve, looked at only at the two ends of its domain.
     ///
     /// # Errors

@@ -82,6 +82,23 @@ impl<T: Real> AtWork<T> {
         m
     }
 
+    /// Whether the panels leave more of the integrals open than they may.
+    fn is_poor(&self, m: &Moments<T>) -> bool {
+        m.error > T::of(4.0) * self.cover.tolerance * m.size
+    }
+
+    /// The edge integrals from panels on that interval and no more.
+    fn sample_anew(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<Moments<T>, ContactError<T>> {
+        let [from, to] = gap.range();
+        self.forget();
+        self.cover.extend(gap, Interval { left: on.left.max(from), right: on.right.min(to) })?;
+        Ok(self.remember(on))
+    }
+
     /// The number of nodes that should do, by how the coefficients of the sketch fall.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([fall, half_width]) = self.fall else { return 8 };
@@ -148,19 +165,20 @@ impl<T: Real> Engine<T> for AtWork<T> {
         self.cover.extend(gap, sampled)?;
         let m = integrals::moments(&self.cover.panels, on, false);
         // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
-        let poor = m.error > T::of(4.0) * self.cover.tolerance * m.size;
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
-        if poor && reach > T::of(1.25) * on.half_width() {
-            self.forget();
-            self.cover.extend(gap, sampled)?;
-            return Ok(self.remember(on));
+        if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
+            return self.sample_anew(gap, on);
         }
         self.moments = Some((on, m));
         Ok(m)
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        self.moments(gap, on)?;
+        let m = self.moments(gap, on)?;
+        // Nor is it to what little the contact has beyond a joint.
+        if self.fall.is_none() && self.is_poor(&m) && self.cover.overshoots(gap, on) {
+            self.sample_anew(gap, on)?;
+        }
         self.conjugate.set(&self.cover.panels, on, self.cover.size, self.cover.tolerance);
         Ok(())
     }

@@ -402,3 +402,87 @@ fn a_wave_that_is_shorter_than_a_difference() {
     let solution = contact.solve(Load::PerLength(0.005)).unwrap();
     assert_relative_eq!(solution.a(), 0.1, epsilon = 0.0, max_relative = 1e-9);
 }
+
+/// `x²/2 + ε cos ωx`: L²/2 - ε ω L J₁(ω L) = F. The half-widths are the roots of that, by mpmath in 40
+/// digits. Samples at a few nodes of a panel look like noise, in both halves of it alike.
+#[test]
+fn waves_far_shorter_than_a_panel() {
+    for (epsilon, omega, l, most) in [
+        (5e-5, 200.0, 0.977_127_199_697_351, 6000),
+        (2.5e-5, 400.0, 0.977_444_724_143_534_1, 8000),
+        (1e-5, 200.0, 0.977_190_900_869_927_6, 6000),
+        (1e-10, 100.0, 0.977_205_024_157_236_3, 3000),
+    ] {
+        let body = graph(-4.0, 4.0, move |x: f64| {
+            let (sin, cos) = (omega * x).sin_cos();
+            [x * x / 2.0 + epsilon * cos, x - epsilon * omega * sin]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Load::Constant(1.5)).unwrap();
+        assert_solved(&solution, Interval { left: -l, right: l }, 2e-14, most);
+        assert!(solution.certify().is_ok());
+    }
+}
+
+/// With |x|ⁿ and F = c Lⁿ, P(0) = (1/π) ∫ F'(l)/l dl = n F/((n - 1) π L). The slope is hardly
+/// continuous at the joint, where what no integral sees counts.
+#[test]
+fn the_pressure_at_the_tip_of_powers_close_to_one() {
+    for n in [1.1, 1.2, 1.25, 1.5, 1.75] {
+        let side = |sign: f64| {
+            let ends = [sign.min(0.0) * 3.0, sign.max(0.0) * 3.0];
+            graph(ends[0], ends[1], move |x: f64| {
+                [x.abs().powf(n), sign * n * x.abs().powf(n - 1.0)]
+            })
+        };
+        let body = join(vec![side(-1.0), side(1.0)]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Load::PerLength(0.7)).unwrap();
+        let exact = n * 0.7 / ((n - 1.0) * PI * solution.a());
+        let there = solution.pressure().unwrap().at(0.0).unwrap();
+        assert_relative_eq!(there, exact, epsilon = 0.0, max_relative = 1e-12);
+    }
+}
+
+/// Hertz's parabola, all but a millionth of which has its left end within two units in the last place
+/// of X = -1: what the search covers may end in a sliver there.
+#[test]
+fn a_sliver_at_the_end_of_a_body() {
+    let body = Curve::new([-30.0, 30.0], |k: f64| {
+        let (x, dx) = (k.exp() - 1.0, k.exp());
+        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for load in [0.1, 1.5 / PI, 0.49, 0.499] {
+        let l = (2.0 * load).sqrt();
+        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 1000);
+    }
+}
+
+/// X = ±k², Y = k⁴/2 from k = 0 is Hertz's parabola, in two pieces whose derivatives are both zero where
+/// they meet; with X = ±k³, Y = k⁶/2 it is, too.
+#[test]
+fn pieces_that_meet_where_their_derivatives_vanish() {
+    for power in [2, 3] {
+        let side = |sign: f64| {
+            Curve::new([0.0, 3.0], move |k: f64| {
+                let (x, dx) = (sign * k.powi(power), sign * f64::from(power) * k.powi(power - 1));
+                CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+            })
+        };
+        let body = Piecewise::new(vec![side(-1.0), side(1.0)]).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        for l in [1e-3f64, 0.7, 3.9] {
+            let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+            assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 3000);
+            assert!(solution.certify().is_ok());
+            let pressure = solution.pressure().unwrap();
+            for z in [-0.9, -0.1, 0.0, 1e-9, 0.4] {
+                let exact = l * ((1.0 - z) * (1.0f64 + z)).sqrt() / PI;
+                let got = pressure.at(z * l).unwrap();
+                assert_relative_eq!(got, exact, epsilon = 0.0, max_relative = 1e-12);
+            }
+        }
+    }
+}

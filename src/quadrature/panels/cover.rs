@@ -12,8 +12,16 @@ const NEAR: [f64; 2] = [0.1, 0.45];
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
 
-/// How often a stretch is halved beside a root or the like: what is left is no part of any integral.
+/// How often a stretch is halved beside a jump: what is left is no part of any integral.
 const MOST_LEVELS: usize = 110;
+
+/// The share to which a panel of half the length must bring the error down where a stretch is halved
+/// yet more often: beside a root of high order, such as that in the slope of `|x|^(11/10)`, the
+/// pressure still depends on what is left.
+const FALL_OF_A_ROOT: f64 = 0.98;
+
+/// How often it is halved then: the derivatives are not to overflow.
+const LEVELS_OF_A_ROOT: usize = 500;
 
 /// How often a stretch is halved to resolve what only the slope at the end of a piece tells of. (A
 /// formula may be wrong there, as signum is at 0.)
@@ -22,6 +30,12 @@ const LEVELS_OF_A_TIP: usize = 40;
 /// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
+
+/// How often at the most a stretch is halved to resolve a wave. (It may be hundreds of kinks.)
+const LEVELS_OF_A_WAVE: usize = 10;
+
+/// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
+const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
 
 /// How often a stretch is halved for the sake of derivatives alone, which may have a kink where the
 /// slope has none.
@@ -61,6 +75,10 @@ struct Trial<T> {
     allowed: T,
     /// How often the stretch has been halved.
     level: usize,
+    /// Whether halving it once more should help, however often that has been done.
+    falls: bool,
+    /// Whether it is part of what looked like noise and is none.
+    wave: bool,
     /// The share of its size by which a derivative is off that calls for a split, or zero.
     derivatives: T,
 }
@@ -69,7 +87,20 @@ impl<T: Real> Trial<T> {
     /// Not tried yet.
     fn new(x: [T; 2]) -> Self {
         let (panel, zero) = (Panel::new(x), T::zero());
-        Self { panel, split: false, allowed: zero, level: 0, derivatives: zero }
+        let (falls, wave) = (false, false);
+        Self { panel, split: false, allowed: zero, level: 0, falls, wave, derivatives: zero }
+    }
+
+    /// Whether it has not been halved too often yet.
+    fn may_be_halved(&self) -> bool {
+        let most = if self.wave {
+            LEVELS_OF_A_WAVE
+        } else if self.falls {
+            LEVELS_OF_A_ROOT
+        } else {
+            MOST_LEVELS
+        };
+        self.level < most
     }
 }
 
@@ -150,6 +181,17 @@ impl<T: Real> Cover<T> {
     pub fn interval(&self) -> Option<Interval<T>> {
         let (first, last) = (self.panels.first()?, self.panels.last()?);
         Some(Interval { left: first.x[0], right: last.x[1] })
+    }
+
+    /// Whether an outermost panel that starts at a joint is much longer than what an interval has of it.
+    pub fn overshoots(&self, gap: &Gap<'_, T>, on: Interval<T>) -> bool {
+        let [Some(first), Some(last)] = [self.panels.first(), self.panels.last()] else {
+            return false;
+        };
+        let much = T::of(1.25);
+        let beside = |joint: T, reach: T, needed: T| reach > much * needed && gap.is_joint(joint);
+        beside(first.x[1], first.x[1] - first.x[0], first.x[1] - on.left)
+            || beside(last.x[0], last.x[1] - last.x[0], on.right - last.x[0])
     }
 
     /// The slope at `x`, from the nearest panel.
@@ -246,21 +288,24 @@ impl<T: Real> Cover<T> {
         self.try_out(gap, &mut trial)?;
         if let Some(panel) = neighbour {
             let allowed = self.tolerance * self.size;
-            let derivatives = T::zero();
-            self.waiting.push(Trial { panel, split: false, allowed, level: 0, derivatives });
+            self.waiting.push(Trial { panel, allowed, ..Trial::new(panel.x) });
         }
         let mut splits = 0;
         loop {
             let [left, right] = trial.panel.x;
             let middle = T::of(0.5) * left + T::of(0.5) * right;
-            let may = splits < MOST_SPLITS && trial.level < MOST_LEVELS && is_long(trial.panel.x);
+            let may = splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x);
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
-                let [mut one, mut other] =
-                    [[left, middle], [middle, right]].map(|x| Trial { level, ..Trial::new(x) });
+                let half = |x| Trial { level, wave: trial.wave, ..Trial::new(x) };
+                let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
+                for half in [&mut one, &mut other] {
+                    let less = half.panel.tail <= T::of(FALL_OF_A_ROOT) * trial.panel.tail;
+                    half.falls = less || half.panel.n != trial.panel.n;
+                }
                 // Noise is what both halves have as much of. A wave that is not resolved yet has,
                 // too, if it is no longer faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
@@ -274,7 +319,11 @@ impl<T: Real> Cover<T> {
                     half.split && if derived { by_derivative } else { by_value }
                 };
                 if faint && as_much(&one) && as_much(&other) {
-                    (one.split, other.split) = (false, false);
+                    let derived = one.derivatives > T::zero() || other.derivatives > T::zero();
+                    let wave = !derived && level < LEVELS_OF_A_WAVE;
+                    let wave = wave && (trial.wave || !self.is_noisy(gap, &trial.panel)?);
+                    (one.wave, other.wave) = (wave, wave);
+                    (one.split, other.split) = (wave, wave);
                 }
                 self.waiting.push(other);
                 trial = one;
@@ -284,8 +333,9 @@ impl<T: Real> Cover<T> {
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
-                let finer =
-                    trial.level < MOST_LEVELS && (is_long(trial.panel.x) || is_long(before.x));
+                let finer = trial.level < MOST_LEVELS
+                    && trial.may_be_halved()
+                    && (is_long(trial.panel.x) || is_long(before.x));
                 if finer && splits < MOST_SPLITS && !self.rough {
                     self.panels.pop();
                     let again = |panel, trial: &Trial<T>| Trial { panel, split: true, ..*trial };
@@ -298,6 +348,22 @@ impl<T: Real> Cover<T> {
             let Some(next) = self.waiting.pop() else { return Ok(()) };
             trial = next;
         }
+    }
+
+    /// Whether the coefficients of a panel are noise, and not those of a wave: they then fall no more
+    /// on a small part of it.
+    fn is_noisy(&mut self, gap: &Gap<'_, T>, panel: &Panel<T>) -> Result<bool, ContactError<T>> {
+        const N: usize = 8;
+        let [left, right] = panel.x;
+        // Not in the middle, where a formula may be better than elsewhere.
+        let from = left + T::of(0.3) * (right - left);
+        let mut part = Panel::new([from, from + T::of(SHARE_OF_A_WAVE) * (right - left)]);
+        if !is_long(part.x) {
+            return Ok(true);
+        }
+        self.sample_panel::<N>(gap, &mut part)?;
+        let rest = part.series[N / 2..N].iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        Ok(rest >= T::of(0.125) * panel.tail)
     }
 
     /// Whether two neighbours have the same slope where they meet.
@@ -415,6 +481,8 @@ impl<T: Real> Cover<T> {
         // Never at the very end of a body, where the slope may be infinite.
         let inside = if self.rough { zero } else { T::epsilon() };
         let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
+        // A sliver of a few units in the last place has no inside.
+        let [first, last] = if first <= last { [first, last] } else { [centre, centre] };
         let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
         let near = T::of(NEAR[usize::from(self.rough)]) * reach;
