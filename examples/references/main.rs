@@ -83,7 +83,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("{}", Report::heading());
     let mut failures = 0;
     for path in &paths {
-        let report = check(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        // The others are still to be heard.
+        let report = check(path).unwrap_or_else(|error| {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy();
+            Report::of_error(&name, "cannot be read".to_owned(), false, error.to_string())
+        });
         println!("{report}");
         failures += usize::from(!report.ok);
     }

@@ -8,6 +8,7 @@
 
 use linecontact::profile::Piece;
 use linecontact::{Interval, ParametricProfile, ProfileError};
+use std::f64::consts::PI;
 
 /// Neighbours looked at in each place.
 const NEIGHBOURS: usize = 64;
@@ -27,7 +28,7 @@ pub struct Noise {
     pub slope: Vec<f64>,
     /// Its mean over the contact, weighted.
     pub mean_slope: f64,
-    /// The largest `|f₂' - f₁'|` in all places.
+    /// The largest `|f₂' - f₁'|` in all places and at the edges.
     pub steepest: f64,
 }
 
@@ -49,22 +50,29 @@ pub fn measure(
     };
     let total = |(_, lower, upper): &(f64, Local, Local)| lower.total() + upper.total();
     let inside: Vec<_> = places.iter().map(|&x| at(x)).collect();
+    let edges = [on.left, on.right].map(at);
     let largest = |of: fn(&Local, &Local) -> f64| {
         inside.iter().fold(0.0f64, |most, (_, lower, upper)| most.max(of(lower, upper)))
     };
-    let steepest = largest(|lower, upper| (upper.slope - lower.slope).abs());
+    // Where all places are on a flat, only the edges have a slope.
+    let slope = |(_, lower, upper): &(f64, Local, Local)| (upper.slope - lower.slope).abs();
+    let finite = inside.iter().chain(&edges).map(slope).filter(|slope| slope.is_finite());
+    let steepest = finite.fold(0.0f64, f64::max);
     let of_x = largest(|lower, upper| lower.of_x + upper.of_x);
     let of_slope = largest(|lower, upper| lower.of_slope + upper.of_slope);
 
     // The edges follow from averages over the contact, and so does what the pressure takes from
     // elsewhere.
-    let edges = (of_x / on.half_width() + of_slope / steepest) / ROOT_OF_SAMPLES;
-    let slope = inside.iter().map(total).collect();
-    let all = [at(on.left)].into_iter().chain(inside).chain([at(on.right)]);
+    let of_edges = (of_x / on.half_width() + of_slope / steepest) / ROOT_OF_SAMPLES;
+    let jumps = jumps(&bodies);
+    let of_jumps = |x: f64| jumps.iter().map(|jump| jump.noise(x)).sum::<f64>();
+    let slope = inside.iter().zip(places).map(|(at, &x)| total(at) + of_jumps(x)).collect();
+    let [left, right] = edges;
+    let all = [left].into_iter().chain(inside).chain([right]);
     let weighted: Vec<_> = all.map(|place| (place.0, weight(place.0) * total(&place))).collect();
     let strips = weighted.windows(2).map(|two| (two[0].0 - two[1].0) * (two[0].1 + two[1].1));
-    let mean_slope = strips.sum::<f64>() / (2.0 * std::f64::consts::PI * ROOT_OF_SAMPLES);
-    Ok(Noise { edges, slope, mean_slope, steepest })
+    let mean_slope = strips.sum::<f64>() / (2.0 * PI * ROOT_OF_SAMPLES);
+    Ok(Noise { edges: of_edges, slope, mean_slope, steepest })
 }
 
 fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, ProfileError<f64>> {
@@ -72,6 +80,46 @@ fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, Prof
         0 => Ok(vec![Piece::new(body)?]),
         count => Ok((0..count).filter_map(|i| body.piece(i)).collect()),
     }
+}
+
+/// A joint at which the slope of the gap jumps.
+struct Jump {
+    x: f64,
+    by: f64,
+}
+
+impl Jump {
+    /// The pressure has the logarithm of the distance from it, which is off by what rounding makes of
+    /// the place of a joint such as 1/3: no more than that can be known, at the joint itself nothing.
+    fn noise(&self, x: f64) -> f64 {
+        let rounded = 0.5 * f64::EPSILON * self.x.abs();
+        let distance = (x - self.x).abs();
+        if rounded > 0.0 { self.by.abs() / PI * (rounded / distance).ln_1p() } else { 0.0 }
+    }
+}
+
+fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2]) -> Vec<Jump> {
+    let slope = |piece: &Piece<'_, f64>, end: usize| piece.ends[end].dy / piece.ends[end].dx;
+    let of_body = |body: &Vec<Piece<'_, f64>>, sign: f64| -> Vec<Jump> {
+        let jump = |two: &[Piece<'_, f64>]| {
+            let [from, to] = [slope(&two[0], 1), slope(&two[1], 0)];
+            let by = sign * (to - from);
+            // What the rounding of formulas makes is none.
+            let counts = by.is_finite() && by.abs() > 64.0 * f64::EPSILON * (from.abs() + to.abs());
+            counts.then(|| Jump { x: two[0].x()[1], by })
+        };
+        body.windows(2).filter_map(jump).collect()
+    };
+    let [lower, upper] = bodies;
+    let mut all: Vec<Jump> = Vec::new();
+    for jump in of_body(lower, -1.0).into_iter().chain(of_body(upper, 1.0)) {
+        // What both bodies have may cancel.
+        match all.iter_mut().find(|other| other.x == jump.x) {
+            Some(other) => other.by += jump.by,
+            None => all.push(jump),
+        }
+    }
+    all
 }
 
 /// A body next to a place.

@@ -30,6 +30,12 @@ struct Cell<T> {
     series: [T; NODES],
 }
 
+impl<T: Real> Place<T> {
+    fn tension(self) -> ContactError<T> {
+        ContactError::Tension { x: self.x, pressure: self.value }
+    }
+}
+
 /// A contact whose engine has been prepared.
 pub(super) struct Inside<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
@@ -45,10 +51,10 @@ impl<T: Real> Inside<'_, T> {
     /// the ratio of the pressure to that under a smooth body is least.
     pub fn least(&self, cost: &mut Cost) -> Result<Place<T>, ContactError<T>> {
         let on = self.on;
-        let mut worst: Option<Place<T>> = None;
+        let worst: std::cell::Cell<Option<Place<T>>> = std::cell::Cell::new(None);
         let mut meet = |x: T, value: T| {
-            if value < -self.allowed && worst.is_none_or(|worst| value < worst.value) {
-                worst = Some(Place { x, value });
+            if value < -self.allowed && worst.get().is_none_or(|worst| value < worst.value) {
+                worst.set(Some(Place { x, value }));
             }
         };
         for x in self.gap.telling_joints(on, -T::one(), MOST_JOINTS) {
@@ -68,7 +74,9 @@ impl<T: Real> Inside<'_, T> {
             while let Some(([from, to], level)) = waiting.pop() {
                 cells += 1;
                 if cells > MOST_CELLS {
-                    return Err(undecided(from, *cost));
+                    // One place with tension is enough.
+                    let seen = worst.get();
+                    return Err(seen.map_or_else(|| undecided(from, *cost), Place::tension));
                 }
                 let middle = T::of(0.5) * from + T::of(0.5) * to;
                 let Some(cell) = self.cell([from, to], cost)? else { continue };
@@ -102,8 +110,8 @@ impl<T: Real> Inside<'_, T> {
                 x.iter().zip(&pressure).for_each(|(&x, &pressure)| meet(x, pressure));
             }
         }
-        match (worst, ratio) {
-            (Some(Place { x, value: pressure }), _) => Err(ContactError::Tension { x, pressure }),
+        match (worst.get(), ratio) {
+            (Some(place), _) => Err(place.tension()),
             (None, Some(ratio)) => Ok(ratio),
             (None, None) => Err(undecided(on.centre(), *cost)),
         }

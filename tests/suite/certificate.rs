@@ -531,3 +531,22 @@ fn what_the_panels_have_missed_is_not_certified() {
     }
     assert!(missed > 5, "{missed}");
 }
+
+/// A kink downwards far from x = 0, where a unit in the last place is much of what there is to be seen
+/// beside it: P tends to minus infinity there, and that is what is said.
+#[test]
+fn a_kink_downwards_far_out() {
+    let kink = |x: f64, s: f64| {
+        let side = |from: f64, to: f64, s: f64| {
+            graph(from, to, move |k: f64| [(k - x) * ((k - x) / 2.0 + s), k - x + s])
+        };
+        join(vec![side(x - 4.0, x, s), side(x, x + 4.0, -s)])
+    };
+    for (x, s) in [(700.0, 1.0 / 3.0), (-1e5, 0.1), (1e7, 0.3)] {
+        let body = kink(x, s);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let error = contact.solve(Load::PerLength(1.0)).unwrap().certify().unwrap_err();
+        let ContactError::Tension { x: there, pressure } = error else { panic!("{error}") };
+        assert!(there == x && pressure == f64::NEG_INFINITY, "{there} {pressure}");
+    }
+}
