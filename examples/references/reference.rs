@@ -2,6 +2,7 @@
 
 use linecontact::Interval;
 use serde_json::Value;
+use std::f64::consts::FRAC_PI_2;
 
 /// What a solver should make of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +65,17 @@ impl Reference {
                 points.push(Point { x, pressure, amplification });
             }
         }
-        // Without a scale in figures it is 1, which is what `scale` says there.
-        let kappa = number(&file["scale_value"]).or_else(|| number(&file["scale"]))?;
+        let kappa = number(&file["scale_value"]).or_else(|| scale(file["scale"].as_str()?))?;
         Some(Self { kind_name, kind, kappa, c: number(&file["C"])?, limits, points })
+    }
+}
+
+/// A scale without a value: `1`, `pi/2`, or `pi/2*E` with a decimal for E.
+fn scale(text: &str) -> Option<f64> {
+    match text.strip_prefix("pi/2") {
+        None => text.parse().ok(),
+        Some("") => Some(FRAC_PI_2),
+        Some(modulus) => Some(FRAC_PI_2 * modulus.strip_prefix('*')?.parse::<f64>().ok()?),
     }
 }
 

@@ -23,6 +23,7 @@ mod groups;
 mod integrals;
 mod nodes;
 mod panel;
+mod trial;
 
 pub(crate) use angles::Gauss;
 

@@ -3,6 +3,7 @@
 use super::chebyshev::{SIZES, Table, by_size, size_for, value_at};
 use super::nodes::{at_nodes, left_open, missed_at_ends};
 use super::panel::{Panel, Verdict, judge};
+use super::trial::{LEVELS_OF_A_WAVE, MOST_LEVELS, Trial, is_long};
 use crate::gap::{Cost, Gap, Knot, Sampler, Trace, aim};
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
@@ -12,17 +13,6 @@ const NEAR: [f64; 2] = [0.1, 0.45];
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
 
-/// How often a stretch is halved beside a jump: what is left is no part of any integral.
-const MOST_LEVELS: usize = 110;
-
-/// The share to which a panel of half the length must bring the error down where a stretch is halved
-/// yet more often: beside a root of high order, such as that in the slope of `|x|^(11/10)`, the
-/// pressure still depends on what is left.
-const FALL_OF_A_ROOT: f64 = 0.98;
-
-/// How often it is halved then: the derivatives are not to overflow.
-const LEVELS_OF_A_ROOT: usize = 500;
-
 /// How often a stretch is halved to resolve what only the slope at the end of a piece tells of. (A
 /// formula may be wrong there, as signum is at 0.)
 const LEVELS_OF_A_TIP: usize = 40;
@@ -30,9 +20,6 @@ const LEVELS_OF_A_TIP: usize = 40;
 /// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
-
-/// How often at the most a stretch is halved to resolve a wave. (It may be hundreds of kinks.)
-const LEVELS_OF_A_WAVE: usize = 10;
 
 /// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
@@ -64,51 +51,6 @@ pub(crate) struct Held<T> {
     /// A place as close to it as can be told from it, and the slope there.
     x: T,
     slope: T,
-}
-
-/// A panel that may have to be split.
-#[derive(Clone, Copy)]
-struct Trial<T> {
-    panel: Panel<T>,
-    split: bool,
-    /// The error that it may have.
-    allowed: T,
-    /// How often the stretch has been halved.
-    level: usize,
-    /// Whether halving it once more should help, however often that has been done.
-    falls: bool,
-    /// Whether it is part of what looked like noise and is none.
-    wave: bool,
-    /// The share of its size by which a derivative is off that calls for a split, or zero.
-    derivatives: T,
-}
-
-impl<T: Real> Trial<T> {
-    /// Not tried yet.
-    fn new(x: [T; 2]) -> Self {
-        let (panel, zero) = (Panel::new(x), T::zero());
-        let (falls, wave) = (false, false);
-        Self { panel, split: false, allowed: zero, level: 0, falls, wave, derivatives: zero }
-    }
-
-    /// Whether it has not been halved too often yet.
-    fn may_be_halved(&self) -> bool {
-        let most = if self.wave {
-            LEVELS_OF_A_WAVE
-        } else if self.falls {
-            LEVELS_OF_A_ROOT
-        } else {
-            MOST_LEVELS
-        };
-        self.level < most
-    }
-}
-
-/// Whether a panel can be halved: it is longer than a few units in the last place.
-fn is_long<T: Real>([left, right]: [T; 2]) -> bool {
-    let middle = T::of(0.5) * left + T::of(0.5) * right;
-    let fine = T::of(8.0) * T::epsilon() * left.abs().max(right.abs());
-    right - left > fine && middle > left && middle < right
 }
 
 /// A row of panels, from left to right without gaps.
@@ -303,8 +245,7 @@ impl<T: Real> Cover<T> {
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
                 for half in [&mut one, &mut other] {
-                    let less = half.panel.tail <= T::of(FALL_OF_A_ROOT) * trial.panel.tail;
-                    half.falls = less || half.panel.n != trial.panel.n;
+                    half.falls = half.falls_below(&trial);
                 }
                 // Noise is what both halves have as much of. A wave that is not resolved yet has,
                 // too, if it is no longer faint.
