@@ -23,10 +23,14 @@ impl<T: Number> Expression<T> {
     /// # Errors
     /// What exmex says of the syntax; any variable but `k`.
     pub fn new(text: &str) -> Result<Self, ExError> {
-        // exmex binds a sign closer than `**`. There is none here but at the very start of
-        // a formula or of a parenthesis, where 0 in front makes it a difference; a sign
-        // elsewhere is a syntax error, as `-` is no unary operator below.
-        let text = format!("({})", text.replace(' ', "")).replace("(-", "(0-");
+        // exmex binds a sign closer than `**`. So there is none: at the very start of a formula or of
+        // a parenthesis 0 in front makes it a difference, and after an operator it is a factor. One
+        // in an exponent is a syntax error, as `-` is no unary operator below.
+        let mut text = format!("({})", text.replace(' ', "")).replace("(-", "(0-");
+        for (sign, factor) in [("+-", "+(0-1)*"), ("--", "-(0-1)*"), ("/-", "/(0-1)/")] {
+            text = text.replace(sign, factor);
+        }
+        let text = text.replace("**-", "**~").replace("*-", "*(0-1)*").replace("**~", "**-");
         let formula = Box::new(FlatEx::<T, Operators>::parse(&text)?);
         match formula.var_names().iter().find(|name| *name != "k") {
             Some(name) => Err(ExError::new(&format!("{name} in {text} is not k"))),
@@ -91,6 +95,9 @@ mod tests {
         assert_eq!(value("tan(-k)**2", 0.5), 0.5f64.tan().powi(2));
         assert_eq!(value("-tan(k)**2*k", 0.5), -0.5f64.tan().powi(2) * 0.5);
         assert_eq!(value("2**3/4", 0.0), 2.0);
+        assert_eq!(value("2*-k", 3.0), -6.0);
+        assert_eq!(value("k - -3/4 + -k**2", 3.0), -5.25);
+        assert_eq!(value("8/-k*2", 4.0), -4.0);
     }
 
     #[test]
@@ -105,7 +112,7 @@ mod tests {
 
     #[test]
     fn refuses_what_it_does_not_know() {
-        for text in ["2*-k", "k**-2", "x", "erf(k)", "k +", "(k", ""] {
+        for text in ["k**-2", "x", "erf(k)", "k +", "(k", ""] {
             assert!(Expression::<f64>::new(text).is_err(), "{text}");
         }
     }
