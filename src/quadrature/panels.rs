@@ -23,7 +23,6 @@ mod groups;
 mod integrals;
 mod nodes;
 mod panel;
-mod trial;
 
 pub(crate) use angles::Gauss;
 

@@ -1,21 +1,18 @@
 //! The panels that cover a stretch of x: sampled once, extended when more is asked for.
 
-use super::chebyshev::{SIZES, Table, by_size, size_for, value_at};
-use super::nodes::{at_nodes, left_open, missed_at_ends};
-use super::panel::{Panel, Verdict, judge};
-use super::trial::{LEVELS_OF_A_WAVE, MOST_LEVELS, Trial, is_long};
-use crate::gap::{Cost, Gap, Knot, Sampler, Trace, aim};
-use crate::{Body, ContactError, Interval, ProfileError, Real};
+mod sampling;
+mod slopes;
+mod trial;
 
-/// By how much of the distance to the nearest other node a point may miss its own, and for a sketch.
-const NEAR: [f64; 2] = [0.1, 0.45];
+use super::chebyshev::{size_for, value_at};
+use super::panel::Panel;
+use crate::gap::{Cost, Gap, Sampler, Trace};
+use crate::{ContactError, Interval, Real};
+use sampling::Seen;
+use trial::{LEVELS_OF_A_WAVE, MOST_LEVELS, Trial, is_long};
 
 /// How often a stretch between two joints may be split.
 const MOST_SPLITS: usize = 4096;
-
-/// How often a stretch is halved to resolve what only the slope at the end of a piece tells of. (A
-/// formula may be wrong there, as signum is at 0.)
-const LEVELS_OF_A_TIP: usize = 40;
 
 /// How often a stretch is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
@@ -23,26 +20,6 @@ const NOISY_LEVEL: usize = 4;
 
 /// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
-
-/// How often a stretch is halved for the sake of derivatives alone, which may have a kink where the
-/// slope has none.
-const DERIVATIVE_LEVELS: usize = 12;
-
-/// What a panel has met, in one part of its numbers.
-#[derive(Clone, Copy)]
-struct Seen<T> {
-    /// The largest slope of the gap.
-    slope: T,
-    /// The largest sum of the slopes of the two bodies.
-    bodies: T,
-    /// What the rounding of x makes of the slope where the bodies bend sharply.
-    noise: T,
-    /// What the series of the bodies leave open where their points are not at the nodes. What the two
-    /// have in common does not show in the series of the gap.
-    off: T,
-    /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
-    missed: T,
-}
 
 /// What the gap is like at a given limit, where a row of panels ends.
 #[derive(Clone, Copy)]
@@ -313,223 +290,5 @@ impl<T: Real> Cover<T> {
             .map(|(panel, s)| value_at(panel.coefficients(), s));
         let doubt = left.tail + right.tail + allowed.max(self.tolerance * self.size);
         (from - to).abs() <= T::of(16.0) * doubt
-    }
-
-    /// Samples a panel with as many nodes as it takes, or says that it must be split.
-    fn try_out(&mut self, gap: &Gap<'_, T>, trial: &mut Trial<T>) -> Result<(), ContactError<T>> {
-        let (panel, level) = (&mut trial.panel, trial.level);
-        let mut n = if self.rough { 4 } else { self.initial };
-        let [left, right] = panel.x;
-        gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
-        loop {
-            let Seen { slope, bodies, noise, off, missed } =
-                by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            if level == 0 {
-                self.size = self.size.max(slope);
-            }
-            // Next to a singularity the slope may be large, or noisy, beyond all that counts
-            // elsewhere.
-            let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
-            let (tail, next, split) = match verdict {
-                // The first sign of a tip looks like noise.
-                Verdict::Good(tail) | Verdict::Noise(tail)
-                    if level < LEVELS_OF_A_TIP && self.misses_a_tip(missed, allowed.max(tail)) =>
-                {
-                    (tail, None, true)
-                }
-                Verdict::Good(tail) if off > allowed => {
-                    let more = SIZES.into_iter().find(|&more| more > n);
-                    (tail.max(off), more, true)
-                }
-                Verdict::Good(tail) => (tail.max(off), None, false),
-                Verdict::Noise(size) => {
-                    panel.drop_noise(size);
-                    (size, None, false)
-                }
-                Verdict::Take(next, tail) => (tail, Some(next), true),
-                Verdict::Split(tail) => (tail, None, true),
-            };
-            panel.tail = tail;
-            let (mut next, mut split, mut derivatives) = (next, split, T::zero());
-            // More samples do nothing for the derivatives of what must be split anyway.
-            if T::PARTS > 1 && (next.is_some() || !split) {
-                let noisy = matches!(verdict, Verdict::Noise(_));
-                let (more, off) = self.judge_derivatives(panel, level);
-                next = next.max(more);
-                if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
-                    (split, derivatives) = (true, off);
-                }
-            }
-            if self.rough {
-                // A short panel may be continued a long way.
-                panel.drop_noise(T::epsilon() * bodies);
-                split = false;
-            } else if let Some(next) = next {
-                n = next;
-                continue;
-            } else if !split {
-                self.check_slopes(gap)?;
-            }
-            (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
-            return Ok(());
-        }
-    }
-
-    /// Whether what a panel misses at a joint is more than the noise there: a tip much narrower than
-    /// the panel.
-    fn misses_a_tip(&self, missed: T, noise: T) -> bool {
-        missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
-    }
-
-    /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they
-    /// should have, or, where more would not do, the share of their size by which they are off.
-    fn judge_derivatives(&mut self, panel: &Panel<T>, level: usize) -> (Option<usize>, T) {
-        let (mut next, mut worst) = (None, T::zero());
-        for (i, seen) in self.derivatives.iter().enumerate() {
-            if self.derivative_sizes.len() <= i {
-                self.derivative_sizes.push(T::zero());
-            }
-            let largest = &mut self.derivative_sizes[i];
-            if level == 0 {
-                *largest = largest.max(seen.slope);
-            }
-            let size = largest.max(seen.slope);
-            let allowed = (self.tolerance * size).max(seen.noise);
-            let series = panel.series.map(|a| a.part(i + 1));
-            match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
-                Verdict::Good(_) if seen.off > allowed => {
-                    next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
-                }
-                Verdict::Take(more, _) => next = next.max(Some(more)),
-                Verdict::Split(tail) => worst = worst.max(tail / size),
-                Verdict::Good(_) | Verdict::Noise(_) => {}
-            }
-        }
-        (next, worst)
-    }
-
-    /// Samples one panel with N nodes.
-    fn sample_panel<const N: usize>(
-        &mut self,
-        gap: &Gap<'_, T>,
-        panel: &mut Panel<T>,
-    ) -> Result<Seen<T>, ContactError<T>> {
-        let x = panel.x;
-        let table = if self.rough { Table::sketch() } else { Table::of(N) };
-        let (half, zero) = (T::of(0.5), T::zero());
-        let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
-        // Never at the very end of a body, where the slope may be infinite.
-        let inside = if self.rough { zero } else { T::epsilon() };
-        let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
-        // A sliver of a few units in the last place has no inside.
-        let [first, last] = if first <= last { [first, last] } else { [centre, centre] };
-        let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
-        let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
-        let near = T::of(NEAR[usize::from(self.rough)]) * reach;
-        let room = std::array::from_fn(|i| near * T::of(table.spacing[i]));
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
-            aim(gap, body, &nodes, &room, trace, &mut self.cost)?;
-        }
-        self.cost.samples += N;
-        let wanted = offsets.map(|offset| reach + offset);
-        let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
-        let mut slopes = [zero; N];
-        for i in 0..N {
-            slopes[i] = upper[i] - lower[i];
-        }
-        let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-        for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
-            seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.rough));
-        }
-        panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
-        panel.count(N);
-        for (held, end) in self.held.iter().zip(x) {
-            if let Some(held) = held.filter(|held| held.limit == end && !self.rough) {
-                seen.missed = seen.missed.max((panel.value(held.x) - held.slope).abs());
-            }
-        }
-        self.derivatives.clear();
-        for part in 1..T::PARTS {
-            let [lower, upper] =
-                [&lower, &upper].map(|slopes| slopes.map(|slope| slope.part(part)));
-            let seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-            self.derivatives.push(seen);
-        }
-        Ok(seen)
-    }
-
-    /// What the slopes of the two bodies at the nodes say.
-    fn seen<const N: usize>(
-        &self,
-        x: [T; 2],
-        nodes: &[T; N],
-        reach: T,
-        [lower, upper]: [&[T; N]; 2],
-    ) -> Seen<T> {
-        let zero = T::zero();
-        let off = [(lower, 0), (upper, 1)]
-            .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.rough));
-        let off = off[0].max(off[1]);
-        let mut seen = Seen { slope: zero, bodies: zero, noise: zero, off, missed: zero };
-        for i in 0..N {
-            seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
-            seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
-        }
-        let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
-        let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
-        seen.noise = rounded * (bend(lower) + bend(upper)) / (nodes[N - 1] - nodes[0]);
-        seen
-    }
-
-    /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
-    /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
-    fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
-            let knots = trace.knots();
-            let n = knots.len();
-            if trace.direct || n < 8 {
-                continue;
-            }
-            // How far two points are apart in height, and how far they should be.
-            let rise = |i: usize| {
-                let [one, other] = [&knots[i], &knots[i + 1]];
-                let due = T::of(0.5) * (other.x - one.x) * (one.slope + other.slope);
-                [other.y - one.y, due]
-            };
-            let (mut off, mut sum, mut rounded) = (T::zero(), T::zero(), T::zero());
-            for i in 0..n - 1 {
-                let [rise, due] = rise(i);
-                off += (rise - due).abs();
-                sum += rise.abs() + due.abs();
-                rounded = rounded.max(knots[i].y.abs() + (knots[i].x * knots[i].slope).abs());
-            }
-            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height());
-            let noise = noise + T::of(1e-6) * self.size * (knots[n - 1].x - knots[0].x);
-            if off > T::of(0.3) * sum + noise {
-                let miss = |i: usize| rise(i)[0] - rise(i)[1];
-                let worse = |i: usize, j: usize| if miss(j).abs() > miss(i).abs() { j } else { i };
-                let i = (0..n - 1).fold(0, worse);
-                // A wave that both bodies have is in no gap, and need not be resolved.
-                let near = |knot: &Knot<T>| {
-                    // Nor need it be longer than the step of a difference.
-                    let differences = [T::epsilon().cbrt(), T::epsilon().sqrt()]
-                        .map(|share| gap.difference(body, knot.x, knot.k, share));
-                    let is_wrong = |difference: &T| {
-                        let apart = (*difference - knot.slope).abs();
-                        apart > T::of(0.2) * difference.abs().max(knot.slope.abs())
-                    };
-                    let wrong = differences.iter().all(is_wrong);
-                    wrong.then_some((knot.k, knot.slope, differences[0]))
-                };
-                let Some((k, given, difference)) = near(&knots[i]).or(near(&knots[i + 1])) else {
-                    continue;
-                };
-                let quantity = "the slope Y'/X'";
-                let source = ProfileError::Derivative { quantity, k, given, difference };
-                return Err(ContactError::Profile { body, source });
-            }
-        }
-        Ok(())
     }
 }

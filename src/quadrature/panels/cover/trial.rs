@@ -1,7 +1,7 @@
 //! A stretch that is tried out as one panel, and how often it may be halved.
 
-use super::panel::Panel;
 use crate::Real;
+use crate::quadrature::panels::Panel;
 
 /// How often a stretch is halved beside a jump: what is left is no part of any integral.
 pub(super) const MOST_LEVELS: usize = 110;

@@ -1,0 +1,58 @@
+//! Whether a body's derivatives are those of its heights.
+
+use super::Cover;
+use crate::gap::{Gap, Knot};
+use crate::{Body, ContactError, ProfileError, Real};
+
+impl<T: Real> Cover<T> {
+    /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
+    /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
+    pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
+            let knots = trace.knots();
+            let n = knots.len();
+            if trace.direct || n < 8 {
+                continue;
+            }
+            // How far two points are apart in height, and how far they should be.
+            let rise = |i: usize| {
+                let [one, other] = [&knots[i], &knots[i + 1]];
+                let due = T::of(0.5) * (other.x - one.x) * (one.slope + other.slope);
+                [other.y - one.y, due]
+            };
+            let (mut off, mut sum, mut rounded) = (T::zero(), T::zero(), T::zero());
+            for i in 0..n - 1 {
+                let [rise, due] = rise(i);
+                off += (rise - due).abs();
+                sum += rise.abs() + due.abs();
+                rounded = rounded.max(knots[i].y.abs() + (knots[i].x * knots[i].slope).abs());
+            }
+            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height());
+            let noise = noise + T::of(1e-6) * self.size * (knots[n - 1].x - knots[0].x);
+            if off > T::of(0.3) * sum + noise {
+                let miss = |i: usize| rise(i)[0] - rise(i)[1];
+                let worse = |i: usize, j: usize| if miss(j).abs() > miss(i).abs() { j } else { i };
+                let i = (0..n - 1).fold(0, worse);
+                // A wave that both bodies have is in no gap, and need not be resolved.
+                let near = |knot: &Knot<T>| {
+                    // Nor need it be longer than the step of a difference.
+                    let differences = [T::epsilon().cbrt(), T::epsilon().sqrt()]
+                        .map(|share| gap.difference(body, knot.x, knot.k, share));
+                    let is_wrong = |difference: &T| {
+                        let apart = (*difference - knot.slope).abs();
+                        apart > T::of(0.2) * difference.abs().max(knot.slope.abs())
+                    };
+                    let wrong = differences.iter().all(is_wrong);
+                    wrong.then_some((knot.k, knot.slope, differences[0]))
+                };
+                let Some((k, given, difference)) = near(&knots[i]).or(near(&knots[i + 1])) else {
+                    continue;
+                };
+                let quantity = "the slope Y'/X'";
+                let source = ProfileError::Derivative { quantity, k, given, difference };
+                return Err(ContactError::Profile { body, source });
+            }
+        }
+        Ok(())
+    }
+}
