@@ -1,10 +1,17 @@
 //! What a body was sampled at, which is near the nodes, says of its slopes at the nodes, and what it
 //! leaves open.
 
-use super::chebyshev::Table;
+use super::chebyshev::{MOST, Table};
 use crate::Real;
 use crate::gap::Trace;
 use crate::real::fma;
+
+/// Zeros, and in their middle 1, which takes the place of the difference of a node from itself.
+const ONE: [f64; 2 * MOST] = {
+    let mut one = [0.0; 2 * MOST];
+    one[MOST] = 1.0;
+    one
+};
 
 /// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
 /// from the left end of the panel, where the rounding of x matters less.
@@ -31,13 +38,12 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
     let unit = T::of(2.0) / reach;
     let x: [T; N] = std::array::from_fn(|i| (knots[i].x - left) * unit);
     let at = nodes.map(|node| node * unit);
-    // Each with the one so many places further on, so that no place stands out.
+    // The factors in the same order as those of the products below, whose rounding they then share.
     let mut weight = [T::one(); N];
-    let around = [x, x];
-    for shift in 1..N {
-        let others = &around.as_flattened()[shift..shift + N];
+    for j in 0..N {
+        let one = &ONE[MOST - j..MOST - j + N];
         for i in 0..N {
-            weight[i] *= x[i] - others[i];
+            weight[i] *= x[i] - x[j] + T::of(one[i]);
         }
     }
     let weight = weight.map(|weight| T::one() / weight);
