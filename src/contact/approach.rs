@@ -26,15 +26,19 @@ pub(super) fn find<T: Real>(
 ) -> Result<Found<T>, ContactError<T>> {
     let mut conditions = conditions;
     let corners = conditions.edges;
-    // A corner holds the contact as long as it presses there; a width may be had without it.
+    // A corner holds the contact as long as it presses there; a width may be had without it, unless
+    // it held the last one. It cannot hold both edges.
     let range = contact.gap.range();
-    for edge in &mut conditions.edges {
+    let by_load = matches!(conditions.control, Control::Load(_));
+    let mut one_held = false;
+    for (i, edge) in conditions.edges.iter_mut().enumerate() {
         if let Edge::UpTo(x) = *edge {
             if !(x >= range[0] && x <= range[1]) {
                 return Err(ContactError::OutsideBodies { x, range });
             }
-            let held = matches!(conditions.control, Control::Load(_));
-            *edge = if held { Edge::Fixed(x) } else { Edge::Free };
+            let touched = warm.is_some_and(|on| [on.left, on.right][i] == x) && !one_held;
+            one_held |= touched;
+            *edge = if by_load || touched { Edge::Fixed(x) } else { Edge::Free };
         }
     }
     let mut found = match attempt(contact, &conditions, engine, warm, cost) {

@@ -157,3 +157,35 @@ fn a_width_pulled_far_away_ends() {
         );
     }
 }
+
+/// A width after another one that a corner has held is the same as from nothing, and takes about as many
+/// evaluations. Held: F = L²/2 - L c, the free edge on the left; let go: F = L²/2.
+#[test]
+fn a_width_after_one_held_by_a_corner() {
+    let evaluations = |steep: f64, corner: f64, half_widths: [f64; 2]| {
+        let body = graph(-2.5, 2.5, move |x| [x * x / 2.0 - steep * x, x - steep]);
+        let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::UpTo(corner));
+        let mut solver = contact.solver().unwrap();
+        let mut last = 0;
+        for half_width in half_widths {
+            let solution = solver.solve(&contact, Load::ToHalfWidth(half_width)).unwrap();
+            last = solution.cost().evaluations;
+            let held = steep + half_width > corner;
+            let right = if held { corner } else { steep + half_width };
+            let load = half_width * (0.5 * half_width - (right - half_width - steep));
+            assert_relative_eq!(solution.a(), right, epsilon = 0.0, max_relative = 1e-14);
+            assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-12);
+        }
+        let cold = contact.solve(Load::ToHalfWidth(half_widths[1])).unwrap().cost().evaluations;
+        (last, cold)
+    };
+    for (steep, corner, half_widths) in [
+        (0.186, 0.004, [0.0016, 0.0017]),
+        (0.186, 0.004, [0.0016, 0.0012]),
+        (0.0, 0.3, [0.5, 0.2]),
+        (0.0, 0.3, [0.2, 0.5]),
+    ] {
+        let (warm, cold) = evaluations(steep, corner, half_widths);
+        assert!(warm <= 5 * cold, "{half_widths:?}: {warm}, from nothing {cold}");
+    }
+}
