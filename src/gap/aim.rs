@@ -102,7 +102,8 @@ pub(crate) fn aim<const N: usize, T: Real>(
         trace.piece = Some(index);
         trace.knots.set(ends, &[]);
     }
-    let shot = Shot { gap, body, piece, rises: piece.k[0] < piece.k[1], targets, room };
+    let (ends, rises) = (trace.knots.ends(), piece.k[0] < piece.k[1]);
+    let shot = Shot { gap, body, piece, ends, rises, targets, room };
     shot.take(&mut trace.knots, cost).map_err(|error| turns(piece, error))
 }
 
@@ -111,6 +112,8 @@ struct Shot<'s, const N: usize, T: Real> {
     gap: &'s Gap<'s, T>,
     body: Body,
     piece: Piece<'s, T>,
+    /// The ends of the piece, with slopes where the curve itself has none.
+    ends: [Knot<T>; 2],
     rises: bool,
     targets: &'s [T; N],
     /// By how much each may be missed.
@@ -148,6 +151,19 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
 
     fn is_near(&self, i: usize, knot: &Knot<T>) -> bool {
         (knot.x - self.targets[i]).abs() <= self.room[i]
+    }
+
+    /// The point at `k`, which rounding may have put at an end.
+    #[inline(always)]
+    fn knot(&self, k: T, point: CurvePoint<T>) -> Knot<T> {
+        let knot = Knot::new(k, point);
+        if is_finite(knot.slope) { knot } else { self.known_end(knot) }
+    }
+
+    #[cold]
+    fn known_end(&self, knot: Knot<T>) -> Knot<T> {
+        let end = self.ends.iter().find(|end| end.k == knot.k && is_finite(end.slope));
+        end.copied().unwrap_or(knot)
     }
 
     /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
@@ -195,7 +211,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         cost.evaluations += count;
         let (mut all_near, mut sound) = (true, true);
         for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {
-            let knot = Knot::new(k, point);
+            let knot = self.knot(k, point);
             sound &= self.is_sound(&knot);
             all_near &= self.is_near(i, &knot);
             knots[i] = knot;
@@ -262,7 +278,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 break;
             }
             cost.evaluations += 1;
-            let knot = Knot::new(k, self.piece.curve.at(k));
+            let knot = self.knot(k, self.piece.curve.at(k));
             self.check(&knot)?;
             if self.is_near(i, &knot) {
                 return Ok(knot);
@@ -300,7 +316,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 return (T::of(f64::NAN), T::zero());
             }
             cost.evaluations += 1;
-            let knot = Knot::new(k, self.piece.curve.at(k));
+            let knot = self.knot(k, self.piece.curve.at(k));
             if let Err(error) = self.check(&knot) {
                 failed = Some(error);
                 return (T::of(f64::NAN), knot.dx);
@@ -315,7 +331,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 Some(knot) => Ok(knot),
                 None => {
                     cost.evaluations += 1;
-                    let knot = Knot::new(root.x, self.piece.curve.at(root.x));
+                    let knot = self.knot(root.x, self.piece.curve.at(root.x));
                     self.check(&knot).map(|()| knot)
                 }
             },

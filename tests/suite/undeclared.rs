@@ -486,3 +486,32 @@ fn pieces_that_meet_where_their_derivatives_vanish() {
         }
     }
 }
+
+/// Beside a root of high order at such an end the curve is sampled so close to the end that rounding
+/// puts a parameter on it, where Y'/X' is 0/0. The gap is even about the joint, and so is the contact.
+#[test]
+fn a_root_beside_an_end_where_the_derivatives_vanish() {
+    let joint: f64 = -0.002783964073710917;
+    let shape = move |x: f64| {
+        let (u, power) = (x - joint, 0.0026600581838);
+        let root = 0.25 * u.abs().powf(power);
+        (0.5 * u * u + root * u.abs() / (1.0 + power), u + root * u.signum())
+    };
+    let left = Curve::new([0.0, 1.0], move |k: f64| {
+        let width = 2.94 + joint;
+        let x = if k == 1.0 { joint } else { joint - width + width * k * k * (3.0 - 2.0 * k) };
+        let ((y, slope), dx) = (shape(x), width * 6.0 * k * (1.0 - k));
+        CurvePoint { x, y, dx, dy: slope * dx }
+    });
+    let right = graph(joint, joint + 2.9, move |x| [shape(x).0, shape(x).1]);
+    let body = Piecewise::new(vec![Box::new(left), right]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for [before, after] in [[1.2e-4, 1.7e-4], [3e-4, 3e-4], [1e-4, 7e-4]] {
+        let contact =
+            contact.clone().start(Interval { left: joint - before, right: joint + after });
+        let solution = contact.solve(Load::ToHalfWidth(1e-4)).unwrap();
+        let [left, right] = [joint - solution.interval().left, solution.interval().right - joint];
+        assert_relative_eq!(left, 1e-4, epsilon = 0.0, max_relative = 1e-10);
+        assert_relative_eq!(right, 1e-4, epsilon = 0.0, max_relative = 1e-10);
+    }
+}
