@@ -153,15 +153,11 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         (knot.x - self.targets[i]).abs() <= self.room[i]
     }
 
-    /// The point at `k`, which rounding may have put at an end.
-    #[inline(always)]
-    fn knot(&self, k: T, point: CurvePoint<T>) -> Knot<T> {
-        let knot = Knot::new(k, point);
-        if is_finite(knot.slope) { knot } else { self.known_end(knot) }
-    }
-
-    #[cold]
-    fn known_end(&self, knot: Knot<T>) -> Knot<T> {
+    /// A point, or the end of the piece, where rounding has put it there and it has no slope of its own.
+    fn or_end(&self, knot: Knot<T>) -> Knot<T> {
+        if is_finite(knot.slope) {
+            return knot;
+        }
         let end = self.ends.iter().find(|end| end.k == knot.k && is_finite(end.slope));
         end.copied().unwrap_or(knot)
     }
@@ -211,13 +207,16 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         cost.evaluations += count;
         let (mut all_near, mut sound) = (true, true);
         for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {
-            let knot = self.knot(k, point);
+            let knot = Knot::new(k, point);
             sound &= self.is_sound(&knot);
             all_near &= self.is_near(i, &knot);
             knots[i] = knot;
         }
         if !sound {
-            knots.iter().try_for_each(|knot| self.check(knot))?;
+            for knot in knots.iter_mut() {
+                *knot = self.or_end(*knot);
+                self.check(knot)?;
+            }
         }
         Ok(all_near)
     }
@@ -278,7 +277,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 break;
             }
             cost.evaluations += 1;
-            let knot = self.knot(k, self.piece.curve.at(k));
+            let knot = self.or_end(Knot::new(k, self.piece.curve.at(k)));
             self.check(&knot)?;
             if self.is_near(i, &knot) {
                 return Ok(knot);
@@ -316,7 +315,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 return (T::of(f64::NAN), T::zero());
             }
             cost.evaluations += 1;
-            let knot = self.knot(k, self.piece.curve.at(k));
+            let knot = self.or_end(Knot::new(k, self.piece.curve.at(k)));
             if let Err(error) = self.check(&knot) {
                 failed = Some(error);
                 return (T::of(f64::NAN), knot.dx);
@@ -331,7 +330,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 Some(knot) => Ok(knot),
                 None => {
                     cost.evaluations += 1;
-                    let knot = self.knot(root.x, self.piece.curve.at(root.x));
+                    let knot = self.or_end(Knot::new(root.x, self.piece.curve.at(root.x)));
                     self.check(&knot).map(|()| knot)
                 }
             },
