@@ -109,7 +109,11 @@ pub(super) fn settle<T: Real>(
             before = certain(size);
             continue;
         }
-        let done = next <= half * T::epsilon() && size <= half * half;
+        let small = next <= half * T::epsilon() && size <= half * half;
+        // Across a kink a step is as much too long as the one before has been.
+        let crossed =
+            small && size > T::of(4.0) * T::epsilon() && crosses_joint(gap, before_move, on);
+        let done = small && !crossed;
         let slow = before.is_some() && share >= T::of(0.25);
         if done || slow {
             let noise = system.error(&inverse, &m);
@@ -136,9 +140,17 @@ pub(super) fn settle<T: Real>(
                 return Ok(Some(Settled { on, load, error, force }));
             }
         }
-        before = certain(size);
+        before = certain(size).filter(|_| !crossed);
     }
     Ok(None)
+}
+
+/// Whether an edge of the contact passes a joint from one step to the next.
+fn crosses_joint<T: Real>(gap: &Gap<'_, T>, from: Interval<T>, to: Interval<T>) -> bool {
+    [[from.left, to.left], [from.right, to.right]].into_iter().any(|[one, other]| {
+        let passed = Interval { left: one.min(other), right: one.max(other) };
+        gap.joints(passed).next().is_some()
+    })
 }
 
 /// Steps beyond the convergence of the value: from one to the next, one more derivative is exact.

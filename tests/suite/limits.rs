@@ -355,3 +355,27 @@ fn a_point_of_first_contact_between_the_ends_of_the_start() {
         }
     }
 }
+
+#[test]
+fn an_edge_at_a_kink() {
+    // x²/2 up to the kink, which the contact just does not reach, and much steeper beyond.
+    // L = sqrt(2 C/π) from Hertz's F = L²/2.
+    for jump in [0.5, 3.0, 5.0] {
+        for short in [0.0, 1e-14, 1e-12, 1e-10, 1e-6] {
+            let half_width = 1.0 - short;
+            let load = Load::PerLength(half_width * half_width / 2.0);
+            let inner = graph(-1.0, 9.0, |x| [x * x / 2.0, x]);
+            let outer = graph(-9.0, -1.0, move |x| {
+                let d = x + 1.0;
+                [0.5 - (1.0 + jump) * d + d * d / 4.0, -1.0 - jump + d / 2.0]
+            });
+            let body = common::join(vec![outer, inner]);
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            let solution = contact.solve(load).unwrap();
+            for limit in [solution.a(), solution.b()] {
+                let error = (limit - half_width).abs();
+                assert!(error <= 2e-15, "{jump} {short:e}: {error:e}");
+            }
+        }
+    }
+}

@@ -242,7 +242,24 @@ impl<T: Real> Conjugate<T> {
         } else {
             within(panels, on).iter().for_each(add);
         }
-        T::of(6.0) * (sum + here + of_groups)
+        T::of(6.0) * (sum + here + of_groups) + self.spike(panels, x)
+    }
+
+    /// As good as at the joint of two panels, what their difference makes with a logarithm: whether it
+    /// is rounding or a jump of the slope cannot be told, and at a jump the pressure is infinite.
+    fn spike(&self, panels: &[Panel<T>], x: T) -> T {
+        let width = self.on.right - self.on.left;
+        let next = panels.partition_point(|panel| panel.x[1] < x).min(panels.len() - 1);
+        let joint = panels[next].x.map(|end| (end - x).abs());
+        let (next, distance) =
+            if joint[0] < joint[1] { (next, joint[0]) } else { (next + 1, joint[1]) };
+        let close = T::epsilon() * width;
+        if next == 0 || next == panels.len() || distance > close {
+            return T::zero();
+        }
+        let jump = panels[next].at_ends()[0] - panels[next - 1].at_ends()[1];
+        let distance = if distance.is_zero() { close } else { distance };
+        jump.abs() * (width / distance).ln()
     }
 }
 
