@@ -11,6 +11,7 @@ use linecontact::{
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use std::f64::consts::PI;
 
 fn error(
     lower: &dyn ParametricProfile<f64>,
@@ -89,6 +90,37 @@ fn a_load_too_large_for_the_domain() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     assert!((contact.solve(Load::PerLength(0.5 * (1.0 - 1e-12))).unwrap().a() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_load_too_large_on_the_gentle_side() {
+    // A wedge on one side of 0: g = x, less by s at x < 0. With cos θ₀ = -c/L it is in balance where
+    // π c = s (π - θ₀), and carries F = L²/2 + s L sin θ₀/π. It reaches x = 1 first: c = 1 - L.
+    let steep_side = |s: f64| graph(-1.0, 0.0, move |x| [x * x / 2.0 - s * x, x - s]);
+    let mirrored = |s: f64| graph(0.0, 1.0, move |x| [x * x / 2.0 + s * x, x + s]);
+    let gentle = |from, to| graph(from, to, |x| [x * x / 2.0, x]);
+    for s in [0.3, 10.0, 1e3] {
+        let angle = |half_width: f64| (1.0 - 1.0 / half_width).acos();
+        let (mut low, mut high) = (0.5, 1.0);
+        for _ in 0..60 {
+            let l = 0.5 * (low + high);
+            let balanced = PI * (1.0 - l) > s * (PI - angle(l));
+            if balanced { low = l } else { high = l }
+        }
+        let most = low * low / 2.0 + s * low * angle(low).sin() / PI;
+        let right = common::join(vec![steep_side(s), gentle(0.0, 1.0)]);
+        let left = common::join(vec![gentle(-1.0, 0.0), mirrored(s)]);
+        for times in [1.01, 1.5, 3.0, 10.0, 100.0] {
+            for (body, wanted) in [(&right, 1.0), (&left, -1.0)] {
+                let error = error(&Flat, &**body, times * most);
+                let ContactError::TooShort { end, carried, .. } = error else {
+                    panic!("{s} {times}: {error}")
+                };
+                assert_eq!(end, wanted, "{s} {times}");
+                assert!((carried / most - 1.0).abs() < 1e-8, "{s} {times}: {carried} {most}");
+            }
+        }
+    }
 }
 
 #[test]

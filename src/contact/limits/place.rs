@@ -43,13 +43,16 @@ impl<T: Real> Search<'_, T> {
         if lo >= hi {
             // All of the bodies, up to rounding, may be just wide enough.
             let [left, right] = self.range;
-            if lo - hi <= ulps::<T>() * (left.abs() + right.abs()) {
-                let trial = self.attempt(Interval { left, right })?;
-                if (self.unbalance)(&trial.excess) == zero {
-                    return Ok(Placed::At(trial));
-                }
-            }
-            return Ok(Placed::Beyond(usize::from(room_right < room_left)));
+            let trial = self.attempt(Interval { left, right })?;
+            let shift = (self.unbalance)(&trial.excess);
+            let rounding = ulps::<T>() * (left.abs() + right.abs());
+            return Ok(if shift != zero {
+                Placed::Beyond(usize::from(shift > zero))
+            } else if lo - hi <= rounding {
+                Placed::At(trial)
+            } else {
+                Placed::Beyond(usize::from(room_right < room_left))
+            });
         }
         let origin = self.origin;
         let on = |reach: T| match near {

@@ -245,8 +245,8 @@ impl<T: Real> Conjugate<T> {
         T::of(6.0) * (sum + here + of_groups) + self.spike(panels, x)
     }
 
-    /// As good as at the joint of two panels, what their difference makes with a logarithm: whether it
-    /// is rounding or a jump of the slope cannot be told, and at a jump the pressure is infinite.
+    /// As good as at the joint of two panels, what a small difference makes with a logarithm: whether
+    /// it is rounding or a jump of the slope cannot be told, and at a jump the pressure is infinite.
     fn spike(&self, panels: &[Panel<T>], x: T) -> T {
         let width = self.on.right - self.on.left;
         let next = panels.partition_point(|panel| panel.x[1] < x).min(panels.len() - 1);
@@ -257,9 +257,12 @@ impl<T: Real> Conjugate<T> {
         if next == 0 || next == panels.len() || distance > close {
             return T::zero();
         }
-        let jump = panels[next].at_ends()[0] - panels[next - 1].at_ends()[1];
+        let jump = (panels[next].at_ends()[0] - panels[next - 1].at_ends()[1]).abs();
+        if jump > self.rounding.kink {
+            return T::zero();
+        }
         let distance = if distance.is_zero() { close } else { distance };
-        jump.abs() * (width / distance).ln()
+        jump * (width / distance).ln()
     }
 }
 
