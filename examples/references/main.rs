@@ -64,7 +64,8 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     // Given edges enter the integral for the pressure with the root of both distances, and G with it.
     let weight =
         if reference.kind == Kind::Fixed { |angle: f64| angle.sin().powi(2) } else { |_| 1.0 };
-    let noise = noise::measure([&*bodies[0], &*bodies[1]], on, &places, weight)?;
+    let rounded = &reference.rounded_joints;
+    let noise = noise::measure([&*bodies[0], &*bodies[1]], on, &places, rounded, weight)?;
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
 }
 

@@ -32,7 +32,8 @@ pub struct Noise {
     pub steepest: f64,
 }
 
-/// Measures the noise at places within a contact, given from left to right. `weight` is that of the
+/// Measures the noise at places within a contact, given from left to right. The joints `rounded` are
+/// not where the bodies' formulas have them. `weight` is that of the
 /// slope in its mean, by the angle θ of `x = c + L cos θ`.
 ///
 /// # Errors
@@ -41,6 +42,7 @@ pub fn measure(
     bodies: [&dyn ParametricProfile<f64>; 2],
     on: Interval<f64>,
     places: &[f64],
+    rounded: &[f64],
     weight: fn(f64) -> f64,
 ) -> Result<Noise, ProfileError<f64>> {
     let bodies = [pieces(bodies[0])?, pieces(bodies[1])?];
@@ -64,8 +66,8 @@ pub fn measure(
     // The edges follow from averages over the contact, and so does what the pressure takes from
     // elsewhere.
     let of_edges = (of_x / on.half_width() + of_slope / steepest) / ROOT_OF_SAMPLES;
-    let jumps = jumps(&bodies);
-    let of_jumps = |x: f64| jumps.iter().map(|jump| jump.noise(x)).sum::<f64>();
+    let jumps = jumps(&bodies, rounded);
+    let of_jumps = |x: f64| jumps.iter().map(|jump| jump.noise(x, on)).sum::<f64>();
     let slope = inside.iter().zip(places).map(|(at, &x)| total(at) + of_jumps(x)).collect();
     let [left, right] = edges;
     let all = [left].into_iter().chain(inside).chain([right]);
@@ -82,23 +84,44 @@ fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, Prof
     }
 }
 
-/// A joint at which the slope of the gap jumps.
+/// A joint at which the slope of the gap jumps, or may.
 struct Jump {
     x: f64,
     by: f64,
+    /// By how much the slope jumps on top of that because the joint is rounded: the curvature does.
+    perhaps: f64,
 }
 
 impl Jump {
     /// The pressure has the logarithm of the distance from it, which is off by what rounding makes of
     /// the place of a joint such as 1/3: no more than that can be known, at the joint itself nothing.
-    fn noise(&self, x: f64) -> f64 {
-        let rounded = 0.5 * f64::EPSILON * self.x.abs();
+    fn noise(&self, x: f64, on: Interval<f64>) -> f64 {
+        let rounded = place_rounding(self.x);
         let distance = (x - self.x).abs();
-        if rounded > 0.0 { self.by.abs() / PI * (rounded / distance).ln_1p() } else { 0.0 }
+        if rounded <= 0.0 {
+            return 0.0;
+        }
+        // Infinite at the joint, but only of a slope that jumps.
+        let by = self.by.abs();
+        let place = if by > 0.0 { by * (rounded / distance).ln_1p() } else { 0.0 };
+        (place + self.perhaps * (on.half_width() / distance.max(rounded)).ln_1p()) / PI
     }
 }
 
-fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2]) -> Vec<Jump> {
+/// The most by which a joint is rounded.
+fn place_rounding(x: f64) -> f64 {
+    0.5 * f64::EPSILON * x.abs()
+}
+
+/// `d²Y/dX²` next to an end of a piece.
+fn end_bend(piece: &Piece<'_, f64>, end: usize) -> f64 {
+    let slope = |k| piece.curve.dy(k) / piece.curve.dx(k);
+    let [near, far] = [piece.k[end], piece.k[1 - end]];
+    let beside = near + STEP[1] * (far - near);
+    (slope(beside) - slope(near)) / (piece.curve.x(beside) - piece.curve.x(near))
+}
+
+fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2], rounded: &[f64]) -> Vec<Jump> {
     let slope = |piece: &Piece<'_, f64>, end: usize| piece.ends[end].dy / piece.ends[end].dx;
     let of_body = |body: &Vec<Piece<'_, f64>>, sign: f64| -> Vec<Jump> {
         let jump = |two: &[Piece<'_, f64>]| {
@@ -106,7 +129,12 @@ fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2]) -> Vec<Jump> {
             let by = sign * (to - from);
             // What the rounding of formulas makes is none.
             let counts = by.is_finite() && by.abs() > 64.0 * f64::EPSILON * (from.abs() + to.abs());
-            counts.then(|| Jump { x: two[0].x()[1], by })
+            let by = if counts { by } else { 0.0 };
+            let x = two[0].x()[1];
+            let bend = (end_bend(&two[1], 0) - end_bend(&two[0], 1)).abs();
+            let is_rounded = rounded.contains(&x) && bend.is_finite();
+            let perhaps = if is_rounded { bend * place_rounding(x) } else { 0.0 };
+            (by != 0.0 || perhaps > 0.0).then_some(Jump { x, by, perhaps })
         };
         body.windows(2).filter_map(jump).collect()
     };
@@ -115,7 +143,10 @@ fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2]) -> Vec<Jump> {
     for jump in of_body(lower, -1.0).into_iter().chain(of_body(upper, 1.0)) {
         // What both bodies have may cancel.
         match all.iter_mut().find(|other| other.x == jump.x) {
-            Some(other) => other.by += jump.by,
+            Some(other) => {
+                other.by += jump.by;
+                other.perhaps += jump.perhaps;
+            }
             None => all.push(jump),
         }
     }
@@ -188,4 +219,37 @@ fn noise(mut values: [f64; NEIGHBOURS]) -> f64 {
     let differences = &values[..NEIGHBOURS - ORDER];
     let sum: f64 = differences.iter().map(|value| (value / largest).powi(2)).sum();
     largest * (3.0 * sum / differences.len() as f64 / VARIANCE).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::measure;
+    use linecontact::{Curve, CurvePoint, Flat, Interval, Piecewise};
+
+    #[test]
+    fn a_joint_that_is_rounded() {
+        // x²/2, and from 1/3 on a curvature of 1 + bend. With the joint off by u the slope jumps by
+        // bend u, and the pressure at a distance d has (bend u/π²) ln(L/d) more or less.
+        let (bend, third) = (1e8, 1.0 / 3.0);
+        let piece = |from: f64, to: f64, bend: f64| {
+            Curve::new([from, to], move |k: f64| {
+                let beyond = k - third;
+                let y = k * k / 2.0 + bend * beyond * beyond / 2.0;
+                CurvePoint { x: k, y, dx: 1.0, dy: k + bend * beyond }
+            })
+        };
+        let body = Piecewise::new(vec![piece(-2.0, third, 0.0), piece(third, 2.0, bend)]);
+        let body = body.expect("the pieces meet");
+        let on = Interval { left: -1.0, right: 0.5 };
+        let noise = |rounded: &[f64]| {
+            let places = [-0.2, third - 1e-6, third];
+            measure([&Flat, &body], on, &places, rounded, |_| 1.0).expect("pieces").slope
+        };
+        let (exact, rounded) = (noise(&[]), noise(&[third]));
+        let jump = bend * third * f64::EPSILON / 2.0;
+        for (i, logarithm) in [0.9, 13.5, 36.0].into_iter().enumerate() {
+            let more = (rounded[i] - exact[i]) * std::f64::consts::PI / jump;
+            assert!((more / logarithm - 1.0).abs() < 0.1, "{i}: {more}");
+        }
+    }
 }

@@ -27,6 +27,8 @@ pub struct Reference {
     pub c: f64,
     /// `[-b, a]`, where there is a solution.
     pub limits: Option<Interval<f64>>,
+    /// Joints that are no numbers of 64 bits, such as 1/3, rounded.
+    pub rounded_joints: Vec<f64>,
     /// Points with a finite pressure that is not zero.
     pub points: Vec<Point>,
 }
@@ -65,8 +67,18 @@ impl Reference {
                 points.push(Point { x, pressure, amplification });
             }
         }
+        let joints = list("breakpoints_x").iter().filter(|joint| !is_exact(joint));
+        let rounded_joints = joints.filter_map(number).collect();
         let kappa = number(&file["scale_value"]).or_else(|| scale(file["scale"].as_str()?))?;
-        Some(Self { kind_name, kind, kappa, c: number(&file["C"])?, limits, points })
+        Some(Self {
+            kind_name,
+            kind,
+            kappa,
+            c: number(&file["C"])?,
+            limits,
+            rounded_joints,
+            points,
+        })
     }
 }
 
@@ -79,7 +91,35 @@ fn scale(text: &str) -> Option<f64> {
     }
 }
 
+/// Whether a decimal is a number of 64 bits, which has no more than 1074 places. (One with an exponent
+/// is taken for one that is not.)
+fn is_exact(value: &Value) -> bool {
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let exact = number(value).map(|x| trimmed(&format!("{x:.1074}")));
+    exact == value.as_str().map(trimmed)
+}
+
 /// A decimal in a string, correctly rounded.
 fn number(value: &Value) -> Option<f64> {
     value.as_str()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_exact;
+    use serde_json::Value;
+
+    #[test]
+    fn joints_that_are_rounded() {
+        let is_exact = |text: &str| is_exact(&Value::from(text));
+        for text in ["0.25", "-1.0", "0", "3", "0.0009765625", "100.000"] {
+            assert!(is_exact(text), "{text}");
+        }
+        for text in ["0.1", "-0.3333333333333333333333333333", "0.99", "9007199254740993"] {
+            assert!(!is_exact(text), "{text}");
+        }
+    }
 }

@@ -11,6 +11,9 @@
 #[path = "../../examples/references/bodies.rs"]
 mod bodies;
 #[allow(dead_code)]
+#[path = "../../examples/references/noise.rs"]
+mod noise;
+#[allow(dead_code)]
 #[path = "../../examples/references/reference.rs"]
 mod reference;
 
