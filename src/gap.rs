@@ -48,8 +48,8 @@ enum Surface<'a, T: Real> {
 
 impl<'a, T: Real> Surface<'a, T> {
     fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
-        let surface = match Piece::outermost(profile) {
-            Ok(Some((count, [first, _]))) => Ok(Self::Joined(profile, count, first)),
+        let surface = match Piece::first_of(profile) {
+            Ok(Some((count, first))) => Ok(Self::Joined(profile, count, first)),
             Ok(None) => Piece::new(profile).map(Self::Smooth),
             Err(source) => Err(source),
         };

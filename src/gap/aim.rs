@@ -123,7 +123,7 @@ struct Shot<'s, const N: usize, T: Real> {
 impl<const N: usize, T: Real> Shot<'_, N, T> {
     /// Puts knots near the targets in place of those that are known.
     fn take(&self, known: &mut Knots<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
-        let (targets, ends) = (self.targets, known.ends());
+        let (targets, ends) = (self.targets, self.ends);
         // A range much longer than that of the targets says little of where they are: with one found,
         // the others are aimed at from there.
         let [first, last] = [targets[0], targets[N - 1]];
@@ -232,7 +232,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
             if self.is_near(i, &knots[i]) {
                 continue;
             }
-            let [mut left, mut right] = known.ends();
+            let [mut left, mut right] = self.ends;
             for &knot in known.inner().iter().chain(knots.iter()) {
                 if knot.x <= target && knot.x >= left.x {
                     left = knot;

@@ -57,7 +57,7 @@ const LEVELS: usize = 4;
 pub fn check_derivatives<T: Real>(
     profile: &dyn ParametricProfile<T>,
 ) -> Result<(), ProfileError<T>> {
-    let Some((count, _)) = Piece::outermost(profile)? else { return check(profile) };
+    let Some((count, _)) = Piece::first_of(profile)? else { return check(profile) };
     (0..count).try_for_each(|index| match profile.piece(index) {
         Some(piece) => check(piece.curve),
         None => Err(ProfileError::Pieces { count, index }),

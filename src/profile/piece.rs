@@ -56,15 +56,15 @@ impl<'a, T: Real> Piece<'a, T> {
         Self::between(curve, k, ends)
     }
 
-    /// How many pieces a compound profile has, with the first and the last of them; `None` for a
-    /// profile that is smooth itself.
+    /// How many pieces a compound profile has, and the first of them; `None` for a profile that is
+    /// smooth itself.
     ///
     /// # Errors
     /// [`ProfileError::Pieces`] where `pieces()` and `piece()` disagree. The pieces between are looked at
     /// where they are used: there may be very many.
-    pub(crate) fn outermost(
+    pub(crate) fn first_of(
         profile: &'a dyn ParametricProfile<T>,
-    ) -> Result<Option<(usize, [Self; 2])>, ProfileError<T>> {
+    ) -> Result<Option<(usize, Self)>, ProfileError<T>> {
         let count = profile.pieces();
         let fault = |index| Err(ProfileError::Pieces { count, index });
         if profile.piece(count).is_some() {
@@ -72,9 +72,7 @@ impl<'a, T: Real> Piece<'a, T> {
         }
         let Some(last) = count.checked_sub(1) else { return Ok(None) };
         match [profile.piece(0), profile.piece(last)] {
-            [Some(first), Some(end)] if first.x()[0] < end.x()[1] => {
-                Ok(Some((count, [first, end])))
-            }
+            [Some(first), Some(end)] if first.x()[0] < end.x()[1] => Ok(Some((count, first))),
             [None, _] => fault(0),
             _ => fault(last),
         }

@@ -72,7 +72,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let Piece { k, ends: points, .. } =
                 check(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
             ends.push((k, points));
-            let inner = Piece::outermost(part)
+            let inner = Piece::first_of(part)
                 .map_err(|source| PiecewiseError::InPiece { piece, source })?
                 .map_or(1, |(count, _)| count);
             smooth.extend((0..inner).map(|inner| (piece, inner)));

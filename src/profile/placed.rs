@@ -145,7 +145,7 @@ impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
         for value in [c, d, placement.shift[0], placement.shift[1]] {
             finite("the sum of the shifts of a placement", value, true, "finite")?;
         }
-        if let Some((pieces, _)) = Piece::outermost(&curve)? {
+        if let Some((pieces, _)) = Piece::first_of(&curve)? {
             return Err(ProfileError::Joined { pieces });
         }
         Ok(Self { curve, placement })
