@@ -10,6 +10,7 @@ mod limits;
 mod newton;
 mod peak;
 mod pull;
+mod several;
 mod sketch;
 mod stretch;
 mod stride;

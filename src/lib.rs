@@ -65,6 +65,7 @@ mod error;
 pub mod gap;
 mod integral;
 mod interval;
+mod numerics;
 mod opening;
 pub mod profile;
 pub mod quadrature;

@@ -23,6 +23,7 @@ mod groups;
 mod integrals;
 mod nodes;
 mod panel;
+mod several;
 
 pub(crate) use angles::Gauss;
 
@@ -33,6 +34,7 @@ use chebyshev::{MOST, SIZES};
 use conjugate::{Conjugate, Edges, LANES};
 pub(crate) use cover::Cover;
 pub(crate) use panel::Panel;
+pub(crate) use several::{Several, System};
 
 /// The default quadrature: panels.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -41,12 +41,21 @@ impl<T: Real> Far<T> {
 
     /// Sets it to the panels of a contact.
     pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>) {
+        self.set_within(panels, on, false);
+    }
+
+    /// The same for points outside the contact: no panel is near to all of them.
+    pub fn set_seen_from_outside(&mut self, panels: &[Panel<T>], on: Interval<T>) {
+        self.set_within(panels, on, true);
+    }
+
+    fn set_within(&mut self, panels: &[Panel<T>], on: Interval<T>, outside: bool) {
         self.parts.clear();
         self.nodes.clear();
         for (i, panel) in panels.iter().enumerate() {
             let from = if i == 0 { on.left } else { panel.x[0] };
             let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
-            self.parts.push(Part::new(clip(panel, from, to), on, &mut self.nodes));
+            self.parts.push(Part::new(clip(panel, from, to), on, outside, &mut self.nodes));
         }
         self.groups.clear();
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
@@ -104,6 +113,46 @@ impl<T: Real> Far<T> {
         });
         on.edge_root(x) * sum.value() + log.value()
     }
+
+    /// `∫ g(t)/((t - x) w(t)) dt` at a point outside the contact, at a distance from its nearer end.
+    ///
+    /// What the logarithm is inside an arcus tangent is outside:
+    ///
+    /// ```text
+    /// ∫_{-b}^{t} ds/((s - x) w(s)) = -(2/r) arctan sqrt((x - a)(t + b)/((x + b)(a - t)))   for x > a
+    /// ```
+    ///
+    /// with `r = sqrt((x - a)(x + b))`, and likewise on the left.
+    pub fn outside(&self, x: T, distance: T, on: Interval<T>) -> T {
+        let right = x > on.centre();
+        let far = distance + (on.right - on.left);
+        let [to_left, to_right] = if right { [far, distance] } else { [distance, far] };
+        let root = to_left.sqrt() * to_right.sqrt();
+        let angle = |t: T| {
+            let root = |from: T, along: T| from.sqrt() * along.max(T::zero()).sqrt();
+            root(to_right, t - on.left).atan2(root(to_left, on.right - t))
+        };
+        let sign = if right { -T::of(2.0) } else { T::of(2.0) } / root;
+        let (zero, mut sum) = (T::zero(), Sum::new());
+        self.seen_from(x, |seen| match seen {
+            Seen::Group(group) => sum.add(group.integral(x)),
+            Seen::Part(_, part) => {
+                let s = part.panel.local(x);
+                if s.abs() <= part.reach {
+                    let (regular, value) = part.regular(s);
+                    let [from, to] = part.panel.x.map(angle);
+                    sum.add(regular);
+                    sum.add(value * sign * (to - from));
+                } else {
+                    let offset = part.panel.x[0] - x;
+                    let nodes = &self.nodes[part.nodes.clone()];
+                    let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
+                    sum.add(nodes.iter().fold(zero, term));
+                }
+            }
+        });
+        sum.value()
+    }
 }
 
 /// What a point sees: panels one by one, by their numbers, or many as one.
@@ -121,14 +170,14 @@ fn clip<T: Real>(panel: &Panel<T>, from: T, to: T) -> Panel<T> {
 }
 
 impl<T: Real> Part<T> {
-    fn new(panel: Panel<T>, on: Interval<T>, nodes: &mut Vec<[T; 2]>) -> Self {
+    fn new(panel: Panel<T>, on: Interval<T>, outside: bool, nodes: &mut Vec<[T; 2]>) -> Self {
         const W: usize = 8;
         let [from, to] = panel.x;
         let width = on.right - on.left;
         let arc = Arc::new(to - from, HalfAngle::of(on, from), HalfAngle::of(on, to), width);
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
         let reach = reach(panel.coefficients(), farthest);
-        let is_near = reach >= farthest;
+        let is_near = reach >= farthest && !outside;
         let rule = if reach < T::of(3.0) && !is_near {
             Gauss::finest()
         } else {

@@ -1,0 +1,330 @@
+//! Newton's method on all limits of several contacts at once.
+//!
+//! The equations and their exact Jacobian are those of the quadrature. A step is cut short where a contact or a
+//! gap would lose more than two thirds of its width at once. A gap that shrinks step after step is one that
+//! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
+
+use crate::gap::Gap;
+use crate::numerics::LinearSystem;
+use crate::quadrature::panels::{Several, System};
+use crate::{ContactError, Interval, Real};
+
+/// Steps before the search is given up.
+const MOST_STEPS: usize = 60;
+
+/// What a contact or a gap keeps of its width in one step.
+const LEAST_LEFT: f64 = 0.3;
+
+/// By how much a width may grow in one step.
+const MOST_GROWTH: f64 = 4.0;
+
+/// Steps in a row that are cut short by the same contact or gap before it is taken not to exist.
+const MOST_CUT: usize = 12;
+
+/// How Newton's method ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outcome {
+    Found,
+    /// The gap after this contact closes.
+    Closed(usize),
+    /// This contact vanishes.
+    Lost(usize),
+    /// A limit reaches beyond the left (0) or the right (1) end of the bodies.
+    Beyond(usize),
+    Failed,
+}
+
+/// What cuts a step short: a contact (even) or a gap (odd), by twice its number.
+type Place = usize;
+
+pub(super) struct Newton<T> {
+    /// The contacts, from left to right.
+    pub on: Vec<Interval<T>>,
+    /// Estimated errors of the limits, each as a share of the half-width of its contact.
+    pub errors: Vec<T>,
+    pub steps: usize,
+    system: System<T>,
+    linear: LinearSystem<T>,
+    step: Vec<T>,
+    /// What the limits move by, and what the widths between them do besides.
+    moves: Vec<T>,
+    corrections: Vec<T>,
+}
+
+impl<T: Real> Newton<T> {
+    pub fn new() -> Self {
+        let [errors, step, moves, corrections] = std::array::from_fn(|_| Vec::new());
+        let (system, linear) = (System::new(), LinearSystem::new());
+        Self { on: Vec::new(), errors, steps: 0, system, linear, step, moves, corrections }
+    }
+
+    /// Moves the contacts until they bear a load, that is F/κ.
+    pub fn settle(
+        &mut self,
+        several: &mut Several<T>,
+        gap: &Gap<'_, T>,
+        load: T,
+        corners: [bool; 2],
+        ends: [T; 2],
+    ) -> Result<Outcome, ContactError<T>> {
+        let (one, half) = (T::one(), T::of(0.5));
+        let mut before: Option<T> = None;
+        let mut cut: Option<(Place, usize)> = None;
+        let mut more_steps = None;
+        for _ in 0..MOST_STEPS {
+            self.steps += 1;
+            several.set(gap, &self.on, corners, ends)?;
+            several.system(load, &mut self.system);
+            if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
+                return Ok(Outcome::Failed);
+            }
+            self.linear.solve(&self.system.residual, &mut self.step);
+            if !self.step.iter().all(|step| step.is_finite()) {
+                return Ok(Outcome::Failed);
+            }
+            // For the derivatives of dual numbers, beyond the convergence of the value.
+            if let Some(left) = &mut more_steps {
+                self.advance(corners);
+                *left -= 1;
+                if *left == 0 {
+                    several.set(gap, &self.on, corners, ends)?;
+                    return Ok(Outcome::Found);
+                }
+                continue;
+            }
+            let size = self.size(corners);
+            let last = self.on.len() - 1;
+            let hull = Interval { left: self.on[0].left, right: self.on[last].right };
+            let place = self.advance(corners);
+            let next = Interval { left: self.on[0].left, right: self.on[last].right };
+            let (beyond_left, beyond_right) = (next.left < ends[0], next.right > ends[1]);
+            if beyond_left {
+                self.on[0].left = half * hull.left + half * ends[0];
+            }
+            if beyond_right {
+                self.on[last].right = half * hull.right + half * ends[1];
+            }
+            if place.is_some() || beyond_left || beyond_right {
+                let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
+                let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
+                cut = Some((place, times));
+                if times > MOST_CUT {
+                    return Ok(match place {
+                        usize::MAX => Outcome::Beyond(1),
+                        place if place == usize::MAX - 1 => Outcome::Beyond(0),
+                        place if place % 2 == 0 => Outcome::Lost(place / 2),
+                        place => Outcome::Closed(place / 2),
+                    });
+                }
+                before = None;
+                continue;
+            }
+            cut = None;
+            let ratio = before.map_or(one, |before| size / before);
+            let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
+            // Rounding keeps the steps from falling any further.
+            let stalled = size <= T::epsilon().sqrt() && ratio >= T::of(0.25);
+            if done || stalled {
+                self.estimate(corners, if stalled { size } else { T::zero() });
+                if T::MORE_STEPS == 0 {
+                    several.set(gap, &self.on, corners, ends)?;
+                    return Ok(Outcome::Found);
+                }
+                more_steps = Some(T::MORE_STEPS);
+            }
+            before = Some(size);
+        }
+        Ok(Outcome::Failed)
+    }
+
+    /// The free limits, by the number of their contact and whether they are right ones.
+    fn free(&self, corners: [bool; 2]) -> impl Iterator<Item = (usize, bool)> + use<T> {
+        let last = self.on.len() - 1;
+        let both = (0..=last).flat_map(|i| [(i, false), (i, true)]);
+        both.filter(move |&(i, right)| {
+            !(i == 0 && !right && corners[0] || i == last && right && corners[1])
+        })
+    }
+
+    fn limit(&mut self, i: usize) -> &mut T {
+        let on = &mut self.on[i / 2];
+        if i.is_multiple_of(2) { &mut on.left } else { &mut on.right }
+    }
+
+    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
+    /// the load of a round body goes with it, and so does what is left of a gap that closes. Says which width
+    /// was kept from falling further.
+    fn advance(&mut self, corners: [bool; 2]) -> Option<Place> {
+        let (zero, one, half, two) = (T::zero(), T::one(), T::of(0.5), T::of(2.0));
+        let count = 2 * self.on.len();
+        self.moves.clear();
+        self.moves.resize(count, zero);
+        let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
+        for (i, &step) in free.zip(&self.step) {
+            self.moves[i] = -step;
+        }
+        let is_fixed = |i: usize| i == 0 && corners[0] || i + 1 == count && corners[1];
+        let mut held: Option<(T, Place)> = None;
+        self.corrections.clear();
+        for i in 0..count - 1 {
+            let width = *self.limit(i + 1) - *self.limit(i);
+            let change = self.moves[i + 1] - self.moves[i];
+            let least = T::of(LEAST_LEFT) * width;
+            let square = width * (width + two * change);
+            let next = if square < least * least {
+                let worse = (square / (width * width), i);
+                held = Some(held.filter(|held| held.0 <= worse.0).unwrap_or(worse));
+                least
+            } else {
+                square.sqrt().min(T::of(MOST_GROWTH) * width)
+            };
+            self.corrections.push(next - (width + change));
+        }
+        for (i, &correction) in self.corrections.iter().enumerate() {
+            let share = if is_fixed(i) {
+                one
+            } else if is_fixed(i + 1) {
+                zero
+            } else {
+                half
+            };
+            self.moves[i] -= (one - share) * correction;
+            self.moves[i + 1] += share * correction;
+        }
+        // What is good for one width may be too much for the next.
+        let mut share = one;
+        for i in 0..count - 1 {
+            let width = *self.limit(i + 1) - *self.limit(i);
+            let less = self.moves[i] - self.moves[i + 1];
+            let most = (one - T::of(0.5 * LEAST_LEFT)) * width;
+            if less > most {
+                share = share.min(most / less);
+            }
+        }
+        for i in 0..count {
+            let step = share * self.moves[i];
+            *self.limit(i) += step;
+        }
+        held.map(|(_, place)| place)
+    }
+
+    /// The largest step, as a share of the half-width of its contact.
+    fn size(&self, corners: [bool; 2]) -> T {
+        let share = |((i, _), &step): ((usize, bool), &T)| step.abs() / self.on[i].half_width();
+        self.free(corners).zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
+    }
+
+    /// What the equations leave open of the limits, and rounding; `left` is what the last step has left.
+    fn estimate(&mut self, corners: [bool; 2], left: T) {
+        let n = self.step.len();
+        let (mut column, mut unit) = (Vec::new(), vec![T::zero(); n]);
+        let mut open = vec![T::zero(); n];
+        for (k, &error) in self.system.open.iter().enumerate() {
+            unit.fill(T::zero());
+            unit[k] = error;
+            self.linear.solve(&unit, &mut column);
+            for (open, step) in open.iter_mut().zip(&column) {
+                *open += step.abs();
+            }
+        }
+        self.errors.clear();
+        self.errors.resize(2 * self.on.len(), T::zero());
+        for ((i, right), open) in self.free(corners).zip(open) {
+            let on = self.on[i];
+            let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
+            let error = T::of(4.0) * (open + rounding) / on.half_width() + left;
+            self.errors[2 * i + usize::from(right)] = error;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::profile::{Curve, CurvePoint, Flat, Piecewise};
+    use crate::search::Newton as Inversion;
+
+    fn solve(
+        body: &dyn crate::ParametricProfile<f64>,
+        load: f64,
+        start: &[[f64; 2]],
+        corners: [bool; 2],
+    ) -> (Vec<Interval<f64>>, Vec<f64>, Several<f64>) {
+        let inversion = Inversion::default();
+        let gap = Gap::new(&Flat, body, &inversion).unwrap();
+        let mut several = Several::new(16.0 * f64::EPSILON);
+        let mut newton = Newton::new();
+        newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
+        let outcome = newton.settle(&mut several, &gap, load, corners, gap.range()).unwrap();
+        assert_eq!(outcome, Outcome::Found, "{:?}", newton.on);
+        (newton.on, newton.errors, several)
+    }
+
+    #[test]
+    fn a_quartic_up_to_its_merge() {
+        let body = Curve::new([-3.0, 3.0], |k: f64| {
+            let square = k * k;
+            CurvePoint { x: k, y: square * (square - 2.0), dx: 1.0, dy: 4.0 * k * (square - 1.0) }
+        });
+        // E* = 1, so κ = π/2.
+        for load in [1e-6, 0.1, 1.0, 3.0, 3.14, 3.141592f64] {
+            let d = f64::sqrt(4.0 * load / std::f64::consts::PI);
+            let [al, be] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
+            let off = 0.1 * (be - al);
+            let start = [[-be + off, -al - off], [al + off, be - off]];
+            let (on, errors, several) =
+                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, [false; 2]);
+            let width = be - al;
+            let limits = on.iter().flat_map(|on| [on.left, on.right]);
+            for ((x, due), error) in limits.zip([-be, -al, al, be]).zip(errors) {
+                let allowed = 1e-12f64.max(error) * width;
+                assert!((x - due).abs() <= allowed, "F {load}: {x} for {due}, error {error}");
+            }
+            let x: Vec<f64> = [0.001, 0.3, 0.7, 0.95].iter().map(|s| al + s * width).collect();
+            let mut p = vec![0.0; 4];
+            several.pressures(&x, &mut p);
+            let top = 2.0 * 1.0 * width / 2.0;
+            for (x, p) in x.into_iter().zip(p) {
+                let due = 2.0 * x * ((x * x - al * al) * (be * be - x * x)).sqrt();
+                let got = p * std::f64::consts::FRAC_PI_2;
+                assert!((got - due).abs() <= 1e-11 * top, "F {load}: P({x}) {got} for {due}");
+            }
+        }
+    }
+
+    #[test]
+    fn kinks_inside_each_contact() {
+        // m |T|/N with T = 2 x² - 1 scaled: kinks at ±sqrt(1/2), declared.
+        let piece = |from: f64, to: f64, sign: f64| {
+            Curve::new([from, to], move |k: f64| CurvePoint {
+                x: k,
+                y: sign * (2.0 * k * k - 1.0) * 0.5,
+                dx: 1.0,
+                dy: sign * 2.0 * k,
+            })
+        };
+        let r = 0.5f64.sqrt();
+        let body =
+            Piecewise::new(vec![piece(-1.5, -r, 1.0), piece(-r, r, -1.0), piece(r, 1.5, 1.0)])
+                .unwrap();
+        for load in [0.01f64, 0.2, 0.6] {
+            // The wedge |v| bears F = 2 a/π with κ = 1, on |v| <= a; each of N contacts a half.
+            let a = load * std::f64::consts::PI / 2.0;
+            let [al, be] = [((1.0 - a) / 2.0).sqrt(), ((1.0 + a) / 2.0).sqrt()];
+            let off = 0.05 * (be - al);
+            let start = [[-be - off, -al + off], [al + off, be + off]];
+            let (on, _, several) = solve(&body, load, &start, [false; 2]);
+            for (x, due) in
+                [(on[0].left, -be), (on[0].right, -al), (on[1].left, al), (on[1].right, be)]
+            {
+                assert!((x - due).abs() <= 1e-12 * (be - al), "F {load}: {x} for {due}");
+            }
+            let x = al + 0.3 * (be - al);
+            let v = 2.0 * x * x - 1.0;
+            let due = 4.0 * x / 2.0 * 2.0 / std::f64::consts::PI.powi(2) * (a / v.abs()).acosh();
+            let mut p = [0.0];
+            several.pressures(&[x], &mut p);
+            assert!((p[0] / due - 1.0).abs() < 1e-11, "{} for {due}", p[0]);
+        }
+    }
+}

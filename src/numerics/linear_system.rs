@@ -1,0 +1,106 @@
+//! A square system of linear equations, by Gaussian elimination with partial pivoting of scaled rows.
+//!
+//! It keeps its storage from one system to the next.
+
+use crate::Real;
+
+pub(crate) struct LinearSystem<T> {
+    n: usize,
+    /// The factors, row by row: below the diagonal those of the elimination.
+    factors: Vec<T>,
+    /// The equation that stands in each row, and what it was divided by.
+    order: Vec<usize>,
+    scales: Vec<T>,
+}
+
+impl<T: Real> LinearSystem<T> {
+    pub fn new() -> Self {
+        Self { n: 0, factors: Vec::new(), order: Vec::new(), scales: Vec::new() }
+    }
+
+    /// Factors a matrix given row by row; `false` if it is singular, or not finite.
+    pub fn factor(&mut self, matrix: &[T], n: usize) -> bool {
+        let zero = T::zero();
+        self.n = n;
+        self.order.clear();
+        self.order.extend(0..n);
+        self.factors.clear();
+        self.scales.clear();
+        for row in matrix.chunks_exact(n) {
+            let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).part(0);
+            if !(scale > zero && scale.is_finite()) {
+                return false;
+            }
+            self.scales.push(scale);
+            self.factors.extend(row.iter().map(|&a| a / scale));
+        }
+        for column in 0..n {
+            let size = |row: usize| self.factors[row * n + column].abs();
+            let larger = |best: usize, row: usize| if size(row) > size(best) { row } else { best };
+            let pivot = (column..n).fold(column, larger);
+            // NaN is no pivot either.
+            if !(size(pivot) > zero) {
+                return false;
+            }
+            if pivot != column {
+                self.order.swap(pivot, column);
+                for k in 0..n {
+                    self.factors.swap(pivot * n + k, column * n + k);
+                }
+            }
+            let (above, below) = self.factors.split_at_mut((column + 1) * n);
+            let pivot_row = &above[column * n..];
+            for row in below.chunks_exact_mut(n) {
+                let factor = row[column] / pivot_row[column];
+                row[column] = factor;
+                if !factor.is_zero() {
+                    for k in column + 1..n {
+                        row[k] -= factor * pivot_row[k];
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Solves the factored system.
+    pub fn solve(&self, right_side: &[T], solution: &mut Vec<T>) {
+        let n = self.n;
+        solution.clear();
+        solution.extend(self.order.iter().map(|&row| right_side[row] / self.scales[row]));
+        for row in 0..n {
+            for k in 0..row {
+                let known = solution[k];
+                solution[row] -= self.factors[row * n + k] * known;
+            }
+        }
+        for row in (0..n).rev() {
+            for k in row + 1..n {
+                let known = solution[k];
+                solution[row] -= self.factors[row * n + k] * known;
+            }
+            solution[row] /= self.factors[row * n + row];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LinearSystem;
+
+    #[test]
+    fn the_solution_satisfies_the_equations() {
+        // Badly scaled, and with a zero where the first pivot would be.
+        let matrix = [0.0, 2e9, 1e9, 1e-7, 1e-7, 0.0, 3.0, -1.0, 4.0];
+        let right_side = [4e9, 3e-7, 13.0];
+        let (mut system, mut solution) = (LinearSystem::new(), Vec::new());
+        assert!(system.factor(&matrix, 3));
+        system.solve(&right_side, &mut solution);
+        for (row, due) in matrix.chunks(3).zip(right_side) {
+            let sum: f64 = row.iter().zip(&solution).map(|(a, x)| a * x).sum();
+            assert!((sum / due - 1.0).abs() < 1e-14);
+        }
+        assert!(!system.factor(&[1.0, 2.0, 2.0, 4.0], 2));
+        assert!(!system.factor(&[1.0, f64::NAN, 2.0, 4.0], 2));
+    }
+}

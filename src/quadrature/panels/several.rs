@@ -1,0 +1,299 @@
+//! Several contacts at once: the equations for their limits, and the pressure.
+//!
+//! With the weight w and the polynomial p of [`weight`], κ = 1 and g the slope of the gap, everything
+//! follows from one function,
+//!
+//! ```text
+//! V(x) = Σ_j PV∫ w p g/(s - x) ds over contact j
+//! P(x) = S(x)/p(x) V(x)/π²  on the contacts         Φ(x) = ∫ P/(x - s) ds = -S(x)/p(x) V(x)/π  off them
+//! ```
+//!
+//! (Muskhelishvili, *Singular Integral Equations*, 1953, §§ 88 and 89, with p in place of 1: whatever the
+//! limits balance, `V` is p times the same integral without p.) The limits are right when
+//!
+//! ```text
+//! V(ν_k) = 0 at each zero of p,    without corners ∫ w p g ds = 0           balance
+//! (1/π) ∫ w p q g ds = F,          q = x - c without corners, 1 with one    load
+//! ∫ Φ dx over a gap = h at its right end - h at its left end                each gap closes at both ends
+//! ```
+//!
+//! with h the height of the gap between the bodies. As many as there are free limits: two a contact. A limit e
+//! acts on each through `V(e)`, taken without what is infinite there (Hadamard's finite part), so that the
+//! Jacobian is exact:
+//!
+//! ```text
+//! of V(ν):  (V(e) - V(ν))/(2 (e - ν))        of ∫ w p g:  V(e)/2       of the load:  ((e - c) V(e) + ∫ w p g)/(2π)
+//! of a gap: V_k(e)/(2π) ∫ S/p_k dx/(x - e)    p_k = p/(x - ν_k),  V_k = (V - V(ν_k))/(x - ν_k)
+//! ```
+//!
+//! With one contact these are the equations of [`quadrature`](crate::quadrature).
+
+mod part;
+mod weight;
+
+use super::conjugate::LANES;
+use crate::gap::{Cost, Gap};
+use crate::{ContactError, Interval, Real};
+use part::{Part, gauss};
+use weight::Weight;
+
+/// The longest stretch of the way through a gap that one Gauss rule takes, in the variable t of
+/// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
+const STRETCH: f64 = 2.0;
+
+/// Several contacts on their panels.
+pub(crate) struct Several<T> {
+    parts: Vec<Part<T>>,
+    /// How many of the parts are in use.
+    count: usize,
+    weight: Weight<T>,
+    tolerance: T,
+    /// V at the limits, from left to right, and at the zeros of p.
+    at_ends: Vec<T>,
+    at_zeros: Vec<T>,
+}
+
+/// The conditions on the free limits, from left to right, linearised.
+pub(crate) struct System<T> {
+    /// By how much each condition fails.
+    pub residual: Vec<T>,
+    /// How much of that the quadrature and rounding leave open.
+    pub open: Vec<T>,
+    /// The derivatives by the limits, a row for each condition.
+    pub jacobian: Vec<T>,
+}
+
+impl<T> System<T> {
+    pub fn new() -> Self {
+        Self { residual: Vec::new(), open: Vec::new(), jacobian: Vec::new() }
+    }
+}
+
+impl<T: Real> Several<T> {
+    pub fn new(tolerance: T) -> Self {
+        Self {
+            parts: Vec::new(),
+            count: 0,
+            weight: Weight::new(),
+            tolerance,
+            at_ends: Vec::new(),
+            at_zeros: Vec::new(),
+        }
+    }
+
+    /// Forgets the samples: the contacts are others, or the bodies are.
+    pub fn clear(&mut self, same_bodies: bool) {
+        self.parts.iter_mut().for_each(|part| part.clear(same_bodies));
+        if !same_bodies {
+            self.parts.iter_mut().for_each(|part| part.cover.cost = Cost::default());
+        }
+        self.count = 0;
+    }
+
+    /// What sampling has cost.
+    pub fn cost(&self) -> Cost {
+        self.parts.iter().fold(Cost::default(), |sum, part| sum + part.cover.cost)
+    }
+
+    pub fn contacts(&self) -> &[Interval<T>] {
+        self.weight.contacts()
+    }
+
+    /// Turns to contacts between the ends of the bodies, and whether the outermost limits are corners. The
+    /// samples of contacts that have been there are kept, where they are as many.
+    pub fn set(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: &[Interval<T>],
+        corners: [bool; 2],
+        ends: [T; 2],
+    ) -> Result<(), ContactError<T>> {
+        self.weight.set(on, corners);
+        if on.len() != self.count {
+            self.clear(true);
+            self.count = on.len();
+        }
+        while self.parts.len() < self.count {
+            self.parts.push(Part::new(self.tolerance));
+        }
+        let half = T::of(0.5);
+        for (i, part) in self.parts[..self.count].iter_mut().enumerate() {
+            // No contact is sampled beyond the middle of a gap.
+            let from = if i == 0 { ends[0] } else { half * on[i - 1].right + half * on[i].left };
+            let to = on.get(i + 1).map_or(ends[1], |next| half * on[i].right + half * next.left);
+            part.sample(gap, on[i], [from, to])?;
+            part.set(|x| self.weight.on_contact(i, x));
+        }
+        Ok(())
+    }
+
+    fn parts(&self) -> &[Part<T>] {
+        &self.parts[..self.count]
+    }
+
+    /// V off the contacts, without contact `but`. Near contact `near` by the distance from that.
+    fn outside(&self, x: T, near: Option<(usize, T)>, but: Option<usize>) -> T {
+        let mut sum = T::zero();
+        for (i, part) in self.parts().iter().enumerate() {
+            if Some(i) == but {
+                continue;
+            }
+            let distance = match near {
+                Some((j, distance)) if i == j => distance,
+                _ => (part.on.left - x).max(x - part.on.right),
+            };
+            sum += part.outside(x, distance);
+        }
+        sum
+    }
+
+    /// The conditions for a load, that is F/κ.
+    pub fn system(&mut self, load: T, system: &mut System<T>) {
+        let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+        let n = self.count;
+        let corners = self.weight.corners();
+        let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
+        let centre = hull.plain().centre();
+        let mut at_ends = std::mem::take(&mut self.at_ends);
+        let mut at_zeros = std::mem::take(&mut self.at_zeros);
+        at_ends.clear();
+        at_zeros.clear();
+        for (i, part) in self.parts().iter().enumerate() {
+            for (x, right) in [(part.on.left, false), (part.on.right, true)] {
+                at_ends.push(part.at_end(right) + self.outside(x, None, Some(i)));
+            }
+        }
+        at_zeros.extend(self.weight.zeros().iter().map(|&x| self.outside(x, None, None)));
+        let System { residual, open, jacobian } = system;
+        residual.clear();
+        open.clear();
+        jacobian.clear();
+        let is_free = |i: usize| !(i == 0 && corners[0] || i + 1 == 2 * n && corners[1]);
+        let end = |i: usize| {
+            if i % 2 == 0 { self.parts[i / 2].on.left } else { self.parts[i / 2].on.right }
+        };
+        let mut row = |value: T, error: T, by: &mut dyn FnMut(usize) -> T| {
+            residual.push(value);
+            open.push(error);
+            jacobian.extend((0..2 * n).filter(|&i| is_free(i)).map(by));
+        };
+        let error = |share: &dyn Fn(&Part<T>) -> T| {
+            self.parts()
+                .iter()
+                .fold(zero, |sum, part| sum + T::pi() * part.moments.error * share(part))
+        };
+        for (&x, &value) in self.weight.zeros().iter().zip(&at_zeros) {
+            let away =
+                |part: &Part<T>| one / (x - part.on.right).abs().min((x - part.on.left).abs());
+            row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
+        }
+        let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.mean);
+        if corners == [false; 2] {
+            row(total, error(&|_| one), &mut |i| half * at_ends[i]);
+            let borne = self.parts().iter().fold(zero, |sum, Part { on, moments, .. }| {
+                sum + (on.centre() - centre) * moments.mean + on.half_width() * moments.first
+            });
+            let reach =
+                |part: &Part<T>| (part.on.left - centre).abs().max((part.on.right - centre).abs());
+            row(borne - load, error(&reach) / T::pi(), &mut |i| {
+                half * ((end(i) - centre) * at_ends[i] + total) / T::pi()
+            });
+        } else {
+            row(total / T::pi() - load, error(&|_| one) / T::pi(), &mut |i| {
+                half * at_ends[i] / T::pi()
+            });
+        }
+        let mut sums = vec![zero; 2 * n];
+        for k in 0..n - 1 {
+            let zero_of_p = self.weight.zeros().get(k).map(|&x| (x, at_zeros[k]));
+            sums.fill(zero);
+            let [mut closed, mut size] = [zero; 2];
+            let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
+            let width = right.left - left.right;
+            for at_right in [false, true] {
+                let (near, from) = if at_right { (k + 1, right) } else { (k, left) };
+                let edge = if at_right { right.left } else { left.right };
+                let sign = if at_right { -one } else { one };
+                // Half the gap.
+                let last = T::of(2.0) * (width / (T::of(4.0) * from.half_width())).sqrt().asinh();
+                let pieces = (last.part(0) / T::of(STRETCH)).ceil().max(one);
+                let step = last / pieces;
+                let mut start = zero;
+                while start < last * (one - T::epsilon().sqrt()) {
+                    for (&node, &weight) in
+                        gauss().nodes.iter().zip(&gauss().weights).take(gauss().n)
+                    {
+                        let t = start + half * step * T::of(1.0 + node);
+                        let sinh = (half * t).sinh();
+                        let distance = (from.half_width() + from.half_width()) * sinh * sinh;
+                        let x = edge + sign * distance;
+                        let dx = half * step * T::of(weight) * from.half_width() * t.sinh();
+                        let value = self.outside(x, Some((near, distance)), None);
+                        let distances = [distance, width - distance];
+                        let [from_left, to_right] =
+                            if at_right { [distances[1], distances[0]] } else { distances };
+                        let scale = self.weight.in_gap(k, x, [from_left, to_right]) * dx;
+                        let without =
+                            zero_of_p.map_or(value, |(zero, at)| (value - at) / (x - zero));
+                        closed -= scale * without / T::pi();
+                        size += (scale * without).abs() / T::pi();
+                        for (i, sum) in sums.iter_mut().enumerate() {
+                            let away = if i == 2 * k + 1 {
+                                from_left
+                            } else if i == 2 * k + 2 {
+                                -to_right
+                            } else {
+                                x - end(i)
+                            };
+                            *sum += scale / away;
+                        }
+                    }
+                    start += step;
+                }
+            }
+            let at_left = self.parts[k].height(left.right);
+            let at_right = self.parts[k + 1].height(right.left);
+            let due = at_right - at_left;
+            let rounding = T::of(4.0) * T::epsilon() * (at_left.abs() + at_right.abs() + size);
+            row(closed - due, rounding, &mut |i| {
+                let acting =
+                    zero_of_p.map_or(at_ends[i], |(zero, at)| (at_ends[i] - at) / (end(i) - zero));
+                acting / (T::pi() + T::pi()) * sums[i]
+            });
+        }
+        (self.at_ends, self.at_zeros) = (at_ends, at_zeros);
+    }
+
+    /// The number of the contact in which a place lies.
+    fn contact_with(&self, x: T) -> Option<usize> {
+        let i = self.parts().partition_point(|part| part.on.right <= x);
+        self.parts().get(i).filter(|part| part.on.contains(x)).map(|_| i)
+    }
+
+    /// `P/κ`, zero in the gaps between the contacts.
+    pub fn pressures(&self, x: &[T], pressures: &mut [T]) {
+        let mut done = 0;
+        while done < x.len() {
+            let contact = self.contact_with(x[done]);
+            let mut lanes = [x[done]; LANES];
+            let alike = |&&x: &&T| self.contact_with(x) == contact;
+            let count = x[done..].iter().take(LANES).take_while(alike).count();
+            lanes[..count].copy_from_slice(&x[done..done + count]);
+            let out = &mut pressures[done..done + count];
+            match contact {
+                None => out.fill(T::zero()),
+                Some(i) => {
+                    let part = &self.parts[i];
+                    let (own, root) = part.inside(&lanes, count);
+                    for (lane, pressure) in out.iter_mut().enumerate() {
+                        let x = lanes[lane];
+                        let others = root[lane] * self.outside(x, None, Some(i));
+                        let scale = T::pi() * T::pi() * self.weight.on_contact(i, x);
+                        *pressure = (own[lane] + others) / scale;
+                    }
+                }
+            }
+            done += count;
+        }
+    }
+}

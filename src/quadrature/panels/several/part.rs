@@ -1,0 +1,268 @@
+//! One of several contacts: the slope of the gap times the weight, and what follows from it.
+
+use super::super::angles::Gauss;
+use super::super::chebyshev::{MOST, Row, SIZES, Table, by_size, size_for};
+use super::super::conjugate::{Conjugate, Edges, LANES};
+use super::super::cover::Cover;
+use super::super::far::Far;
+use super::super::integrals;
+use super::super::panel::{Panel, within};
+use crate::gap::{Gap, Sampler};
+use crate::quadrature::Moments;
+use crate::{ContactError, Interval, Real};
+
+/// How often a panel is halved to resolve the weight: beside a gap, which may be as narrow as rounding
+/// lets it be.
+const MOST_HALVES: usize = 60;
+
+/// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
+const ROOM: f64 = 0.02;
+
+/// A contact much narrower than what was sampled is sampled anew.
+const NARROWER: f64 = 0.4;
+
+pub(super) struct Part<T> {
+    pub on: Interval<T>,
+    /// The slope of the gap around the contact.
+    pub cover: Cover<T>,
+    /// A place in the contact, and the height of the gap there.
+    height: Option<[T; 2]>,
+    /// `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
+    panels: Vec<Panel<T>>,
+    /// Stretches still to be looked at, with how often each has been halved.
+    waiting: Vec<([T; 2], usize)>,
+    /// The largest |H|.
+    size: T,
+    conjugate: Conjugate<T>,
+    /// Of a single panel: its series over the contact, and how many of the coefficients count.
+    series: Option<(Row<T>, usize)>,
+    /// Of several.
+    far: Far<T>,
+    /// Of H.
+    pub moments: Moments<T>,
+}
+
+impl<T: Real> Part<T> {
+    pub fn new(tolerance: T) -> Self {
+        let zero = T::zero();
+        Self {
+            on: Interval { left: zero, right: zero },
+            cover: Cover::new(tolerance),
+            height: None,
+            panels: Vec::new(),
+            waiting: Vec::new(),
+            size: zero,
+            conjugate: Conjugate::new(),
+            series: None,
+            far: Far::new(),
+            moments: Moments {
+                mean: zero,
+                first: zero,
+                size: zero,
+                error: zero,
+                inversion: zero,
+                trend: None,
+            },
+        }
+    }
+
+    /// Forgets the samples: the contact is another, or the bodies are.
+    pub fn clear(&mut self, same_bodies: bool) {
+        self.cover.clear(same_bodies);
+        self.height = None;
+    }
+
+    /// Moves it to an interval, sampling what is missing of the gap. `ends` is how far it may be sampled.
+    pub fn sample(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        ends: [T; 2],
+    ) -> Result<(), ContactError<T>> {
+        self.on = on;
+        let plain = on.plain();
+        let covers = |have: Interval<T>| have.left <= plain.left && have.right >= plain.right;
+        let close = |have: Interval<T>| on.half_width() >= T::of(NARROWER) * have.half_width();
+        if !self.cover.interval().is_some_and(|have| covers(have) && close(have)) {
+            if !self.cover.interval().is_some_and(close) {
+                self.clear(true);
+                self.cover.initial = 8;
+            }
+            let room = T::of(ROOM) * (plain.right - plain.left);
+            let [from, to] = ends;
+            let half = T::of(0.5);
+            // Half the way to an end, where the slope may be infinite.
+            let stretch = Interval {
+                left: (plain.left - room).max(half * plain.left + half * from),
+                right: (plain.right + room).min(half * plain.right + half * to),
+            };
+            self.cover.extend(gap, stretch)?;
+        }
+        if self.height.is_none() {
+            let (place, mut sampler) = (plain.centre(), Sampler::default());
+            let height = sampler.height(gap, place)?;
+            self.cover.cost += sampler.cost;
+            self.height = Some([place, height]);
+        }
+        Ok(())
+    }
+
+    /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
+    /// the integral of the slope from there.
+    pub fn height(&self, x: T) -> T {
+        self.height.map_or(T::zero(), |[place, height]| height + self.rise(place, x))
+    }
+
+    /// `∫ g dx` from one place to another.
+    pub fn rise(&self, from: T, to: T) -> T {
+        if to < from {
+            return -self.rise(to, from);
+        }
+        let stretch = within(&self.cover.panels, Interval { left: from, right: to });
+        let mut sum = T::zero();
+        for (i, panel) in stretch.iter().enumerate() {
+            let start = if i == 0 { from } else { panel.x[0] };
+            let end = if i + 1 == stretch.len() { to } else { panel.x[1] };
+            sum += panel.half()
+                * (primitive(panel, panel.local(end)) - primitive(panel, panel.local(start)));
+        }
+        sum
+    }
+
+    /// Multiplies the slope by a weight, and makes ready for everything that follows.
+    pub fn set(&mut self, weight: impl Fn(T) -> T) {
+        let on = self.on;
+        let sampled = within(&self.cover.panels, on);
+        self.panels.clear();
+        let tolerance = self.cover.tolerance;
+        (self.size, self.moments.error) = (T::zero(), T::zero());
+        for (i, panel) in sampled.iter().enumerate() {
+            let from = if i == 0 { on.left } else { panel.x[0] };
+            let to = if i + 1 == sampled.len() { on.right } else { panel.x[1] };
+            self.waiting.clear();
+            self.waiting.push(([from, to], 0));
+            while let Some((x, halved)) = self.waiting.pop() {
+                let (product, resolved) = multiply(panel, x, &weight, tolerance);
+                let [from, to] = x;
+                let middle = T::of(0.5) * (from + to);
+                if !resolved && halved < MOST_HALVES && middle > from && middle < to {
+                    self.waiting.push(([middle, to], halved + 1));
+                    self.waiting.push(([from, middle], halved + 1));
+                    continue;
+                }
+                let largest = product.coefficients().iter().fold(T::zero(), |sum, a| sum + a.abs());
+                self.size = self.size.max(largest);
+                self.panels.push(product);
+            }
+        }
+        self.conjugate.set(&self.panels, on, self.size, tolerance);
+        self.moments = integrals::moments(&self.panels, on, false);
+        self.series = match &self.panels[..] {
+            [panel] => Some(panel.over(on)),
+            panels => {
+                self.far.set_seen_from_outside(panels, on);
+                None
+            }
+        };
+    }
+
+    /// `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a distance from its
+    /// nearer end.
+    pub fn outside(&self, x: T, distance: T) -> T {
+        let half_width = self.on.half_width();
+        let beyond = distance / half_width;
+        let root = (beyond * (beyond + T::of(2.0))).sqrt();
+        let right = x > self.on.centre();
+        let Some((series, terms)) = &self.series else {
+            return self.far.outside(x, distance, self.on);
+        };
+        // The power series in the Joukowski variable.
+        let power = T::one() / (T::one() + beyond + root);
+        let u = if right { power } else { -power };
+        let sum = series[..*terms].iter().rev().fold(T::zero(), |sum, &a| sum * u + a);
+        let sum = T::pi() * sum / (root * half_width);
+        if right { -sum } else { sum }
+    }
+
+    /// V at one end of the contact, without what is infinite there.
+    pub fn at_end(&self, right: bool) -> T {
+        let Some(trend) = self.moments.trend else { return T::zero() };
+        T::pi() * if right { trend.by_0 + trend.by_1 } else { trend.by_0 - trend.by_1 }
+    }
+
+    /// `sqrt((x - α)(β - x)) V(x)` at so many points of the contact, and that root.
+    pub fn inside(&self, x: &[T; LANES], count: usize) -> ([T; LANES], [T; LANES]) {
+        let edges = Edges::of(self.on, x);
+        (self.conjugate.at(x, count, &edges), edges.root)
+    }
+
+    /// Estimated error of the first of these.
+    pub fn error(&self, x: T) -> T {
+        self.conjugate.error(&self.panels, x)
+    }
+}
+
+/// A panel of the product over a stretch, and whether its nodes are enough.
+fn multiply<T: Real>(
+    panel: &Panel<T>,
+    x: [T; 2],
+    weight: &impl Fn(T) -> T,
+    tolerance: T,
+) -> (Panel<T>, bool) {
+    let half = T::of(0.5);
+    let least = size_for((panel.counting + 4).min(MOST)).max(8);
+    let (mut product, mut resolved) = (Panel::new(x), false);
+    for n in SIZES.into_iter().filter(|&n| n >= least) {
+        let table = Table::of(n);
+        let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
+        let mut values = [T::zero(); MOST];
+        for (value, &z) in values[..n].iter_mut().zip(&table.z) {
+            // From the nearer end, where the weight may be steep.
+            let place =
+                if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
+            let factor = weight(place);
+            largest = largest.max(factor.abs());
+            *value = factor * panel.value(place);
+        }
+        by_size!(n, N => {
+            let mut row = [T::zero(); N];
+            row.copy_from_slice(&values[..N]);
+            product.series[..N].copy_from_slice(&table.coefficients(&row));
+        });
+        product.count(n);
+        let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+        // The rounding of x counts where the weight is steep.
+        let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
+        let noise = panel.tail * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
+        product.tail = noise + last;
+        resolved = last <= half * tolerance * all + noise;
+        if resolved {
+            break;
+        }
+    }
+    (product, resolved)
+}
+
+/// `∫ g ds` from 0 to s on a panel, in its own variable.
+fn primitive<T: Real>(panel: &Panel<T>, s: T) -> T {
+    let series = panel.coefficients();
+    let (half, mut sum) = (T::of(0.5), series[0] * s);
+    // ∫ T_k = (T_{k+1}/(k+1) - T_{k-1}/(k-1))/2
+    let (mut before, mut here) = (T::one(), s);
+    for (k, &a) in series.iter().enumerate().skip(1) {
+        let after = (s + s) * here - before;
+        sum += a * if k == 1 {
+            half * s * s
+        } else {
+            half * (after / T::count(k + 1) - before / T::count(k - 1))
+        };
+        (before, here) = (here, after);
+    }
+    sum
+}
+
+/// The rule on a stretch of the way through a gap.
+pub(super) fn gauss() -> &'static Gauss {
+    Gauss::sixteen()
+}

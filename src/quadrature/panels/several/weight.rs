@@ -1,0 +1,94 @@
+//! The weight of several contacts.
+//!
+//! With `R(x) = Π (x - α_j)(x - β_j)` over the contacts `[α_j, β_j]`, z their corners (the outermost limits
+//! only) and ν_k the middles of the gaps between them,
+//!
+//! ```text
+//! p(x) = Π (x - ν_k)        S(x) = sqrt(R(x))/Π (x - z)        w = 1/S
+//! ```
+//!
+//! with the sign of `(-1)^(number of contacts to the right)`. The plain w of many contacts overflows; `w p`
+//! does not: to each factor of R there is one of p close by, and `w p` keeps its sign over a contact. With two
+//! corners the degree of p is one less, and the last gap has no zero.
+
+use crate::{Interval, Real};
+
+pub(super) struct Weight<T> {
+    on: Vec<Interval<T>>,
+    /// Whether the outermost limits are corners, from left to right.
+    corners: [bool; 2],
+    zeros: Vec<T>,
+}
+
+impl<T: Real> Weight<T> {
+    pub fn new() -> Self {
+        Self { on: Vec::new(), corners: [false; 2], zeros: Vec::new() }
+    }
+
+    pub fn set(&mut self, on: &[Interval<T>], corners: [bool; 2]) {
+        self.on.clear();
+        self.on.extend_from_slice(on);
+        self.corners = corners;
+        let last = usize::from(corners == [true; 2]);
+        let half = T::of(0.5);
+        self.zeros.clear();
+        let gaps = on.windows(2).map(|pair| half * pair[0].right + half * pair[1].left);
+        self.zeros.extend(gaps.take((on.len() - 1).saturating_sub(last)));
+    }
+
+    pub fn contacts(&self) -> &[Interval<T>] {
+        &self.on
+    }
+
+    pub fn corners(&self) -> [bool; 2] {
+        self.corners
+    }
+
+    /// The zeros of p: that of gap k is number k.
+    pub fn zeros(&self) -> &[T] {
+        &self.zeros
+    }
+
+    /// `Π (x - z)` over the corners.
+    fn from_corners(&self, x: T) -> T {
+        let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
+        let [left, right] = self.corners;
+        (if left { x - first } else { T::one() }) * (if right { x - last } else { T::one() })
+    }
+
+    /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
+    pub fn on_contact(&self, i: usize, x: T) -> T {
+        let mut square = T::one();
+        for (k, on) in self.on.iter().enumerate() {
+            if k == i {
+                continue;
+            }
+            let zero = self.zeros.get(if k < i { k } else { k - 1 });
+            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
+            square *= factor / ((x - on.left) * (x - on.right));
+        }
+        // Contacts and zeros of p to the right of this one.
+        let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
+        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
+        sign * square.sqrt() * self.from_corners(x)
+    }
+
+    /// `S/p` at a place in gap k, without the zero of p in that gap, by the distances to both ends of the
+    /// gap.
+    pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
+        let [left, right] = [self.on[k], self.on[k + 1]];
+        let mut square = T::one();
+        for (m, on) in self.on.iter().enumerate() {
+            if m == k || m == k + 1 {
+                continue;
+            }
+            let zero = self.zeros.get(if m < k { m } else { m - 1 });
+            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
+            square *= (x - on.left) * (x - on.right) / factor;
+        }
+        let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
+        let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
+        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
+        sign * near * square.sqrt() / self.from_corners(x)
+    }
+}
