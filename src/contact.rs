@@ -3,6 +3,7 @@
 mod approach;
 mod edge_pressure;
 mod edges;
+mod field;
 mod first_contact;
 mod further;
 mod goal;

@@ -21,6 +21,7 @@
 //! Each lies at the origin, touching it from above where it bulges. [`Placed`] moves, turns, mirrors,
 //! flips and scales one; [`Piecewise::placed`] does so with a joined one.
 
+mod convexity;
 mod crowning;
 mod curve;
 mod derivatives;
@@ -35,6 +36,7 @@ mod placed;
 mod rounded_punch;
 mod spline;
 
+pub use convexity::Convexity;
 pub use crowning::Crowning;
 pub(crate) use crowning::relief;
 pub use curve::Curve;
@@ -125,6 +127,12 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
         }
     }
 
+    /// Which way the body bulges. A pair of bodies that bulge towards each other touches in one interval, and
+    /// the solver need not look for others. [`Convexity::Unknown`] by default.
+    fn convexity(&self) -> Convexity {
+        Convexity::Unknown
+    }
+
     /// How many smooth pieces a compound profile has; 0 (the default) for a profile that is
     /// smooth itself.
     fn pieces(&self) -> usize {
@@ -172,6 +180,9 @@ macro_rules! forward {
             }
             fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
                 (**self).at_many(k, points)
+            }
+            fn convexity(&self) -> Convexity {
+                (**self).convexity()
             }
             fn pieces(&self) -> usize {
                 (**self).pieces()

@@ -1,6 +1,6 @@
 //! The logarithmic relief of a roller.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, finite, interval};
+use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
 /// Logarithmic (Lundberg) crowning: `Y = -C ln(1 - (X/l)²)`, with `X = k`, the relief that keeps the
@@ -49,6 +49,10 @@ impl<T: Real> Crowning<T> {
 impl<T: Real> ParametricProfile<T> for Crowning<T> {
     fn domain(&self) -> [T; 2] {
         self.domain
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::of_sign(self.depth)
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

@@ -1,6 +1,6 @@
 //! A profile made of a closure.
 
-use super::{CurvePoint, ParametricProfile};
+use super::{Convexity, CurvePoint, ParametricProfile};
 use crate::Real;
 
 /// A profile made of a closure and the range of its parameter.
@@ -18,18 +18,28 @@ use crate::Real;
 pub struct Curve<T, F> {
     domain: [T; 2],
     point: F,
+    convexity: Convexity,
 }
 
 impl<T: Real, F: Fn(T) -> CurvePoint<T> + Send + Sync> Curve<T, F> {
     /// The curve `point(k)` for `k` in `domain`.
     pub fn new(domain: [T; 2], point: F) -> Self {
-        Self { domain, point }
+        Self { domain, point, convexity: Convexity::Unknown }
+    }
+
+    /// The same, given which way it bulges: see [`Convexity`].
+    pub fn bulging(self, convexity: Convexity) -> Self {
+        Self { convexity, ..self }
     }
 }
 
 impl<T: Real, F: Fn(T) -> CurvePoint<T> + Send + Sync> ParametricProfile<T> for Curve<T, F> {
     fn domain(&self) -> [T; 2] {
         self.domain
+    }
+
+    fn convexity(&self) -> Convexity {
+        self.convexity
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

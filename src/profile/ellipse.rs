@@ -1,6 +1,6 @@
 //! Arcs of ellipses and circles.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, finite, interval};
+use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
 /// An arc of an ellipse or a circle, `X = A sin k`, `Y = B (1 - cos k)`, by the angle k from its
@@ -59,6 +59,10 @@ impl<T: Real> Ellipse<T> {
 impl<T: Real> ParametricProfile<T> for Ellipse<T> {
     fn domain(&self) -> [T; 2] {
         self.angles
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::of_sign(self.across)
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

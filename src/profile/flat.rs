@@ -1,6 +1,6 @@
 //! The flat body.
 
-use super::{CurvePoint, ParametricProfile};
+use super::{Convexity, CurvePoint, ParametricProfile};
 use crate::Real;
 
 /// A flat surface, `Y = 0`, as long as the number type allows. Costs nothing: its slope is
@@ -13,6 +13,10 @@ impl<T: Real> ParametricProfile<T> for Flat {
         // A quarter of the largest number, so that sums of two such ends stay finite.
         let end = T::max_value().unwrap_or_else(|| T::epsilon().recip()) * T::of(0.25);
         [-end, end]
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::Straight
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

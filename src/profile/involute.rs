@@ -1,6 +1,6 @@
 //! The flank of a gear tooth.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, finite, interval};
+use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 use crate::reference::special::sin_minus_cos;
 
@@ -63,6 +63,10 @@ impl<T: Real> Involute<T> {
 impl<T: Real> ParametricProfile<T> for Involute<T> {
     fn domain(&self) -> [T; 2] {
         self.domain
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::Convex
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

@@ -1,6 +1,6 @@
 //! Straight bodies: a line, and two of them as a wedge.
 
-use super::{CurvePoint, ParametricProfile, Piecewise, PiecewiseError, ProfileError};
+use super::{Convexity, CurvePoint, ParametricProfile, Piecewise, PiecewiseError, ProfileError};
 use super::{finite, interval};
 use crate::Real;
 
@@ -35,6 +35,10 @@ impl<T: Real> Line<T> {
 impl<T: Real> ParametricProfile<T> for Line<T> {
     fn domain(&self) -> [T; 2] {
         self.domain
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::Straight
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

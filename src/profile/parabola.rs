@@ -1,6 +1,6 @@
 //! The parabola of Hertz.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, finite, interval};
+use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
 /// The parabola `Y = X²/(2R)`, with `X = k`: the body of Hertz's theory.
@@ -44,6 +44,10 @@ impl<T: Real> Parabola<T> {
 impl<T: Real> ParametricProfile<T> for Parabola<T> {
     fn domain(&self) -> [T; 2] {
         self.domain
+    }
+
+    fn convexity(&self) -> Convexity {
+        Convexity::of_sign(self.curvature)
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

@@ -1,6 +1,6 @@
 //! The combinator that joins smooth pieces.
 
-use super::{CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
+use super::{Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
 use crate::Real;
 use thiserror::Error;
 
@@ -36,6 +36,7 @@ pub struct Piecewise<T, P> {
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
     /// The smooth pieces: part, and piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
+    convexity: Convexity,
 }
 
 /// A look at a part.
@@ -98,7 +99,21 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
                 return Err(PiecewiseError::Jump { joint, x: left, left: y[1], right: y_next[0] });
             }
         }
-        Ok(Self { parts, tolerance, ends, smooth })
+        let mut convexity = parts[0].convexity();
+        for (joint, pair) in ends.windows(2).enumerate() {
+            let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
+            // Slopes that are the same but for rounding make no corner; 0/0 says nothing.
+            let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
+            let change = if (after - before).abs() <= size {
+                Convexity::Straight
+            } else if after > before || after < before {
+                Convexity::of_sign(after - before)
+            } else {
+                Convexity::Unknown
+            };
+            convexity = convexity.joined(parts[joint + 1].convexity(), change);
+        }
+        Ok(Self { parts, tolerance, ends, smooth, convexity })
     }
 
     /// The whole, put in another place. Its pieces are joined again, to within the same tolerance,
@@ -163,6 +178,10 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
         let scale = to - from;
         let point = self.parts[i].at(from + (k - T::count(i)) * scale);
         CurvePoint { dx: point.dx * scale, dy: point.dy * scale, ..point }
+    }
+
+    fn convexity(&self) -> Convexity {
+        self.convexity
     }
 
     fn pieces(&self) -> usize {

@@ -1,6 +1,6 @@
 //! A body moved, turned, mirrored or scaled.
 
-use super::{CurvePoint, ParametricProfile, Piece, ProfileError, finite};
+use super::{Convexity, CurvePoint, ParametricProfile, Piece, ProfileError, finite};
 use crate::Real;
 
 /// Where a body is put: a map of the plane that keeps angles, made step by step.
@@ -155,6 +155,24 @@ impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
 impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
     fn domain(&self) -> [T; 2] {
         self.curve.domain()
+    }
+
+    fn convexity(&self) -> Convexity {
+        let [[a, b], [c, d]] = self.placement.matrix;
+        // d²Y/dX² is multiplied by the determinant over the third power of dX/dx.
+        let stretch = if self.placement.is_upright() {
+            a
+        } else {
+            let [from, to] = self.curve.domain();
+            let CurvePoint { dx, dy, .. } = self.curve.at(T::of(0.5) * from + T::of(0.5) * to);
+            (a * dx + b * dy) * dx
+        };
+        let determinant = a * d - b * c;
+        if (determinant > T::zero()) == (stretch > T::zero()) {
+            self.curve.convexity()
+        } else {
+            self.curve.convexity().flipped()
+        }
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {

@@ -1,0 +1,96 @@
+//! What the pressure does outside the contacts, from a few of its values.
+//!
+//! With `P w = q₀ + Σ q_n cos nθ` over a contact, w² = (x + b)(a - x), and u the Joukowski variable of a place
+//! outside it (|u| <= 1 there, and 1 at the edge)
+//!
+//! ```text
+//! ∫ P ln|x - s| ds = π (q₀ ln(L/(2|u|)) - Σ q_n uⁿ/n)
+//! ```
+//!
+//! Values at 32 angles are enough for rounding where the pressure is smooth, and for a thousandth of it
+//! elsewhere.
+
+use crate::{Interval, Real};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// Angles at which the pressure is looked at, and as many coefficients.
+pub(crate) const POINTS: usize = 32;
+
+/// cos(m π/(2 POINTS))
+static COSINES: LazyLock<[f64; 4 * POINTS]> =
+    LazyLock::new(|| std::array::from_fn(|m| (m as f64 * PI / (2 * POINTS) as f64).cos()));
+
+/// The pressure of one contact as a cosine series.
+#[derive(Clone)]
+pub(crate) struct Field<T> {
+    on: Interval<T>,
+    q: [T; POINTS],
+}
+
+impl<T: Real> Field<T> {
+    /// The places at which the pressure is wanted, from right to left.
+    pub fn places(on: Interval<T>) -> [T; POINTS] {
+        std::array::from_fn(|i| {
+            on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS))
+        })
+    }
+
+    /// From the pressures at those places.
+    pub fn new(on: Interval<T>, x: &[T; POINTS], pressures: &[T; POINTS]) -> Self {
+        let bounded: [T; POINTS] = std::array::from_fn(|i| pressures[i] * on.edge_root(x[i]));
+        let q = std::array::from_fn(|n| {
+            let term = |sum: T, i: usize| {
+                sum + bounded[i] * T::of(COSINES[(2 * i + 1) * n % (4 * POINTS)])
+            };
+            let sum = (0..POINTS).fold(T::zero(), term) / T::count(POINTS);
+            if n == 0 { sum } else { sum + sum }
+        });
+        Self { on, q }
+    }
+
+    /// `∫ P ln|x - s| ds` at a place that is not inside the contact.
+    pub fn potential(&self, x: T) -> T {
+        let half_width = self.on.half_width();
+        let right = x > self.on.centre();
+        let distance = if right { x - self.on.right } else { self.on.left - x };
+        let beyond = distance.max(T::zero()) / half_width;
+        let size = T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt();
+        let u = if right { T::one() / size } else { -T::one() / size };
+        let (mut sum, mut power) = (T::zero(), T::one());
+        for (n, &q) in self.q.iter().enumerate().skip(1) {
+            power *= u;
+            sum += q * power / T::count(n);
+        }
+        T::pi() * (self.q[0] * (T::of(0.5) * half_width * size).ln() - sum)
+    }
+
+    /// The load of the contact.
+    pub fn load(&self) -> T {
+        T::pi() * self.q[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parabola of radius 1 on a flat, κ = 1: P = sqrt(L² - x²)/π, and outside the surfaces open by
+    /// x²/2 - L²/2 less the logarithmic potential.
+    #[test]
+    fn the_gap_beside_a_parabola() {
+        let on = Interval { left: -0.3, right: 0.3 };
+        let x = Field::places(on);
+        let pressures = x.map(|x: f64| (0.09 - x * x).sqrt() / PI);
+        let field = Field::new(on, &x, &pressures);
+        assert!((field.load() / 0.045 - 1.0).abs() < 1e-14);
+        for x in [0.3001f64, 0.4, 1.0, 30.0, -0.31, -2.0] {
+            let pushed = field.potential(x) - field.potential(0.3);
+            // h(x) - h(L) = (z sqrt(z² - 1) - arcosh z) L²/2 + that, z = |x|/L.
+            let z = x.abs() / 0.3;
+            let open = 0.045 * (z * (z * z - 1.0).sqrt() - z.acosh());
+            let due = 0.5 * x * x - 0.045 - open;
+            assert!((pushed - due).abs() < 1e-14 * (x * x).max(1.0), "{x}: {pushed} for {due}");
+        }
+    }
+}

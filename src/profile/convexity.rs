@@ -1,0 +1,59 @@
+//! Which way a body bulges.
+
+use crate::Real;
+
+/// How the height Y of a body bends as a function of X, as far as it is known.
+///
+/// Where the upper body is convex and the lower one concave (each may be straight) the gap between them is
+/// convex, and so they touch in one interval: the solver then takes no heights to look for others. A wrong
+/// word is found out by [`Solution::certify`](crate::Solution::certify).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convexity {
+    /// Nothing is known: the solver looks.
+    #[default]
+    Unknown,
+    /// The slope dY/dX is the same everywhere.
+    Straight,
+    /// The slope never falls with X, at joints either: an upper body that bulges towards the contact.
+    Convex,
+    /// The slope never rises with X: a lower body that bulges towards the contact.
+    Concave,
+}
+
+impl Convexity {
+    /// That of a body whose slope rises with a quantity of this sign.
+    pub(super) fn of_sign<T: Real>(sign: T) -> Self {
+        if sign > T::zero() {
+            Self::Convex
+        } else if sign < T::zero() {
+            Self::Concave
+        } else {
+            Self::Straight
+        }
+    }
+
+    /// With Y turned upside down.
+    pub(super) fn flipped(self) -> Self {
+        match self {
+            Self::Convex => Self::Concave,
+            Self::Concave => Self::Convex,
+            same => same,
+        }
+    }
+
+    /// Of a body in two parts, given how the slope changes from one to the other.
+    pub(super) fn joined(self, other: Self, change: Self) -> Self {
+        let both = |one: Self, other: Self| match (one, other) {
+            (Self::Straight, known) | (known, Self::Straight) => known,
+            (one, other) if one == other => one,
+            _ => Self::Unknown,
+        };
+        both(both(self, other), change)
+    }
+
+    /// Whether the gap between two bodies is convex.
+    pub(crate) fn gap_is_convex(lower: Self, upper: Self) -> bool {
+        matches!(lower, Self::Straight | Self::Concave)
+            && matches!(upper, Self::Straight | Self::Convex)
+    }
+}
