@@ -19,7 +19,9 @@
 #[path = "shared/timing.rs"]
 mod timing;
 
-use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Real};
+use linecontact::{
+    Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Real, Solver,
+};
 use std::hint::black_box;
 use timing::time;
 
@@ -59,7 +61,7 @@ fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() ->
     visit("cold", &mut || scene(0).solve(black_box(load(0))).expect(done).cost().evaluations);
 
     let (contact, mut turn) = (scene(0), 0);
-    let mut solver = contact.solver().expect(done);
+    let mut solver = Solver::new();
     visit("load", &mut || {
         turn += 1;
         solver.solve(&contact, black_box(load(turn))).expect(done).cost().evaluations

@@ -6,6 +6,8 @@
 use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, sweep};
 use std::time::Instant;
 
+const PANELS: Panels = Panels { tolerance: 1e-12 };
+
 /// Rollers of slightly different radii, each with its largest pressure.
 fn solve(scenes: &[f64]) -> Vec<Result<f64, ContactError<f64>>> {
     let one = |solver: &mut linecontact::Solver<f64>, &radius: &f64| {
@@ -13,10 +15,10 @@ fn solve(scenes: &[f64]) -> Vec<Result<f64, ContactError<f64>>> {
             let (s, c) = k.sin_cos();
             CurvePoint { x: radius * s, y: radius * (1.0 - c), dx: radius * c, dy: radius * s }
         });
-        let contact = Contact::new(&Flat, &arc)?;
+        let contact = Contact::new(&Flat, &arc)?.quadrature(&PANELS);
         Ok(solver.solve(&contact, Load::PerLength(0.1))?.peak()?.pressure)
     };
-    sweep(&Panels { tolerance: 1e-12 }, scenes, one, |_| {})
+    sweep(scenes, one, |_| {})
 }
 
 fn main() {

@@ -8,7 +8,7 @@
 
 use kuva::prelude::*;
 use linecontact::profile::{Involute, Placed, Placement};
-use linecontact::{Contact, Load, ProfileError};
+use linecontact::{Contact, Load, ProfileError, Solver};
 use std::error::Error;
 use std::f64::consts::PI;
 use std::fs;
@@ -69,8 +69,7 @@ struct Row {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::new();
-    let [pinion, wheel] = mesh.flanks(mesh.path[0])?;
-    let mut solver = Contact::new(&pinion, &wheel)?.solver()?;
+    let mut solver = Solver::new();
     let (mut rows, mut off, mut least) = (Vec::new(), [0.0f64; 2], f64::INFINITY);
     let mut share = 0.0f64;
     for step in 0..=STEPS {

@@ -21,13 +21,14 @@ pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
 pub(crate) use peak::peak;
 
-use crate::gap::{Cost, Gap};
+use crate::gap::{Cost, Gap, Shape};
 use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::{Solution, Worker};
-use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
+use crate::solution::Solution;
+use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Control};
 use goal::Goal;
+use std::sync::Arc;
 
 /// Two bodies to be pressed together, and the way to find their contact.
 ///
@@ -55,14 +56,14 @@ use goal::Goal;
 /// # Ok::<(), linecontact::ContactError<f64>>(())
 /// ```
 #[derive(Clone)]
-pub struct Contact<'a, T: Real> {
-    gap: Gap<'a, T>,
+pub struct Contact<'b, T: Real> {
+    gap: Gap<'b, T>,
     kappa: T,
     edges: [Edge<T>; 2],
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
-    search: Option<&'a dyn LimitSearch<T>>,
-    quadrature: &'a dyn Quadrature<T>,
+    search: Option<&'b dyn LimitSearch<T>>,
+    quadrature: &'b dyn Quadrature<T>,
     certified: bool,
 }
 
@@ -122,11 +123,7 @@ impl<T: Real> Found<T> {
     }
 }
 
-const NEWTON: Newton = Newton { tolerance: crate::search::Tolerance::FULL };
-const BRENT: Brent = Brent { tolerance: crate::search::Tolerance::FULL };
-const PANELS: Panels = Panels::FULL;
-
-impl<'a, T: Real> Contact<'a, T> {
+impl<'b, T: Real> Contact<'b, T> {
     /// The scene of two bodies, `lower` (body 1) and `upper` (body 2).
     ///
     /// Of each smooth body the two ends are looked at. [`Piece::checked`](crate::profile::Piece::checked)
@@ -135,17 +132,54 @@ impl<'a, T: Real> Contact<'a, T> {
     /// # Errors
     /// [`ContactError::Profile`], [`ContactError::Apart`].
     pub fn new(
-        lower: &'a dyn ParametricProfile<T>,
-        upper: &'a dyn ParametricProfile<T>,
+        lower: &'b dyn ParametricProfile<T>,
+        upper: &'b dyn ParametricProfile<T>,
     ) -> Result<Self, ContactError<T>> {
+        Self::of(Shape::Lent(lower), Shape::Lent(upper))
+    }
+
+    /// The same with bodies that the contact keeps, as do its solutions: where they hold no references
+    /// either, a function that makes them can return a `Solution<'static, T>`.
+    ///
+    /// ```
+    /// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Solution};
+    /// use std::sync::Arc;
+    ///
+    /// fn roller(radius: f64, load: f64) -> Result<Solution<'static, f64>, ContactError<f64>> {
+    ///     let arc = Curve::new([-1.0, 1.0], move |k: f64| {
+    ///         let (sin, cos) = k.sin_cos();
+    ///         CurvePoint {
+    ///             x: radius * sin,
+    ///             y: radius * (1.0 - cos),
+    ///             dx: radius * cos,
+    ///             dy: radius * sin,
+    ///         }
+    ///     });
+    ///     Contact::owned(Arc::new(Flat), Arc::new(arc))?.solve(Load::PerLength(load))
+    /// }
+    /// let pressure = roller(1.0, 0.02)?.pressure()?.at(0.0)?;
+    /// assert!(pressure > 0.0);
+    /// # Ok::<(), ContactError<f64>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn owned(
+        lower: Arc<dyn ParametricProfile<T> + 'b>,
+        upper: Arc<dyn ParametricProfile<T> + 'b>,
+    ) -> Result<Self, ContactError<T>> {
+        Self::of(Shape::Owned(lower), Shape::Owned(upper))
+    }
+
+    fn of(lower: Shape<'b, T>, upper: Shape<'b, T>) -> Result<Self, ContactError<T>> {
         Ok(Self {
-            gap: Gap::new(lower, upper, &NEWTON)?,
+            gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
             edges: [Edge::Free; 2],
             edge_pressure: None,
             start: None,
             search: None,
-            quadrature: &PANELS,
+            quadrature: &Panels::FULL,
             certified: false,
         })
     }
@@ -180,17 +214,17 @@ impl<'a, T: Real> Contact<'a, T> {
     }
 
     /// The strategy that inverts `X(k) = x`. Default [`Newton`].
-    pub fn inversion(self, strategy: &'a dyn LimitSearch<T>) -> Self {
+    pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
     /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both.
-    pub fn search(self, strategy: &'a dyn LimitSearch<T>) -> Self {
+    pub fn search(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { search: Some(strategy), ..self }
     }
 
     /// The quadrature. Default [`Panels`].
-    pub fn quadrature(self, quadrature: &'a dyn Quadrature<T>) -> Self {
+    pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }
 
@@ -216,38 +250,32 @@ impl<'a, T: Real> Contact<'a, T> {
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
     /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
-    pub fn solve(&self, load: Load<T>) -> Result<Solution<'_, T>, ContactError<T>> {
+    pub fn solve(&self, load: Load<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let mut engine = self.quadrature.engine()?;
         let (found, cost) = self.find(&mut *engine, None, load)?;
-        self.approved(Solution::new(&self.gap, Worker::Own(engine), self.kappa, found, cost))
+        self.solution(engine.into(), found, cost)
     }
 
-    /// A solver that solves again and again without starting afresh, for this scene and for
-    /// others like it.
-    ///
-    /// # Errors
-    /// [`ContactError::Segments`], [`ContactError::Tolerance`].
-    pub fn solver(&self) -> Result<Solver<T>, ContactError<T>> {
-        Solver::with(self.quadrature)
-    }
-
-    /// The solution, if it need not be a contact or is one.
-    pub(crate) fn approved<'s>(
+    /// The solution that was found, if it need not be a contact or is one.
+    pub(crate) fn solution(
         &self,
-        solution: Solution<'s, T>,
-    ) -> Result<Solution<'s, T>, ContactError<T>> {
+        engine: Arc<dyn Engine<T>>,
+        found: Found<T>,
+        cost: Cost,
+    ) -> Result<Solution<'b, T>, ContactError<T>> {
+        let solution = Solution::new(self.gap.clone(), engine, self.kappa, found, cost);
         if self.certified {
             solution.certify()?;
         }
         Ok(solution)
     }
 
-    pub(crate) fn gap(&self) -> &Gap<'a, T> {
+    pub(crate) fn gap(&self) -> &Gap<'b, T> {
         &self.gap
     }
 
-    pub(crate) fn scale(&self) -> T {
-        self.kappa
+    pub(crate) fn chosen_quadrature(&self) -> &dyn Quadrature<T> {
+        self.quadrature
     }
 
     /// Finds the limits with an engine that has been reset, from a contact like this one.
@@ -362,7 +390,7 @@ impl<'a, T: Real> Contact<'a, T> {
 
     /// The strategy of the nested search.
     fn strategy(&self) -> &dyn LimitSearch<T> {
-        self.search.unwrap_or(&BRENT)
+        self.search.unwrap_or(&Brent::DEFAULT)
     }
 }
 

@@ -18,7 +18,8 @@ pub use sampler::Sampler;
 
 use crate::profile::Piece;
 use crate::search::LimitSearch;
-use crate::{Body, ContactError, ParametricProfile, ProfileError, Real};
+use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Evaluations of smooth bodies after which a search is given up: thousands of times what one takes.
@@ -27,48 +28,68 @@ const MOST_EVALUATIONS: usize = 1 << 20;
 /// As many more for each piece.
 const MOST_FOR_A_PIECE: usize = 1 << 10;
 
-/// The slope of the gap between two bodies, not yet sampled.
+/// The slope of the gap between two bodies, not yet sampled. A clone is the same gap, and costs no
+/// allocation.
 #[derive(Clone)]
-pub struct Gap<'a, T: Real> {
-    bodies: [Surface<'a, T>; 2],
-    inversion: &'a dyn LimitSearch<T>,
+pub struct Gap<'b, T: Real> {
+    bodies: [Surface<'b, T>; 2],
+    inversion: &'b dyn LimitSearch<T>,
     range: [T; 2],
     /// Tells the gap from every other that was made, so that samples are not taken for those of
     /// another.
     number: u64,
 }
 
-/// A body as a row of smooth pieces.
+/// A body, lent by the user or owned.
 #[derive(Clone)]
-enum Surface<'a, T: Real> {
-    Smooth(Piece<'a, T>),
-    /// With the number of pieces, and the first.
-    Joined(&'a dyn ParametricProfile<T>, usize, Piece<'a, T>),
+pub(crate) enum Shape<'b, T: Real> {
+    Lent(&'b dyn ParametricProfile<T>),
+    Owned(Arc<dyn ParametricProfile<T> + 'b>),
 }
 
-impl<'a, T: Real> Surface<'a, T> {
-    fn new(body: Body, profile: &'a dyn ParametricProfile<T>) -> Result<Self, ContactError<T>> {
-        let surface = match Piece::first_of(profile) {
-            Ok(Some((count, first))) => Ok(Self::Joined(profile, count, first)),
-            Ok(None) => Piece::new(profile).map(Self::Smooth),
+impl<T: Real> Shape<'_, T> {
+    fn profile(&self) -> &dyn ParametricProfile<T> {
+        match self {
+            Self::Lent(profile) => *profile,
+            Self::Owned(profile) => &**profile,
+        }
+    }
+}
+
+/// A body as a row of smooth pieces.
+#[derive(Clone)]
+struct Surface<'b, T: Real> {
+    shape: Shape<'b, T>,
+    /// The number of pieces of a compound profile; `None` for one that is smooth itself.
+    joined: Option<usize>,
+    /// Of the first piece, its range of k and its ends. (The piece itself may be the shape's own.)
+    k: [T; 2],
+    ends: [CurvePoint<T>; 2],
+}
+
+impl<'b, T: Real> Surface<'b, T> {
+    fn new(body: Body, shape: Shape<'b, T>) -> Result<Self, ContactError<T>> {
+        let profile = shape.profile();
+        let pieces = match Piece::first_of(profile) {
+            Ok(Some((count, first))) => Ok((Some(count), first)),
+            Ok(None) => Piece::new(profile).map(|piece| (None, piece)),
             Err(source) => Err(source),
         };
-        surface.map_err(|source| ContactError::Profile { body, source })
+        match pieces {
+            Ok((joined, Piece { k, ends, .. })) => Ok(Self { shape, joined, k, ends }),
+            Err(source) => Err(ContactError::Profile { body, source }),
+        }
     }
 
     fn len(&self) -> usize {
-        match self {
-            Self::Smooth(_) => 1,
-            Self::Joined(_, count, _) => *count,
-        }
+        self.joined.unwrap_or(1)
     }
 
     fn piece(&self, index: usize) -> Piece<'_, T> {
-        match self {
-            Self::Smooth(piece) => *piece,
-            // One that is missing is noticed where it is used: the first is not in its place.
-            Self::Joined(profile, _, first) => profile.piece(index).unwrap_or(*first),
-        }
+        let profile = self.shape.profile();
+        let piece = self.joined.and_then(|_| profile.piece(index));
+        // One that is missing is noticed where it is used: the first is not in its place.
+        piece.unwrap_or(Piece { curve: profile, k: self.k, ends: self.ends })
     }
 
     fn extent(&self) -> [T; 2] {
@@ -137,11 +158,11 @@ pub(crate) enum Side {
     Right,
 }
 
-impl<'a, T: Real> Gap<'a, T> {
+impl<'b, T: Real> Gap<'b, T> {
     pub(crate) fn new(
-        lower: &'a dyn ParametricProfile<T>,
-        upper: &'a dyn ParametricProfile<T>,
-        inversion: &'a dyn LimitSearch<T>,
+        lower: Shape<'b, T>,
+        upper: Shape<'b, T>,
+        inversion: &'b dyn LimitSearch<T>,
     ) -> Result<Self, ContactError<T>> {
         static MADE: AtomicU64 = AtomicU64::new(1);
         let bodies = [Surface::new(Body::Lower, lower)?, Surface::new(Body::Upper, upper)?];
@@ -153,7 +174,7 @@ impl<'a, T: Real> Gap<'a, T> {
         Ok(Self { bodies, inversion, range, number: MADE.fetch_add(1, Ordering::Relaxed) })
     }
 
-    pub(crate) fn with_inversion(self, inversion: &'a dyn LimitSearch<T>) -> Self {
+    pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
         Self { inversion, ..self }
     }
 

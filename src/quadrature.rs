@@ -30,6 +30,7 @@ pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
+use std::any::Any;
 
 /// How many times the budget of a search may be spent where no samples are kept.
 const UNKEPT: usize = 16;
@@ -57,11 +58,22 @@ pub trait Quadrature<T: Real>: Send + Sync {
     /// # Errors
     /// [`ContactError::Segments`], [`ContactError::Tolerance`] for settings that cannot be used.
     fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>>;
+
+    /// Whether an engine is one of this quadrature, with these settings, so that a
+    /// [`Solver`](crate::Solver) may go on with it. By default none is, and each solve takes a new one.
+    ///
+    /// An engine is known by its type: `(engine as &dyn Any).downcast_ref::<MyEngine>()`.
+    fn serves(&self, _engine: &dyn Engine<T>) -> bool {
+        false
+    }
 }
 
 /// A [`Quadrature`] at work. It holds numbers only, is handed the gap with each request, and may
 /// keep samples from one to the next.
-pub trait Engine<T: Real>: Send + Sync {
+pub trait Engine<T: Real>: Any + Send + Sync {
+    /// A copy, with all that this one has: for a solver that goes on while a solution is kept.
+    fn fork(&self) -> Box<dyn Engine<T>>;
+
     /// What follows is a new problem: costs are counted from zero, and unless the bodies are the
     /// same all samples are forgotten.
     fn reset(&mut self, same_bodies: bool);

@@ -5,39 +5,31 @@ use crate::contact::{Found, peak};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
+use std::sync::Arc;
 
 /// A solved contact: its limits, and on request its pressure.
 ///
 /// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
 /// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
 /// overlap outside: [`certify`](Self::certify) proves that they do not.
-pub struct Solution<'s, T: Real> {
-    gap: &'s Gap<'s, T>,
-    engine: Worker<'s, T>,
+///
+/// It lives as long as the bodies, not the [`Contact`](crate::Contact) or the
+/// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
+/// cheap.
+#[derive(Clone)]
+pub struct Solution<'b, T: Real> {
+    gap: Gap<'b, T>,
+    /// That has solved the contact.
+    engine: Arc<dyn Engine<T>>,
     kappa: T,
     found: Found<T>,
     cost: Cost,
 }
 
-/// The engine that has solved the contact.
-pub(crate) enum Worker<'s, T> {
-    Own(Box<dyn Engine<T>>),
-    Lent(&'s dyn Engine<T>),
-}
-
-impl<T: Real> Worker<'_, T> {
-    fn engine(&self) -> &dyn Engine<T> {
-        match self {
-            Self::Own(engine) => &**engine,
-            Self::Lent(engine) => *engine,
-        }
-    }
-}
-
-impl<'s, T: Real> Solution<'s, T> {
+impl<'b, T: Real> Solution<'b, T> {
     pub(crate) fn new(
-        gap: &'s Gap<'s, T>,
-        engine: Worker<'s, T>,
+        gap: Gap<'b, T>,
+        engine: Arc<dyn Engine<T>>,
         kappa: T,
         found: Found<T>,
         cost: Cost,
@@ -96,7 +88,7 @@ impl<'s, T: Real> Solution<'s, T> {
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(self.gap, self.kappa, &self.found)
+        certify(&self.gap, self.kappa, &self.found)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points and the joints show which
@@ -114,10 +106,9 @@ impl<'s, T: Real> Solution<'s, T> {
     /// slope of the gap jumps up; those of sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         let Found { interval: on, strengths, free, .. } = self.found;
-        self.engine.engine().complete(self.gap)?;
-        let (engine, cost) = (self.engine.engine(), &mut Cost::default());
+        self.engine.complete(&self.gap)?;
         let (x, Estimate { value: pressure, .. }) =
-            peak(engine, self.gap, &self.pressing(), on, cost)?;
+            peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
@@ -142,19 +133,19 @@ impl<'s, T: Real> Solution<'s, T> {
     /// # Errors
     /// Those of sampling the gap.
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
-        let cost = self.engine.engine().complete(self.gap)?;
-        let (gap, Found { interval: on, load, error, force, .. }) = (self.gap, self.found);
+        let cost = self.engine.complete(&self.gap)?;
+        let (gap, Found { interval: on, load, error, force, .. }) = (&self.gap, self.found);
         let error = error.unwrap_or(T::zero());
         let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
         let Found { strengths, adhesive, .. } = self.found;
         let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
         let held = [held(0), held(1)];
         let pressing = self.pressing();
-        Ok(Pressure { gap, engine: self.engine.engine(), pressing, on, force, held, cost })
+        Ok(Pressure { gap, engine: &*self.engine, pressing, on, force, held, cost })
     }
 
-    pub(crate) fn gap(&self) -> &'s Gap<'s, T> {
-        self.gap
+    pub(crate) fn gap(&self) -> &Gap<'b, T> {
+        &self.gap
     }
 
     pub(crate) fn scale(&self) -> T {

@@ -1,22 +1,24 @@
 //! Solving again: the next load, the next time step.
 
 use crate::contact::Load;
-use crate::quadrature::{Engine, Quadrature};
-use crate::solution::{Solution, Worker};
+use crate::quadrature::Engine;
+use crate::solution::Solution;
 use crate::{Contact, ContactError, Interval, Real};
+use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
 ///
 /// The same scene under another load is solved from the samples at hand, and the curves are
 /// called again only where the contact grows beyond them. Another scene, such as the same bodies
 /// a time step later, is sampled anew, but only around the contact it had before. Once its
-/// workspace has grown to what the scenes need, solving allocates nothing.
+/// workspace has grown to what the scenes need, solving allocates nothing, provided that a solution is
+/// dropped before the next solve. One that is kept keeps its samples, and the solver goes on with a copy.
 ///
 /// Results depend on the calls made and on nothing else. One solver serves one thread, and may be
 /// sent to another.
 ///
 /// ```
-/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load};
+/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Solver};
 ///
 /// // A cam that turns: its lowest point moves.
 /// let cam = |angle: f64| {
@@ -25,8 +27,7 @@ use crate::{Contact, ContactError, Interval, Real};
 ///         CurvePoint { x: k, y: x * x / 2.0, dx: 1.0, dy: x }
 ///     })
 /// };
-/// let first = cam(0.0);
-/// let mut solver = Contact::new(&Flat, &first)?.solver()?;
+/// let mut solver = Solver::new();
 /// for step in 0..10 {
 ///     let angle = 0.1 * f64::from(step);
 ///     let body = cam(angle);
@@ -37,39 +38,55 @@ use crate::{Contact, ContactError, Interval, Real};
 /// # Ok::<(), ContactError<f64>>(())
 /// ```
 pub struct Solver<T: Real> {
-    engine: Box<dyn Engine<T>>,
+    engine: Option<Arc<dyn Engine<T>>>,
     /// The gap last solved, by its number, and the contact found.
     last: Option<(u64, Interval<T>)>,
 }
 
 impl<T: Real> Solver<T> {
-    /// A solver with a quadrature of its own, where there is no scene yet to make it from.
-    ///
-    /// # Errors
-    /// [`ContactError::Segments`], [`ContactError::Tolerance`].
-    pub fn with(quadrature: &dyn Quadrature<T>) -> Result<Self, ContactError<T>> {
-        Ok(Self { engine: quadrature.engine()?, last: None })
+    /// A solver that has not solved anything yet.
+    pub const fn new() -> Self {
+        Self { engine: None, last: None }
     }
 
-    /// Solves a scene, as [`Contact::solve`] does. The quadrature is the solver's, that of the
-    /// scene it was made from.
+    /// Solves a scene, as [`Contact::solve`] does. Where the quadrature of the scene is not that of the
+    /// one before ([`Quadrature::serves`](crate::quadrature::Quadrature::serves)) it is solved from
+    /// scratch.
     ///
     /// # Errors
     /// Those of [`Contact::solve`]. After an error the next scene is solved from scratch.
-    pub fn solve<'s>(
-        &'s mut self,
-        contact: &'s Contact<'_, T>,
+    pub fn solve<'b>(
+        &mut self,
+        contact: &Contact<'b, T>,
         load: Load<T>,
-    ) -> Result<Solution<'s, T>, ContactError<T>> {
-        let gap = contact.gap();
-        let last = self.last.take();
-        self.engine.reset(last.is_some_and(|(number, _)| number == gap.number()));
-        let (found, cost) = contact.find(&mut *self.engine, last.map(|(_, on)| on), load)?;
-        let worker = Worker::Lent(&*self.engine);
-        let solution =
-            contact.approved(Solution::new(gap, worker, contact.scale(), found, cost))?;
+    ) -> Result<Solution<'b, T>, ContactError<T>> {
+        let (gap, last) = (contact.gap(), self.last.take());
+        let quadrature = contact.chosen_quadrature();
+        let engine = self.engine.take().filter(|engine| quadrature.serves(&**engine));
+        let last = last.filter(|_| engine.is_some());
+        let engine = match engine {
+            Some(engine) => engine,
+            None => quadrature.engine()?.into(),
+        };
+        let engine = self.engine.insert(engine);
+        let work = loop {
+            match Arc::get_mut(engine) {
+                Some(work) => break work,
+                // A solution that was kept keeps its engine.
+                None => *engine = engine.fork().into(),
+            }
+        };
+        work.reset(last.is_some_and(|(number, _)| number == gap.number()));
+        let (found, cost) = contact.find(work, last.map(|(_, on)| on), load)?;
+        let solution = contact.solution(engine.clone(), found, cost)?;
         self.last = Some((gap.number(), found.interval));
         Ok(solution)
+    }
+}
+
+impl<T: Real> Default for Solver<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

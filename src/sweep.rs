@@ -1,7 +1,6 @@
 //! Many scenes at once, over all cores (feature `rayon`).
 
-use crate::quadrature::Quadrature;
-use crate::{ContactError, Real, Solver};
+use crate::{Real, Solver};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -23,13 +22,12 @@ const ROWS: usize = 64;
 /// those of rayon's current pool.
 ///
 /// ```
-/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, sweep};
+/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, sweep};
 ///
 /// let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
 /// let contact = Contact::new(&Flat, &parabola)?;
 /// let loads = [0.02, -1.0, 0.08];
 /// let half_widths: Vec<Result<f64, ContactError<f64>>> = sweep(
-///     &Panels::FULL,
 ///     &loads,
 ///     |solver, &load| Ok(solver.solve(&contact, Load::PerLength(load))?.a()),
 ///     |done| eprintln!("{done} of {}", loads.len()),
@@ -40,7 +38,6 @@ const ROWS: usize = 64;
 /// # Ok::<(), ContactError<f64>>(())
 /// ```
 pub fn sweep<T, S, R, E>(
-    quadrature: &dyn Quadrature<T>,
     scenes: &[S],
     solve: impl Fn(&mut Solver<T>, &S) -> Result<R, E> + Sync,
     progress: impl Fn(usize) + Sync,
@@ -49,21 +46,18 @@ where
     T: Real,
     S: Sync,
     R: Send,
-    E: From<ContactError<T>> + Send,
+    E: Send,
 {
     let row = scenes.len().div_ceil(ROWS).clamp(1, MOST_IN_A_ROW);
     let done = AtomicUsize::new(0);
-    let one = |solver: &mut Result<Solver<T>, ContactError<T>>, scene: &S| {
-        let result = match solver {
-            Ok(solver) => solve(solver, scene),
-            Err(error) => Err(error.clone().into()),
-        };
-        progress(1 + done.fetch_add(1, Ordering::Relaxed));
-        result
-    };
     let in_a_row = |row: &'_ [S]| -> Vec<Result<R, E>> {
-        let mut solver = Solver::with(quadrature);
-        row.iter().map(|scene| one(&mut solver, scene)).collect()
+        let mut solver = Solver::new();
+        let one = |scene| {
+            let result = solve(&mut solver, scene);
+            progress(1 + done.fetch_add(1, Ordering::Relaxed));
+            result
+        };
+        row.iter().map(one).collect()
     };
     scenes.par_chunks(row).flat_map_iter(in_a_row).collect()
 }

@@ -1,12 +1,12 @@
 //! The widest contact that there is room for.
 
+use super::Contact;
 use super::edges::Conditions;
 use super::first_contact::first_contact;
 use super::goal::Goal;
-use super::{BRENT, Contact};
 use crate::gap::{Cost, Sampler};
 use crate::quadrature::Engine;
-use crate::search::{Bracket, LimitSearch};
+use crate::search::{Bracket, Brent, LimitSearch};
 use crate::{Interval, Real};
 
 /// The contact in balance that reaches to one end of the bodies, or to a corner; `None` where that
@@ -36,5 +36,5 @@ pub(super) fn widest<T: Real>(
     let on = |x| if rightward { Interval { left: x, right } } else { Interval { left, right: x } };
     let bracket = if rightward { Bracket::new(left, first) } else { Bracket::new(first, right) };
     let mut f = |x| shift(on(x)).unwrap_or(T::of(f64::NAN));
-    BRENT.find(&mut f, &bracket).ok().map(|root| on(root.x))
+    Brent::DEFAULT.find(&mut f, &bracket).ok().map(|root| on(root.x))
 }

@@ -32,6 +32,7 @@ use super::{Engine, Estimate, Moments, Pressing, Quadrature, UNKEPT};
 use crate::gap::{Cost, Gap, Sampler, Side};
 use crate::{ContactError, Interval, Real};
 use level::{Level, Pole};
+use std::any::Any;
 use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
@@ -103,8 +104,14 @@ impl<T: Real> Quadrature<T> for Midpoint {
         let sums = OnceLock::new();
         Ok(Box::new(AtWork { rule: *self, levels, sampler, on: None, sums, moments: None }))
     }
+
+    fn serves(&self, engine: &dyn Engine<T>) -> bool {
+        let engine: &dyn Any = engine;
+        engine.downcast_ref().is_some_and(|AtWork { rule, .. }: &AtWork<T>| rule == self)
+    }
 }
 
+#[derive(Clone)]
 struct AtWork<T: Real> {
     rule: Midpoint,
     levels: Vec<usize>,
@@ -118,6 +125,10 @@ struct AtWork<T: Real> {
 }
 
 impl<T: Real> Engine<T> for AtWork<T> {
+    fn fork(&self) -> Box<dyn Engine<T>> {
+        Box::new(self.clone())
+    }
+
     fn reset(&mut self, same_bodies: bool) {
         self.sampler.cost = Cost::default();
         if !same_bodies {
@@ -189,6 +200,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
 }
 
 /// All levels, sampled on one interval.
+#[derive(Clone)]
 struct Sums<T: Real> {
     on: Interval<T>,
     levels: Vec<Level<T>>,

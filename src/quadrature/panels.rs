@@ -35,6 +35,7 @@ use conjugate::{Conjugate, Edges, LANES};
 pub(crate) use cover::Cover;
 pub(crate) use panel::Panel;
 pub(crate) use several::{Several, System};
+use std::any::Any;
 
 /// The default quadrature: panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,12 +64,19 @@ impl<T: Real> Quadrature<T> for Panels {
             return Err(ContactError::Tolerance { tolerance: T::of(self.tolerance) });
         }
         let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
-        let cover = Cover::new(tolerance);
-        Ok(Box::new(AtWork { cover, conjugate: Conjugate::new(), moments: None, fall: None }))
+        let (cover, conjugate) = (Cover::new(tolerance), Conjugate::new());
+        Ok(Box::new(AtWork { rule: *self, cover, conjugate, moments: None, fall: None }))
+    }
+
+    fn serves(&self, engine: &dyn Engine<T>) -> bool {
+        let engine: &dyn Any = engine;
+        engine.downcast_ref().is_some_and(|AtWork { rule, .. }: &AtWork<T>| rule == self)
     }
 }
 
+#[derive(Clone)]
 struct AtWork<T> {
+    rule: Panels,
     cover: Cover<T>,
     conjugate: Conjugate<T>,
     /// The interval last integrated over: in the end that of the conjugate.
@@ -121,6 +129,10 @@ impl<T: Real> AtWork<T> {
 }
 
 impl<T: Real> Engine<T> for AtWork<T> {
+    fn fork(&self) -> Box<dyn Engine<T>> {
+        Box::new(self.clone())
+    }
+
     fn cover(
         &mut self,
         gap: &Gap<'_, T>,

@@ -11,6 +11,11 @@ pub struct Bisection {
     pub tolerance: Tolerance,
 }
 
+impl Bisection {
+    /// All digits.
+    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+}
+
 impl<T: Real> LimitSearch<T> for Bisection {
     fn find(
         &self,

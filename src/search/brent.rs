@@ -14,6 +14,11 @@ pub struct Brent {
     pub tolerance: Tolerance,
 }
 
+impl Brent {
+    /// All digits.
+    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+}
+
 impl<T: Real> LimitSearch<T> for Brent {
     fn find(
         &self,

@@ -48,6 +48,9 @@ impl<T: Real> LimitSearch<T> for Newton {
 }
 
 impl Newton {
+    /// All digits.
+    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+
     fn run<T: Real>(
         &self,
         f: &mut dyn FnMut(T) -> (T, Option<T>),

@@ -12,6 +12,11 @@ pub struct Secant {
     pub tolerance: Tolerance,
 }
 
+impl Secant {
+    /// All digits.
+    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+}
+
 impl<T: Real> LimitSearch<T> for Secant {
     fn find(
         &self,

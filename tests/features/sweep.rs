@@ -1,7 +1,7 @@
 //! Many scenes at once: the same results whatever the threads, in order, failures alone.
 #![allow(missing_docs)]
 
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, sweep};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, Solver, sweep};
 use std::sync::Mutex;
 use thiserror::Error;
 
@@ -32,7 +32,6 @@ fn solve(scenes: &[Scene], threads: usize) -> (Vec<Result<[f64; 3], Fault>>, Vec
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let results = pool.install(|| {
         sweep(
-            &Panels::FULL,
             scenes,
             |solver, &(radius, load)| {
                 if radius <= 0.0 {
@@ -95,7 +94,10 @@ fn a_scene_that_fails_fails_alone() {
 #[test]
 fn settings_that_cannot_be_used_are_an_error_of_each() {
     let never = Panels { tolerance: 2.0 };
+    let contact = Contact::new(&Flat, &Flat).unwrap().quadrature(&never);
+    let solve =
+        |solver: &mut Solver<f64>, load| solver.solve(&contact, Load::PerLength(load)).map(|_| ());
     let results: Vec<Result<(), ContactError<f64>>> =
-        sweep(&never, &[1, 2, 3], |_, _| Ok(()), |_| {});
+        sweep(&[1.0, 2.0, 3.0], |solver, &load| solve(solver, load), |_| {});
     assert_eq!(results, vec![Err(ContactError::Tolerance { tolerance: 2.0 }); 3]);
 }

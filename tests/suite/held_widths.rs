@@ -5,7 +5,7 @@ use crate::common::{graph, parabola};
 use approx::assert_relative_eq;
 use linecontact::profile::{Ellipse, wedge};
 use linecontact::search::Brent;
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Panels};
+use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Panels, Solver};
 use std::f64::consts::PI;
 
 /// One limit and the width give the other, and K = 0 at the free edge the load: F = L²/2 - L c with
@@ -165,7 +165,7 @@ fn a_width_after_one_held_by_a_corner() {
     let evaluations = |steep: f64, corner: f64, half_widths: [f64; 2]| {
         let body = graph(-2.5, 2.5, move |x| [x * x / 2.0 - steep * x, x - steep]);
         let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::UpTo(corner));
-        let mut solver = contact.solver().unwrap();
+        let mut solver = Solver::new();
         let mut last = 0;
         for half_width in half_widths {
             let solution = solver.solve(&contact, Load::ToHalfWidth(half_width)).unwrap();

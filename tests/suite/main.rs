@@ -28,6 +28,7 @@ mod held_widths;
 mod invariants;
 mod limits;
 mod one_at_a_time;
+mod owned;
 mod peak;
 mod pieces;
 mod profiles;

@@ -6,7 +6,7 @@ use crate::common;
 use common::{Counting, graph, paper, power, scenes};
 use linecontact::{
     Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load, Midpoint,
-    ParametricProfile, Solution,
+    ParametricProfile, Solution, Solver,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -74,7 +74,7 @@ fn a_hundred_loads_up_and_down() {
         (&Flat, &ellipse, 0.001, 1e-13),
     ] {
         let contact = Contact::new(lower, upper).unwrap();
-        let mut solver = contact.solver().unwrap();
+        let mut solver = Solver::new();
         for i in 0..100 {
             // Now by little, now by factors up to 100.
             let load = least * 100f64.powf(scattered(i) * if i % 3 == 0 { 1.0 } else { 0.3 });
@@ -88,7 +88,7 @@ fn a_hundred_loads_up_and_down() {
 
 #[test]
 fn a_hundred_time_steps() {
-    let mut solver = None;
+    let mut solver = Solver::new();
     for i in 0..100 {
         let t = i as f64 / 100.0;
         // It moves to and fro, turns, and changes its curvature; every tenth step it jumps, so
@@ -107,7 +107,6 @@ fn a_hundred_time_steps() {
         }
         let load = Load::PerLength(0.005 * 10f64.powf(scattered(i / 7)));
         let cold = Result::of(&Contact::new(&*below, &body).unwrap().solve(load).unwrap());
-        let solver = solver.get_or_insert_with(|| contact.solver().unwrap());
         let warm = Result::of(&solver.solve(&contact, load).unwrap());
         warm.assert_close(&cold, 1e-13, &format!("step {i}"));
     }
@@ -118,9 +117,7 @@ fn the_last_contact_may_lie_beyond_the_next_bodies() {
     let scene = |middle: f64| {
         graph(middle - 1.0, middle + 1.0, move |x| [(x - middle).powi(2) / 2.0, x - middle])
     };
-    let first = scene(0.0);
-    let contact = Contact::new(&Flat, &*first).unwrap();
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     for middle in [0.0, 0.9, 2.5, -4.0, 1e6, 0.0] {
         let body = scene(middle);
         let contact = Contact::new(&Flat, &*body).unwrap();
@@ -135,7 +132,7 @@ fn the_last_contact_may_lie_beyond_the_next_bodies() {
 #[test]
 fn one_solver_serves_scenes_that_have_nothing_in_common() {
     let scenes = scenes();
-    let mut solver = scenes[0].contact().solver().unwrap();
+    let mut solver = Solver::new();
     for round in 0..2 {
         for i in 0..scenes.len() {
             let scene = &scenes[(i * 8 + round * 5) % scenes.len()];
@@ -154,7 +151,7 @@ fn the_next_load_costs_nothing_or_little() {
     let calls = AtomicUsize::new(0);
     let body = Counting(ellipse(1.0, 0.7, 0.2, 0.05), &calls);
     let contact = Contact::new(&Flat, &body).unwrap();
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     let mut count = |load: f64| {
         let before = calls.load(Ordering::Relaxed);
         let solution = solver.solve(&contact, Load::PerLength(load)).unwrap();
@@ -188,7 +185,7 @@ fn the_next_load_costs_nothing_or_little() {
 #[test]
 fn the_next_time_step_costs_less_than_the_first() {
     let calls = AtomicUsize::new(0);
-    let mut solver = None;
+    let mut solver = Solver::new();
     let (mut cold, mut warm) = (0, 0);
     for i in 0..20 {
         let t = f64::from(i) / 20.0;
@@ -199,7 +196,6 @@ fn the_next_time_step_costs_less_than_the_first() {
         let before = calls.load(Ordering::Relaxed);
         contact.solve(load).unwrap();
         let between = calls.load(Ordering::Relaxed);
-        let solver = solver.get_or_insert_with(|| contact.solver().unwrap());
         solver.solve(&contact, load).unwrap();
         if i > 0 {
             cold += between - before;
@@ -217,7 +213,7 @@ fn the_same_calls_give_the_same_bits() {
     let run = || {
         let contact = Contact::new(&Flat, &body).unwrap();
         let second = Contact::new(&Flat, &*other).unwrap();
-        let mut solver = contact.solver().unwrap();
+        let mut solver = Solver::new();
         let mut bits = Vec::new();
         for i in 0..30 {
             let contact = if i % 7 == 6 { &second } else { &contact };
@@ -237,12 +233,12 @@ fn a_solver_moves_to_another_thread() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let load = Load::PerLength(0.03);
     let cold = Result::of(&contact.solve(load).unwrap());
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     solver.solve(&contact, Load::PerLength(0.02)).unwrap();
     let results = std::thread::scope(|scope| {
         let first = scope.spawn(|| Result::of(&solver.solve(&contact, load).unwrap()));
         let second = scope.spawn(|| {
-            let mut solver = contact.solver().unwrap();
+            let mut solver = Solver::new();
             Result::of(&solver.solve(&contact, load).unwrap())
         });
         [first.join().unwrap(), second.join().unwrap()]
@@ -258,7 +254,7 @@ fn a_solver_works_on_after_an_error() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let load = Load::PerLength(0.03);
     let cold = Result::of(&contact.solve(load).unwrap());
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     let nan = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
         x: k,
         y: k * k / 2.0,
@@ -287,7 +283,7 @@ fn edges_and_controls_may_change_from_call_to_call() {
     let corner = contact.clone().edges(Edge::Fixed(-0.1), Edge::Free);
     let adhesive = contact.clone().edges(Edge::Adhesive(0.01), Edge::Adhesive(0.01));
     let stiffer = contact.clone().kappa(3.0);
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     for i in 0..24 {
         let contact = [&contact, &corner, &adhesive, &stiffer][i % 4];
         let load = match i % 3 {
@@ -310,7 +306,7 @@ fn given_limits_are_sampled_once() {
     let body = common::parabola(1.0);
     let edges = [Edge::Fixed(-0.4), Edge::Fixed(0.4)];
     let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
-    let mut solver = contact.solver().unwrap();
+    let mut solver = Solver::new();
     for (i, load) in [0.1, 0.2, 0.3].into_iter().enumerate() {
         let solution = solver.solve(&contact, Load::PerLength(load)).unwrap();
         assert_eq!(solution.cost().evaluations == 0, i > 0, "{i}");
@@ -336,7 +332,7 @@ fn the_papers_rule_starts_afresh_with_other_bodies() {
     let bodies = [Counting(curve(1.0, 0.0), &calls), Counting(curve(-1.0, 0.4), &calls)];
     let rule = Midpoint { segments: 16, ..Midpoint::DEFAULT };
     let scenes = [0, 1].map(|i| Contact::new(&Flat, &bodies[i]).unwrap().quadrature(&rule));
-    let mut solver = scenes[0].solver().unwrap();
+    let mut solver = Solver::new();
     for i in [0, 0, 1, 0, 1, 1] {
         let before = calls.load(Ordering::Relaxed);
         let solution = solver.solve(&scenes[i], Load::PerLength(0.02)).unwrap();

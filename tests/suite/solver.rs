@@ -4,7 +4,10 @@
 use crate::common;
 
 use common::join;
-use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile};
+use linecontact::{
+    Contact, ContactError, Curve, CurvePoint, Flat, Interval, Load, Midpoint, Panels,
+    ParametricProfile, Solution, Solver,
+};
 
 fn arc(from: f64, to: f64) -> Box<dyn ParametricProfile<f64>> {
     Box::new(Curve::new([from, to], |k: f64| {
@@ -21,7 +24,7 @@ fn loads_up_and_down() {
     };
     for body in [arc(-1.5, 1.5), pieces(2), pieces(7), pieces(50)] {
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let mut solver = contact.solver().unwrap();
+        let mut solver = Solver::new();
         for load in [0.03, 0.031, 0.02, 0.04, 0.03, 0.03, 1e-3, 0.05, 0.04, 0.005, 0.03] {
             let cold = contact.solve(Load::PerLength(load)).unwrap();
             let warm = solver.solve(&contact, Load::PerLength(load)).unwrap();
@@ -35,4 +38,42 @@ fn loads_up_and_down() {
             }
         }
     }
+}
+
+/// The interval, a pressure, an error and what it has cost, to tell one quadrature from another.
+fn seen(solution: &Solution<f64>) -> (Interval<f64>, [f64; 2], usize) {
+    let mut cost = linecontact::Cost::default();
+    let pressure = solution.pressure().unwrap();
+    let estimate = pressure.estimate(0.1 * solution.a(), &mut cost).unwrap();
+    (solution.interval(), [estimate.value, estimate.error], solution.cost().evaluations)
+}
+
+#[test]
+fn the_quadrature_is_that_of_each_contact() {
+    let body = arc(-1.5, 1.5);
+    let rules = [Midpoint::paper(16, 2), Midpoint::paper(32, 2)];
+    let panels = [Panels::FULL, Panels { tolerance: 1e-6 }];
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contacts = [
+        contact.clone(),
+        contact.clone().quadrature(&rules[0]),
+        contact.clone().quadrature(&panels[1]),
+        contact.clone().quadrature(&rules[1]),
+        contact.clone().quadrature(&panels[0]),
+    ];
+    let load = Load::PerLength(0.03);
+    let mut solver = Solver::new();
+    for which in [0, 1, 0, 3, 1, 2, 0, 2, 4, 3] {
+        let alone = seen(&contacts[which].solve(load).unwrap());
+        assert_eq!(seen(&solver.solve(&contacts[which], load).unwrap()), alone, "{which}");
+    }
+    // The same settings in another place serve: nothing is sampled again.
+    solver.solve(&contacts[0], load).unwrap();
+    assert_eq!(solver.solve(&contacts[4], load).unwrap().cost().evaluations, 0);
+    // Settings that cannot be used are refused here, too, and the solver is none the worse.
+    let never = Panels { tolerance: 1.0 };
+    let refused = solver.solve(&contact.clone().quadrature(&never), load).unwrap_err();
+    assert_eq!(refused, ContactError::Tolerance { tolerance: 1.0 });
+    let alone = seen(&contact.solve(load).unwrap());
+    assert_eq!(seen(&solver.solve(&contact, load).unwrap()), alone);
 }

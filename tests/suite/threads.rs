@@ -37,7 +37,7 @@ fn every_thread_has_the_same_bits() {
         let mut keys = vec![Vec::new(); scenes.len()];
         for i in 0..scenes.len() {
             let which = (first + i) % scenes.len();
-            let mut solver = scenes[which].solver().unwrap();
+            let mut solver = Solver::new();
             for step in 0..40 {
                 let load = Load::PerLength(0.01 + 0.002 * f64::from(step * 7 % 40));
                 keys[which].push(key(&mut solver, &scenes[which], load).ok());

@@ -52,6 +52,7 @@ impl<'g, T: Real> Pole<'g, T> {
 
 /// h at the points of one level. Places are counted in segments from the left edge, so that
 /// the distance of a point from the pole is a difference of two small exact numbers.
+#[derive(Clone)]
 pub(super) struct Level<T> {
     /// Segments.
     pub n: usize,

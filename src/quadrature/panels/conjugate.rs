@@ -77,6 +77,7 @@ const ARTANH: [f64; 9] = [
 ];
 
 /// A contact on its panels.
+#[derive(Clone)]
 pub(super) struct Conjugate<T> {
     pub on: Interval<T>,
     /// The smooth part: the first `terms` coefficients of the `U_l`, divided by L.
@@ -100,6 +101,7 @@ pub(super) struct Rounding<T> {
 }
 
 /// The difference of the series of two panels that meet, over the contact.
+#[derive(Clone)]
 struct Change<T> {
     joint: Joint<T>,
     series: Row<T>,
@@ -284,6 +286,7 @@ pub(super) fn shares<T: Real>(on: Interval<T>, x: T) -> [T; 2] {
 }
 
 /// The start of a panel, as the place of a logarithm.
+#[derive(Clone)]
 pub(super) struct Joint<T> {
     x: T,
     /// Square roots of its distances to the two edges, as shares of the width.

@@ -31,6 +31,7 @@ pub(crate) struct Held<T> {
 }
 
 /// A row of panels, from left to right without gaps.
+#[derive(Clone)]
 pub(crate) struct Cover<T> {
     pub panels: Vec<Panel<T>>,
     /// Panels still to be looked at, the leftmost last.

@@ -17,6 +17,7 @@ use crate::{Interval, Real};
 const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
 
 /// The panels of a contact.
+#[derive(Clone)]
 pub(super) struct Far<T> {
     parts: Vec<Part<T>>,
     /// Distances from the start of their part, and the slope there times the weight.
@@ -25,6 +26,7 @@ pub(super) struct Far<T> {
 }
 
 /// A panel, or what of it lies in the contact.
+#[derive(Clone)]
 pub(super) struct Part<T> {
     pub panel: Panel<T>,
     joint: Joint<T>,

@@ -24,6 +24,7 @@ const POINTS: usize = 24;
 const FEW: usize = 8;
 
 /// Some panels in a row.
+#[derive(Clone)]
 pub(super) struct Group<T> {
     /// Their numbers.
     pub parts: Range<usize>,

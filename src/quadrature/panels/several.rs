@@ -42,6 +42,7 @@ use weight::Weight;
 const STRETCH: f64 = 2.0;
 
 /// Several contacts on their panels.
+#[derive(Clone)]
 pub(crate) struct Several<T> {
     parts: Vec<Part<T>>,
     /// How many of the parts are in use.

@@ -180,6 +180,9 @@ impl Quadrature<f64> for Same {
 }
 
 impl Engine<f64> for Same {
+    fn fork(&self) -> Box<dyn Engine<f64>> {
+        Box::new(Same(self.0))
+    }
     fn reset(&mut self, _: bool) {}
     fn moments(
         &mut self,

@@ -1,6 +1,7 @@
 //! What a scene is set to.
 
 use super::*;
+use linecontact::Solver;
 
 #[test]
 fn loads_scales_and_edges() {
@@ -190,19 +191,16 @@ fn edge_pressures_rules_and_tolerances() {
         let contact = contact.clone().quadrature(&rule);
         let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Segments { segments: s, extrapolations: e }) if (*s, *e) == (segments, extrapolations));
         table.row(&format!("{rule:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), is_it);
-        table.row(&format!("solver of {rule:?}"), 0, || Ok(contact.solver().map(|_| ())?), is_it);
+        let of_solver = || Ok(Solver::new().solve(&contact, load).map(|_| ())?);
+        table.row(&format!("solver of {rule:?}"), 0, of_solver, is_it);
     }
     for tolerance in [NAN, INF, -INF, -1.0, -TINY, 1.0, 7.0] {
         let panels = Panels { tolerance };
         let contact_by = contact.clone().quadrature(&panels);
         let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Tolerance { tolerance: t }) if same(*t, tolerance));
         table.row(&format!("{panels:?}"), 0, || Ok(contact_by.solve(load).map(|_| ())?), is_it);
-        table.row(
-            &format!("solver of {panels:?}"),
-            0,
-            || Ok(contact_by.solver().map(|_| ())?),
-            is_it,
-        );
+        let of_solver = || Ok(Solver::new().solve(&contact_by, load).map(|_| ())?);
+        table.row(&format!("solver of {panels:?}"), 0, of_solver, is_it);
         // Of a search in use, of either kind.
         if tolerance >= 0.0 && tolerance.is_finite() {
             continue;

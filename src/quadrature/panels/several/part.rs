@@ -21,6 +21,7 @@ const ROOM: f64 = 0.02;
 /// A contact much narrower than what was sampled is sampled anew.
 const NARROWER: f64 = 0.4;
 
+#[derive(Clone)]
 pub(super) struct Part<T> {
     pub on: Interval<T>,
     /// The slope of the gap around the contact.

@@ -13,6 +13,7 @@
 
 use crate::{Interval, Real};
 
+#[derive(Clone)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
     /// Whether the outermost limits are corners, from left to right.
