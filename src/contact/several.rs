@@ -241,6 +241,7 @@ impl<T: Real> Newton<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::Shape;
     use crate::profile::{Curve, CurvePoint, Flat, Piecewise};
     use crate::search::Newton as Inversion;
 
@@ -251,7 +252,7 @@ mod tests {
         corners: [bool; 2],
     ) -> (Vec<Interval<f64>>, Vec<f64>, Several<f64>) {
         let inversion = Inversion::default();
-        let gap = Gap::new(&Flat, body, &inversion).unwrap();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(body), &inversion).unwrap();
         let mut several = Several::new(16.0 * f64::EPSILON);
         let mut newton = Newton::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();

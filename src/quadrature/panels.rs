@@ -65,7 +65,9 @@ impl<T: Real> Quadrature<T> for Panels {
         }
         let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
         let (cover, conjugate) = (Cover::new(tolerance), Conjugate::new());
-        Ok(Box::new(AtWork { rule: *self, cover, conjugate, moments: None, fall: None }))
+        let several = Several::new(tolerance);
+        let (moments, fall, is_several) = (None, None, false);
+        Ok(Box::new(AtWork { rule: *self, cover, conjugate, moments, fall, several, is_several }))
     }
 
     fn serves(&self, engine: &dyn Engine<T>) -> bool {
@@ -83,6 +85,24 @@ struct AtWork<T> {
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Of a sketch: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
+    /// Several contacts at once, and whether they are what was last turned to.
+    several: Several<T>,
+    is_several: bool,
+}
+
+/// Turns an engine of panels to several contacts; `None` for any other engine, which knows but one.
+pub(crate) fn several_mut<T: Real>(engine: &mut dyn Engine<T>) -> Option<&mut Several<T>> {
+    let engine: &mut dyn Any = engine;
+    let engine: &mut AtWork<T> = engine.downcast_mut()?;
+    engine.is_several = true;
+    Some(&mut engine.several)
+}
+
+/// The several contacts that an engine was last turned to; `None` if it was one.
+pub(crate) fn several<T: Real>(engine: &dyn Engine<T>) -> Option<&Several<T>> {
+    let engine: &dyn Any = engine;
+    let engine: &AtWork<T> = engine.downcast_ref()?;
+    engine.is_several.then_some(&engine.several)
 }
 
 impl<T: Real> AtWork<T> {
@@ -139,6 +159,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         on: Interval<T>,
         rough: bool,
     ) -> Result<Option<T>, ContactError<T>> {
+        self.is_several = false;
         if !rough {
             self.cover.initial = self.expected_size(on);
         }
@@ -188,6 +209,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        self.is_several = false;
         let m = self.moments(gap, on)?;
         // Nor is it to what little the contact has beyond a joint.
         if self.fall.is_none() && self.is_poor(&m) && self.cover.overshoots(gap, on) {
@@ -205,6 +227,11 @@ impl<T: Real> Engine<T> for AtWork<T> {
         out: &mut [T],
         _cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
+        if self.is_several {
+            self.several.pressures(x, out);
+            out.iter_mut().for_each(|pressure| *pressure *= pressing.kappa);
+            return Ok(());
+        }
         let (whole, rest) = x.as_chunks::<LANES>();
         let (out, rest_out) = out.as_chunks_mut::<LANES>();
         for (x, out) in whole.iter().zip(out) {
@@ -228,6 +255,10 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let mut value = [T::zero()];
         self.pressures(gap, pressing, &[x], &mut value, cost)?;
         let Pressing { kappa, .. } = *pressing;
+        if self.is_several {
+            let error = kappa * self.several.error(x) + T::of(4.0) * T::epsilon() * value[0].abs();
+            return Ok(Estimate { value: value[0], error });
+        }
         let on = self.conjugate.on;
         let of_series = kappa * self.conjugate.error(&self.cover.panels, x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
@@ -238,7 +269,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
     }
 
     fn cost(&self) -> Cost {
-        self.cover.cost
+        self.cover.cost + self.several.cost()
     }
 
     fn covered(&self) -> Option<Interval<T>> {
@@ -265,6 +296,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
 
     fn reset(&mut self, same_bodies: bool) {
         self.cover.cost = Cost::default();
+        self.several.reset(same_bodies);
         if !same_bodies {
             self.cover.clear(false);
             (self.fall, self.moments) = (None, None);

@@ -82,13 +82,14 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// Forgets the samples: the contacts are others, or the bodies are.
-    pub fn clear(&mut self, same_bodies: bool) {
-        self.parts.iter_mut().for_each(|part| part.clear(same_bodies));
-        if !same_bodies {
-            self.parts.iter_mut().for_each(|part| part.cover.cost = Cost::default());
+    /// Counts costs from zero, and forgets the samples unless the bodies are the same.
+    pub fn reset(&mut self, same_bodies: bool) {
+        for part in &mut self.parts {
+            part.cover.cost = Cost::default();
+            if !same_bodies {
+                part.clear(false);
+            }
         }
-        self.count = 0;
     }
 
     /// What sampling has cost.
@@ -111,7 +112,7 @@ impl<T: Real> Several<T> {
     ) -> Result<(), ContactError<T>> {
         self.weight.set(on, corners);
         if on.len() != self.count {
-            self.clear(true);
+            self.parts.iter_mut().for_each(|part| part.clear(true));
             self.count = on.len();
         }
         while self.parts.len() < self.count {
@@ -296,5 +297,35 @@ impl<T: Real> Several<T> {
             }
             done += count;
         }
+    }
+
+    /// Estimated error of `P/κ` at a place in one of the contacts.
+    pub fn error(&self, x: T) -> T {
+        let Some(i) = self.contact_with(x) else { return T::zero() };
+        let (part, sixth) = (&self.parts[i], T::of(6.0));
+        // An error of the edge integrals is one of what is infinite at the edges; the other contacts'
+        // add to it.
+        let others = self.parts().iter().enumerate().filter(|&(k, _)| k != i);
+        let by_others = others.fold(T::zero(), |sum, (_, other)| {
+            let away = (other.on.left - x).max(x - other.on.right);
+            sum + other.moments.error / away
+        });
+        let root = part.on.edge_root(x);
+        let of_edges = sixth * T::pi() * part.on.half_width() * part.moments.error / root;
+        let scale = T::pi() * T::pi() * self.weight.on_contact(i, x).abs();
+        (part.error(x) + of_edges + T::pi() * root * by_others) / scale
+    }
+
+    /// The strength `K/κ` of the singularity at a corner, `P ≈ K/sin θ`; zero at a free limit.
+    pub fn strength(&self, right: bool) -> T {
+        if !self.weight.corners()[usize::from(right)] {
+            return T::zero();
+        }
+        let i = if right { self.count - 1 } else { 0 };
+        let on = self.parts[i].on;
+        let corner = if right { on.right } else { on.left };
+        let value = self.parts[i].at_end(right) + self.outside(corner, None, Some(i));
+        let sign = if right { -T::of(2.0) } else { T::of(2.0) };
+        sign * value / (T::pi() * T::pi() * self.weight.beside_corner(right))
     }
 }

@@ -59,6 +59,11 @@ impl<T: Real> Weight<T> {
 
     /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
     pub fn on_contact(&self, i: usize, x: T) -> T {
+        self.smooth(i, x) * self.from_corners(x)
+    }
+
+    /// That without the corners.
+    fn smooth(&self, i: usize, x: T) -> T {
         let mut square = T::one();
         for (k, on) in self.on.iter().enumerate() {
             if k == i {
@@ -71,7 +76,15 @@ impl<T: Real> Weight<T> {
         // Contacts and zeros of p to the right of this one.
         let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * square.sqrt() * self.from_corners(x)
+        sign * square.sqrt()
+    }
+
+    /// The same at the left or the right corner, without the factor that vanishes there.
+    pub fn beside_corner(&self, right: bool) -> T {
+        let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
+        let (i, x, other) = if right { (self.on.len() - 1, last, first) } else { (0, first, last) };
+        let other = if self.corners[usize::from(!right)] { x - other } else { T::one() };
+        self.smooth(i, x) * other
     }
 
     /// `S/p` at a place in gap k, without the zero of p in that gap, by the distances to both ends of the
