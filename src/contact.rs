@@ -134,8 +134,8 @@ impl<'b, T: Real> Contact<'b, T> {
         Self::of(Shape::Lent(lower), Shape::Lent(upper))
     }
 
-    /// The same with bodies that the contact keeps, as do its solutions: where they hold no references
-    /// either, a function that makes them can return a `Solution<'static, T>`.
+    /// The same with bodies that the contact keeps, as do its solutions: a function that makes them can
+    /// return a `Solution<'static, T>`.
     ///
     /// ```
     /// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Solution};
@@ -161,8 +161,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn owned(
-        lower: Arc<dyn ParametricProfile<T> + 'b>,
-        upper: Arc<dyn ParametricProfile<T> + 'b>,
+        lower: Arc<dyn ParametricProfile<T>>,
+        upper: Arc<dyn ParametricProfile<T>>,
     ) -> Result<Self, ContactError<T>> {
         Self::of(Shape::Owned(lower), Shape::Owned(upper))
     }

@@ -32,7 +32,7 @@ struct Scene {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
-    Control,
+    Load,
     HalfWidth,
     CornersBeyond,
     CornerAtEdge,
