@@ -20,7 +20,7 @@
 mod timing;
 
 use linecontact::{
-    Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Real, Solver,
+    Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Real, Solver,
 };
 use std::hint::black_box;
 use timing::time;
@@ -55,7 +55,7 @@ fn roller<T: Real>(radius: f64, pieces: usize) -> Box<dyn ParametricProfile<T>> 
 fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() -> usize)) {
     let bodies = [1.0, 1.001, 1.002].map(|radius| roller::<T>(radius, pieces));
     let scene = |turn: usize| Contact::new(&Flat, &*bodies[turn % 3]).expect("they overlap");
-    let load = |turn: usize| Load::Constant(T::of(C * (1.0 - 0.01 * (turn % 3) as f64)));
+    let load = |turn: usize| Control::Load(T::of(C * (1.0 - 0.01 * (turn % 3) as f64)) / T::pi());
     let done = "the scene has a solution";
 
     visit("cold", &mut || scene(0).solve(black_box(load(0))).expect(done).cost().evaluations);

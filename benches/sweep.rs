@@ -3,7 +3,7 @@
 //! `cargo bench --features rayon --bench sweep [scenes]`
 #![allow(missing_docs)]
 
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, sweep};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, sweep};
 use std::time::Instant;
 
 const PANELS: Panels = Panels { tolerance: 1e-12 };
@@ -16,7 +16,7 @@ fn solve(scenes: &[f64]) -> Vec<Result<f64, ContactError<f64>>> {
             CurvePoint { x: radius * s, y: radius * (1.0 - c), dx: radius * c, dy: radius * s }
         });
         let contact = Contact::new(&Flat, &arc)?.quadrature(&PANELS);
-        Ok(solver.solve(&contact, Load::PerLength(0.1))?.peak()?.pressure)
+        Ok(solver.solve(&contact, Control::Load(0.1))?.peak()?.pressure)
     };
     sweep(scenes, one, |_| {})
 }

@@ -12,7 +12,7 @@
 #[path = "shared/timing.rs"]
 mod timing;
 
-use linecontact::{Contact, ContactError, CurvePoint, Edge, Flat, Interval, Load, Solver};
+use linecontact::{Contact, ContactError, Control, CurvePoint, Edge, Flat, Interval, Solver};
 use linecontact::{Panels, ParametricProfile, Piecewise, Solution};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::hint::black_box;
@@ -44,7 +44,7 @@ fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> 
 fn cold(task: &Task, bodies: &[Body; 2], tolerance: f64, points: &mut Points) -> Result<[f64; 2]> {
     let panels = Panels { tolerance };
     let contact = scene(task, bodies, &panels)?;
-    let solution = contact.solve(Load::Constant(task.c))?;
+    let solution = contact.solve(Control::Load(task.c / PI))?;
     pressures(&solution, points)
 }
 
@@ -56,7 +56,7 @@ fn warm(task: &Task, bodies: &[Body; 2], tolerance: f64) -> Result<f64> {
     let (mut points, mut turn) = (Points::new(), 0);
     Ok(time(|| {
         turn = (turn + 1) % 3;
-        let load = Load::Constant(task.c * (1.0 - 0.01 * f64::from(turn)));
+        let load = Control::Load(task.c * (1.0 - 0.01 * f64::from(turn)) / PI);
         let solution = solver.solve(&contact, black_box(load)).expect("solved before");
         let _ = black_box(pressures(&solution, &mut points));
     }))

@@ -7,7 +7,7 @@
 //! Checked against the contact's place, which is the derivative of the lift, against Hertz with the
 //! cam's radius of curvature there, and by the energy, which stays.
 
-use linecontact::{Contact, ContactError, CurvePoint, Flat, Load, ParametricProfile, Solver};
+use linecontact::{Contact, ContactError, Control, CurvePoint, Flat, ParametricProfile, Solver};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::f64::consts::{PI, TAU};
@@ -95,7 +95,7 @@ impl Simulation {
             return Err(SimulationError::LiftsOff { time });
         }
         let contact = Contact::new(&cam, &Flat)?.contact_modulus(MODULUS);
-        let solution = self.solver.solve(&contact, Load::PerLength(force))?;
+        let solution = self.solver.solve(&contact, Control::Load(force))?;
         let (arm, half_width) = (solution.interval().centre(), solution.interval().half_width());
 
         let hertz = (4.0 * force * (h + ddh) / (PI * MODULUS)).sqrt();

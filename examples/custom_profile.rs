@@ -5,7 +5,7 @@
 //! in Pa, load in N/m. The figures are checked against a solution of 25 digits
 //! (`tests/data/gear_involute_pitch_point.json`).
 
-use linecontact::{Contact, ContactError, CurvePoint, Load, ParametricProfile};
+use linecontact::{Contact, ContactError, Control, CurvePoint, ParametricProfile};
 
 /// The flank of a tooth. `x` runs along the common tangent at the pitch point, `y` across it.
 struct Flank {
@@ -38,7 +38,7 @@ fn main() -> Result<(), ContactError<f64>> {
     let pinion = Flank { base_radius: 37.5e-3, pitch, side: -1.0 };
     let wheel = Flank { base_radius: 112.5e-3, pitch, side: 1.0 };
     let contact = Contact::new(&pinion, &wheel)?.contact_modulus(113.187e9);
-    let solution = contact.solve(Load::PerLength(1571e3 / std::f64::consts::PI))?;
+    let solution = contact.solve(Control::Load(1571e3 / std::f64::consts::PI))?;
 
     let (a, b) = (solution.a(), solution.b());
     let pressure = solution.pressure()?;

@@ -8,7 +8,7 @@
 
 use kuva::prelude::*;
 use linecontact::profile::{Involute, Placed, Placement};
-use linecontact::{Contact, Load, ProfileError, Solver};
+use linecontact::{Contact, Control, ProfileError, Solver};
 use std::error::Error;
 use std::f64::consts::PI;
 use std::fs;
@@ -76,7 +76,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let s = mesh.path[0] + (mesh.path[1] - mesh.path[0]) * f64::from(step) / f64::from(STEPS);
         let [pinion, wheel] = mesh.flanks(s)?;
         let contact = Contact::new(&pinion, &wheel)?.contact_modulus(MODULUS);
-        let solution = solver.solve(&contact, Load::PerLength(mesh.load(s)))?;
+        let solution = solver.solve(&contact, Control::Load(mesh.load(s)))?;
         let solved = [solution.interval().half_width(), solution.peak()?.pressure];
 
         let radius = s * (mesh.line - s) / mesh.line; // 1/R = 1/s + 1/(line - s)

@@ -8,7 +8,7 @@
 use kuva::prelude::*;
 use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse};
-use linecontact::{Contact, Flat, Load};
+use linecontact::{Contact, Control, Flat};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kappa = FRAC_PI_2 * MODULUS;
     let exact = Ellipse::circle(RADIUS, HALF_WIDTH)?;
     let contact = Contact::new(&Flat, &smooth)?.contact_modulus(MODULUS);
-    let solution = contact.solve(Load::PerLength(exact.load(kappa)))?;
+    let solution = contact.solve(Control::Load(exact.load(kappa)))?;
     let (on, pressure) = (solution.interval(), solution.pressure()?);
     let middle = pressure.at(0.0)?;
     let off = [on.right / HALF_WIDTH, -on.left / HALF_WIDTH, middle / exact.pressure(0.0, kappa)];

@@ -5,7 +5,7 @@
 //! in the contact, those of making the body for each of its pieces, those of a pressure for all of
 //! it. The limits are checked against the exact solution.
 
-use linecontact::{Contact, Curve, CurvePoint, Flat, Load, Piecewise, Solver};
+use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
@@ -70,7 +70,7 @@ fn measure(pieces: usize) -> Result<Row, Box<dyn Error>> {
         let inside = (0..pieces).filter(|&i| end(i + 1) > -a.asin() && end(i) < a.asin());
         let count = inside.count() as f64;
         let clock = Clock::start();
-        let solution = solver.solve(&contact, Load::PerLength(k_less_e(a)))?;
+        let solution = solver.solve(&contact, Control::Load(k_less_e(a)))?;
         micros[1 + i] = clock.micros() / count;
         evaluations[i] = solution.cost().evaluations as f64 / count;
         error = error.max((solution.a() / a - 1.0).abs());

@@ -5,7 +5,7 @@
 //! solution, against which the figures are checked.
 
 use kuva::prelude::*;
-use linecontact::{Contact, ContactError, Cost, Curve, CurvePoint, Load, Solution};
+use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Solution};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let (groove, roller) = (arc(GROOVE), arc(ROLLER));
     let contact = Contact::new(&groove, &roller)?.contact_modulus(MODULUS);
-    let solution = contact.solve(Load::PerLength(LOAD))?;
+    let solution = contact.solve(Control::Load(LOAD))?;
 
     let (a, b) = (solution.a(), solution.b());
     let (peak, pressure) = (solution.peak()?, solution.pressure()?);

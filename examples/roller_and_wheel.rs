@@ -6,7 +6,7 @@
 
 use linecontact::profile::{Crowning, Ellipse, Placed, Placement};
 use linecontact::reference::{self, ClosedForm, UnequalRadii};
-use linecontact::{Contact, Flat, Load, ParametricProfile, Piecewise};
+use linecontact::{Contact, Control, Flat, ParametricProfile, Piecewise};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,7 +25,7 @@ fn roller() -> Result<(), Box<dyn Error>> {
     for half_width in [2.0, 6.0, 7.9] {
         let form = reference::Crowning::new(depth, end, half_width)?;
         let load = form.load(kappa);
-        let solution = contact.solve(Load::PerLength(load))?;
+        let solution = contact.solve(Control::Load(load))?;
         let x = 0.9 * half_width;
         let ratios =
             [solution.a() / half_width, solution.pressure()?.at(x)? / form.pressure(x, kappa)];
@@ -74,7 +74,7 @@ fn wheel() -> Result<(), Box<dyn Error>> {
     let kappa = FRAC_PI_2 * MODULUS;
     let mut last = f64::INFINITY;
     for load in [1000.0, 100.0, 10.0] {
-        let solution = contact.solve(Load::PerLength(load))?;
+        let solution = contact.solve(Control::Load(load))?;
         let form = UnequalRadii::under_load(radii[0], radii[1], load, kappa)?;
         let (got, want) = (solution.interval(), form.limits());
         let x = 0.5 * want.right;

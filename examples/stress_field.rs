@@ -11,7 +11,7 @@
 
 use kuva::prelude::*;
 use linecontact::stress::Subsurface;
-use linecontact::{Contact, ContactError, Cost, Curve, CurvePoint, Flat, Load, Solution};
+use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Flat, Solution};
 use std::error::Error;
 use std::fs;
 use std::time::Instant;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let roller =
         Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
     let contact = Contact::new(&Flat, &roller)?;
-    let solution = contact.solve(Load::ToHalfWidth(L))?;
+    let solution = contact.solve(Control::HalfWidth(L))?;
     let p0 = solution.peak()?.pressure;
     let below = solution.subsurface()?;
 

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use linecontact::autodiff::{Autodiff, Formula};
-//! use linecontact::{Contact, Flat, Load, Real};
+//! use linecontact::{Contact, Control, Flat, Real};
 //!
 //! /// The lower half of a circle, by the angle from its lowest point.
 //! struct Roller { r: f64 }
@@ -23,7 +23,7 @@
 //!
 //! let roller = Autodiff(Roller { r: 10.0 });
 //! let contact = Contact::new(&Flat, &roller)?.contact_modulus(115e3);
-//! let solution = contact.solve(Load::PerLength(500.0))?;
+//! let solution = contact.solve(Control::Load(500.0))?;
 //! assert!((solution.a() / 0.2354 - 1.0).abs() < 1e-3);
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
@@ -38,14 +38,14 @@
 //!
 //! ```
 //! use linecontact::autodiff::num_dual::Dual64;
-//! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+//! use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 //!
 //! let radius = Dual64::from_re(0.01).derivative();
 //! let parabola = Curve::new([-0.01, 0.01].map(Dual64::from_re), move |k| {
 //!     CurvePoint { x: k, y: k * k / (radius * 2.0), dx: Dual64::from_re(1.0), dy: k / radius }
 //! });
 //! let contact = Contact::new(&Flat, &parabola)?.contact_modulus(Dual64::from_re(115e9));
-//! let solution = contact.solve(Load::PerLength(Dual64::from_re(50e3)))?;
+//! let solution = contact.solve(Control::Load(Dual64::from_re(50e3)))?;
 //!
 //! // Hertz: a is proportional to the root of R, and the largest pressure to its reciprocal.
 //! let a = solution.a();

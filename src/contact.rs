@@ -26,7 +26,7 @@ use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::Solution;
 use crate::{ContactError, Interval, ParametricProfile, Real};
-use edges::{Conditions, Control};
+use edges::{Conditions, Given};
 use goal::Goal;
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ use std::sync::Arc;
 /// [`Panels`] for the integrals. One scene serves any number of loads.
 ///
 /// ```
-/// use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+/// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 ///
 /// // A steel roller of 10 mm radius on a steel flat: lengths in m, E* in Pa, load in N/m.
 /// let (r, modulus, load) = (0.01, 115e9, 50e3);
@@ -46,7 +46,7 @@ use std::sync::Arc;
 ///     CurvePoint { x: r * sin, y: r * (1.0 - cos), dx: r * cos, dy: r * sin }
 /// });
 /// let contact = Contact::new(&Flat, &roller)?.contact_modulus(modulus);
-/// let solution = contact.solve(Load::PerLength(load))?;
+/// let solution = contact.solve(Control::Load(load))?;
 ///
 /// // Hertz takes the circle for a parabola, which this roller is to about (a/r)².
 /// let hertz = (4.0 * load * r / (std::f64::consts::PI * modulus)).sqrt();
@@ -67,18 +67,16 @@ pub struct Contact<'b, T: Real> {
     certified: bool,
 }
 
-/// What presses the bodies together: a load, or as much as it takes.
+/// What is prescribed of the contact: the load, or another number for which the load comes out
+/// ([`Solution::load`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Load<T> {
-    /// F = ∫ P dx, force per unit length.
-    PerLength(T),
-    /// The paper's constant C = π F.
-    Constant(T),
-    /// As much as it takes to make the contact this wide: the half-width L = (a + b)/2.
-    ToHalfWidth(T),
-    /// As much as it takes for this largest pressure, between edges where the pressure is
-    /// bounded.
-    ToPeak(T),
+pub enum Control<T> {
+    /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
+    Load(T),
+    /// The half-width L = (a + b)/2: a length.
+    HalfWidth(T),
+    /// The largest pressure p₀ = max P(x), between edges where the pressure is bounded: a pressure.
+    PeakPressure(T),
 }
 
 /// A contact that was found.
@@ -138,11 +136,11 @@ impl<'b, T: Real> Contact<'b, T> {
         Self::of(Shape::Lent(lower), Shape::Lent(upper))
     }
 
-    /// The same with bodies that the contact keeps, as do its solutions: where they hold no references
-    /// either, a function that makes them can return a `Solution<'static, T>`.
+    /// The same with bodies that the contact keeps, as do its solutions: a function that makes them can
+    /// return a `Solution<'static, T>`.
     ///
     /// ```
-    /// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Solution};
+    /// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Solution};
     /// use std::sync::Arc;
     ///
     /// fn roller(radius: f64, load: f64) -> Result<Solution<'static, f64>, ContactError<f64>> {
@@ -155,7 +153,7 @@ impl<'b, T: Real> Contact<'b, T> {
     ///             dy: radius * sin,
     ///         }
     ///     });
-    ///     Contact::owned(Arc::new(Flat), Arc::new(arc))?.solve(Load::PerLength(load))
+    ///     Contact::owned(Arc::new(Flat), Arc::new(arc))?.solve(Control::Load(load))
     /// }
     /// let pressure = roller(1.0, 0.02)?.pressure()?.at(0.0)?;
     /// assert!(pressure > 0.0);
@@ -165,8 +163,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn owned(
-        lower: Arc<dyn ParametricProfile<T> + 'b>,
-        upper: Arc<dyn ParametricProfile<T> + 'b>,
+        lower: Arc<dyn ParametricProfile<T>>,
+        upper: Arc<dyn ParametricProfile<T>>,
     ) -> Result<Self, ContactError<T>> {
         Self::of(Shape::Owned(lower), Shape::Owned(upper))
     }
@@ -250,9 +248,9 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
     /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
-    pub fn solve(&self, load: Load<T>) -> Result<Solution<'b, T>, ContactError<T>> {
+    pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let mut engine = self.quadrature.engine()?;
-        let (found, cost) = self.find(&mut *engine, None, load)?;
+        let (found, cost) = self.find(&mut *engine, None, control)?;
         self.solution(engine.into(), found, cost)
     }
 
@@ -283,7 +281,7 @@ impl<'b, T: Real> Contact<'b, T> {
         &self,
         engine: &mut dyn Engine<T>,
         warm: Option<Interval<T>>,
-        load: Load<T>,
+        control: Control<T>,
     ) -> Result<(Found<T>, Cost), ContactError<T>> {
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
@@ -292,23 +290,22 @@ impl<'b, T: Real> Contact<'b, T> {
         if let Some(start) = self.start {
             check(start)?;
         }
-        let by_load = matches!(load, Load::PerLength(_) | Load::Constant(_));
+        let by_load = matches!(control, Control::Load(_));
         if self.edge_pressure.is_some() && !by_load {
             return Err(ContactError::EdgePressureLoad);
         }
         let mut cost = Cost::default();
-        let mut found = match load {
-            Load::PerLength(load) => self.under(engine, warm, load, &mut cost)?,
-            Load::Constant(c) => self.under(engine, warm, c / T::pi(), &mut cost)?,
-            Load::ToHalfWidth(half_width) => {
+        let mut found = match control {
+            Control::Load(load) => self.under(engine, warm, load, &mut cost)?,
+            Control::HalfWidth(half_width) => {
                 if !(half_width.is_finite() && half_width > T::zero()) {
                     return Err(ContactError::Load { load: half_width });
                 }
-                let control = Control::HalfWidth(half_width);
-                let conditions = Conditions { kappa, edges: self.checked_edges()?, control };
+                let given = Given::HalfWidth(half_width);
+                let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
                 approach::find(self, conditions, engine, warm, &mut cost)?
             }
-            Load::ToPeak(pressure) => {
+            Control::PeakPressure(pressure) => {
                 if !(pressure.is_finite() && pressure > T::zero()) {
                     return Err(ContactError::Load { load: pressure });
                 }
@@ -347,12 +344,12 @@ impl<'b, T: Real> Contact<'b, T> {
             let goal = Goal::Pressure { kappa, load, wanted };
             let nested = limits::find(self, load, goal, engine, self.start, cost)?;
             let m = engine.moments(&self.gap, nested.on)?;
-            let control = Control::Load(load);
-            let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], control };
+            let given = Given::Load(load);
+            let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };
             return Ok(Found::new(&conditions, nested.on, load, Some(nested.error), &m));
         }
         let edges = self.checked_edges()?;
-        let conditions = Conditions { kappa, edges, control: Control::Load(load) };
+        let conditions = Conditions { kappa, edges, given: Given::Load(load) };
         let sought = edges.iter().any(|edge| edge.is_free());
         let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
         if !load.is_finite() || (sought && !adhesive && load <= T::zero()) {

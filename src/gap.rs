@@ -40,11 +40,12 @@ pub struct Gap<'b, T: Real> {
     number: u64,
 }
 
-/// A body, lent by the user or owned.
+/// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
+/// dropped before whatever it refers to, and not only used no more.)
 #[derive(Clone)]
 pub(crate) enum Shape<'b, T: Real> {
     Lent(&'b dyn ParametricProfile<T>),
-    Owned(Arc<dyn ParametricProfile<T> + 'b>),
+    Owned(Arc<dyn ParametricProfile<T>>),
 }
 
 impl<T: Real> Shape<'_, T> {

@@ -43,11 +43,11 @@
 //!
 //! # Example
 //! ```
-//! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+//! use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 //!
 //! let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
 //! let contact = Contact::new(&Flat, &parabola)?;
-//! let solution = contact.solve(Load::PerLength(0.02))?;
+//! let solution = contact.solve(Control::Load(0.02))?;
 //! assert!((solution.a() - 0.2).abs() < 1e-15);
 //! assert!((solution.b() - 0.2).abs() < 1e-15);
 //!
@@ -80,7 +80,7 @@ pub mod stress;
 mod sweep;
 
 pub use certificate::{Certificate, Place};
-pub use contact::{Contact, Edge, EdgePressure, Load};
+pub use contact::{Contact, Control, Edge, EdgePressure};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;

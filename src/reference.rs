@@ -51,13 +51,13 @@
 //!
 //! ```
 //! use linecontact::reference::{ClosedForm, UnequalRadii, body};
-//! use linecontact::{Contact, Flat, Load};
+//! use linecontact::{Contact, Control, Flat};
 //!
 //! let (kappa, load): (f64, f64) = (1.7, 0.05);
 //! let form = UnequalRadii::under_load(1.0, 0.2, load, kappa)?;
 //! let body = body(&form, -1.0, 1.0)?;
 //! let contact = Contact::new(&Flat, &body)?.kappa(kappa);
-//! let solution = contact.solve(Load::PerLength(load))?;
+//! let solution = contact.solve(Control::Load(load))?;
 //! assert!((solution.a() / form.limits().right - 1.0).abs() < 1e-14);
 //! let pressure = solution.pressure()?.at(0.01)?;
 //! assert!((pressure / form.pressure(0.01, kappa) - 1.0).abs() < 1e-14);

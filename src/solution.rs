@@ -121,7 +121,7 @@ impl<'b, T: Real> Solution<'b, T> {
         Ok(Peak { x, pressure })
     }
 
-    /// What finding the limits has cost, the pressures that [`Load::ToPeak`](crate::Load::ToPeak) takes
+    /// What finding the limits has cost, the pressures that [`Control::PeakPressure`](crate::Control::PeakPressure) takes
     /// for it included.
     pub fn cost(&self) -> Cost {
         self.cost

@@ -1,6 +1,6 @@
 //! Solving again: the next load, the next time step.
 
-use crate::contact::Load;
+use crate::contact::Control;
 use crate::quadrature::Engine;
 use crate::solution::Solution;
 use crate::{Contact, ContactError, Interval, Real};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// sent to another.
 ///
 /// ```
-/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Solver};
+/// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Solver};
 ///
 /// // A cam that turns: its lowest point moves.
 /// let cam = |angle: f64| {
@@ -32,7 +32,7 @@ use std::sync::Arc;
 ///     let angle = 0.1 * f64::from(step);
 ///     let body = cam(angle);
 ///     let contact = Contact::new(&Flat, &body)?;
-///     let solution = solver.solve(&contact, Load::PerLength(0.02))?;
+///     let solution = solver.solve(&contact, Control::Load(0.02))?;
 ///     assert!((solution.a() - 0.2 - 0.1 * angle.sin()).abs() < 1e-14);
 /// }
 /// # Ok::<(), ContactError<f64>>(())
@@ -58,7 +58,7 @@ impl<T: Real> Solver<T> {
     pub fn solve<'b>(
         &mut self,
         contact: &Contact<'b, T>,
-        load: Load<T>,
+        control: Control<T>,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
         let (gap, last) = (contact.gap(), self.last.take());
         let quadrature = contact.chosen_quadrature();
@@ -77,7 +77,7 @@ impl<T: Real> Solver<T> {
             }
         };
         work.reset(last.is_some_and(|(number, _)| number == gap.number()));
-        let (found, cost) = contact.find(work, last.map(|(_, on)| on), load)?;
+        let (found, cost) = contact.find(work, last.map(|(_, on)| on), control)?;
         let solution = contact.solution(engine.clone(), found, cost)?;
         self.last = Some((gap.number(), found.interval));
         Ok(solution)

@@ -31,11 +31,11 @@
 //! `ln(L/y)` units; not so at y = 0. A value takes some tens of microseconds.
 //!
 //! ```
-//! use linecontact::{Contact, Curve, CurvePoint, Flat, Load};
+//! use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 //!
 //! let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
 //! let contact = Contact::new(&Flat, &parabola)?;
-//! let solution = contact.solve(Load::ToHalfWidth(0.1))?;
+//! let solution = contact.solve(Control::HalfWidth(0.1))?;
 //! let peak = solution.peak()?.pressure;
 //!
 //! // The greatest shear lies below the surface (Johnson, Eq. 4.47).

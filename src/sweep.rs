@@ -22,14 +22,14 @@ const ROWS: usize = 64;
 /// those of rayon's current pool.
 ///
 /// ```
-/// use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, sweep};
+/// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, sweep};
 ///
 /// let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
 /// let contact = Contact::new(&Flat, &parabola)?;
 /// let loads = [0.02, -1.0, 0.08];
 /// let half_widths: Vec<Result<f64, ContactError<f64>>> = sweep(
 ///     &loads,
-///     |solver, &load| Ok(solver.solve(&contact, Load::PerLength(load))?.a()),
+///     |solver, &load| Ok(solver.solve(&contact, Control::Load(load))?.a()),
 ///     |done| eprintln!("{done} of {}", loads.len()),
 /// );
 /// assert!((half_widths[0].as_ref().unwrap() - 0.2).abs() < 1e-15);

@@ -4,7 +4,9 @@
 //! that allocate when they like.
 #![allow(missing_docs)]
 
-use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise, Solver};
+use linecontact::{
+    Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Solver,
+};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 
@@ -61,7 +63,7 @@ fn solve(
 }
 
 fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
-    let solution = solver.solve(contact, Load::PerLength(load)).unwrap();
+    let solution = solver.solve(contact, Control::Load(load)).unwrap();
     let (on, mut pressures) = (solution.interval(), [0.0; 101]);
     let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(0.02 + 0.03 * i as f64));
     let pressure = solution.pressure().unwrap();
@@ -127,8 +129,7 @@ fn nothing_grows_over_a_million_solves() {
     let (blunt, below) = (three_pieces(), roller(0.1, -2.0));
     let contact = Contact::new(&below, &blunt).unwrap();
     let mut solver = Solver::new();
-    let load =
-        |i: u32| Load::PerLength(0.01 + 1e-3 * f64::from(i.wrapping_mul(2_654_435_761) >> 26));
+    let load = |i: u32| Control::Load(0.01 + 1e-3 * f64::from(i.wrapping_mul(2_654_435_761) >> 26));
     for i in 0..1000 {
         solver.solve(&contact, load(i)).unwrap();
     }

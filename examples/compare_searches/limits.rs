@@ -2,7 +2,8 @@
 
 use crate::scenes::{self, Scene};
 use crate::{NAMES, Tally, searches};
-use linecontact::{Contact, ContactError, Cost, Interval, Load};
+use linecontact::{Contact, ContactError, Control, Cost, Interval};
+use std::f64::consts::PI;
 
 /// What became of one contact.
 struct Outcome {
@@ -13,7 +14,7 @@ struct Outcome {
 }
 
 fn solve(scene: &Scene, contact: &Contact<'_, f64>) -> Outcome {
-    match contact.solve(Load::Constant(scene.c)) {
+    match contact.solve(Control::Load(scene.c / PI)) {
         Ok(found) => {
             let errors = scene.errors(found.a(), found.b());
             let poor = errors.iter().any(|&error| error > scene.allowed);

@@ -14,7 +14,7 @@ mod kept;
 mod scenes;
 
 use kept::{counts_agree, errors_agree};
-use linecontact::{Contact, ContactError, Cost, CurvePoint, Interval, Load};
+use linecontact::{Contact, ContactError, Control, Cost, CurvePoint, Interval};
 use scenes::{Profile, Scene};
 use std::error::Error;
 use std::path::Path;
@@ -77,7 +77,7 @@ fn solve<T>(
     with: impl FnOnce(&linecontact::Solution<f64>) -> Result<T, ContactError<f64>>,
 ) -> Result<T, ContactError<f64>> {
     let contact = Contact::new(&**lower, &**upper)?.kappa(scene.kappa);
-    with(&contact.solve(Load::PerLength(scene.load))?)
+    with(&contact.solve(Control::Load(scene.load))?)
 }
 
 /// How far two contacts are apart, by the half-width of the first.

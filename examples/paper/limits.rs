@@ -1,7 +1,7 @@
 //! Examples 3 to 5: curves without an inverse in closed form, limits sought.
 
 use crate::curves::{self, Example};
-use linecontact::{Contact, ContactError, Cost, EdgePressure, Interval, Load, Midpoint};
+use linecontact::{Contact, ContactError, Control, Cost, EdgePressure, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
@@ -113,7 +113,7 @@ pub fn solve(case: &Case, reading: Reading, zero: Zero) -> Result<Solved, Contac
             contact.edge_pressure(EdgePressure::zero(segment, 1e-6 * mean_pressure))
         }
     };
-    let solution = contact.solve(Load::Constant(c))?;
+    let solution = contact.solve(Control::Load(c / PI))?;
     let (contact, cost) = (solution.interval(), solution.cost());
     let pressure = solution.pressure()?;
     let cost = cost + pressure.cost();

@@ -1,7 +1,7 @@
 //! Tables 1 and 2: the absolute errors of the paper's quadrature, known limits.
 
 use crate::curves::{self, Example};
-use linecontact::{Contact, ContactError, Edge, Interval, Load, Midpoint};
+use linecontact::{Contact, ContactError, Control, Edge, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
@@ -79,7 +79,7 @@ pub fn table1() -> Result<Vec<Entry>, ContactError<f64>> {
     let Example { lower, upper, c } = curves::one();
     let on = Interval { left: -1.0, right: 1.0 };
     let contact = Contact::new(&lower, &upper)?.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
-    table(1, &contact, Load::Constant(c), SEGMENTS_1, &TABLE_1, exact)
+    table(1, &contact, Control::Load(c / PI), SEGMENTS_1, &TABLE_1, exact)
 }
 
 /// Table 2: Example 2, whose pressure ends at zero. The paper's Eq. (32) holds for κ = π/2.
@@ -91,14 +91,14 @@ pub fn table2() -> Result<Vec<Entry>, ContactError<f64>> {
     let contact = Contact::new(&lower, &upper)?
         .kappa(FRAC_PI_2)
         .edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
-    table(2, &contact, Load::Constant(c), SEGMENTS_2, &TABLE_2, exact)
+    table(2, &contact, Control::Load(c / PI), SEGMENTS_2, &TABLE_2, exact)
 }
 
 /// The entries of a table, row by row.
 fn table(
     number: u32,
     contact: &Contact<'_, f64>,
-    load: Load<f64>,
+    load: Control<f64>,
     segments: [usize; 3],
     rows: &[Row],
     exact: impl Fn(f64) -> f64,

@@ -17,10 +17,11 @@ mod reference;
 mod report;
 
 use bodies::{Body, BodyError};
-use linecontact::{Contact, ContactError, Cost, Edge, Load};
+use linecontact::{Contact, ContactError, Control, Cost, Edge};
 use reference::{Kind, Reference};
 use report::{Answer, Report};
 use std::error::Error;
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -30,7 +31,7 @@ fn solve(bodies: &[Body<f64>; 2], wanted: &Reference) -> Result<Answer, ContactE
     if let (Kind::Fixed, Some(on)) = (wanted.kind, wanted.limits) {
         contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
     }
-    let solution = contact.solve(Load::Constant(wanted.c))?;
+    let solution = contact.solve(Control::Load(wanted.c / PI))?;
     if wanted.kind != Kind::Fixed {
         solution.certify()?;
     }

@@ -1,7 +1,7 @@
 //! The contacts, and what is known of them.
 
 use crate::common::{self, Profile, paper, reference};
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Two bodies, their load, and their solution.
@@ -39,8 +39,8 @@ impl Scene {
         Ok(if self.fixed { contact.edges(fixed[0], fixed[1]) } else { contact })
     }
 
-    pub fn load(&self) -> Load<f64> {
-        Load::Constant(self.c)
+    pub fn load(&self) -> Control<f64> {
+        Control::Load(self.c / PI)
     }
 
     pub fn mean_pressure(&self) -> f64 {

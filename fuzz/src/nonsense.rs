@@ -2,7 +2,7 @@
 
 use crate::Rng;
 use linecontact::{
-    Contact, Cost, Curve, CurvePoint, Edge, EdgePressure, Exponents, Flat, Interval, Load,
+    Contact, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Exponents, Flat, Interval,
     Midpoint, Panels, Piecewise,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -99,12 +99,8 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
         _ => {}
     }
     let value = number(rng);
-    let load = [
-        Load::PerLength(value),
-        Load::Constant(value),
-        Load::ToHalfWidth(value),
-        Load::ToPeak(value),
-    ][rng.below(4)];
+    let load = [Control::Load(value), Control::HalfWidth(value), Control::PeakPressure(value)]
+        [rng.below(3)];
     let solved = contact.solve(load);
     // The budgets of the documentation, and what is not counted: looks at single places.
     let most = if matches!(quadrature, 1 | 2) { 40_000_000 } else { 1_100_000 };

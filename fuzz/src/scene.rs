@@ -4,7 +4,7 @@ use crate::Rng;
 use crate::oracle::{On, Term, sum};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load, Midpoint, Panels,
+    Contact, Control, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Midpoint, Panels,
     ParametricProfile, Piecewise,
 };
 
@@ -237,9 +237,9 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         Way::NoAdhesion => contact.edges(Edge::Adhesive(0.0), Edge::Adhesive(0.0)),
     };
     let pressed = if scene.way == Way::HalfWidth {
-        Load::ToHalfWidth(half_width)
+        Control::HalfWidth(half_width)
     } else {
-        Load::PerLength(load)
+        Control::Load(load)
     };
     let solution = contact.solve(pressed).map_err(|e| format!("refused: {e}"))?;
 

@@ -5,7 +5,7 @@
 //! takes over where this goes astray, and is used throughout where the user has chosen a strategy or
 //! the quadrature knows no derivatives; it ends on panels made for the contact, too.
 
-use super::edges::{Conditions, Control, Edge};
+use super::edges::{Conditions, Edge, Given};
 use super::goal::{Goal, relative_error};
 use super::limits::{self, Nested};
 use super::newton::{Effort, Settled, load_of, settle};
@@ -29,7 +29,7 @@ pub(super) fn find<T: Real>(
     // A corner holds the contact as long as it presses there; a width may be had without it, unless
     // it held the last one. It cannot hold both edges.
     let range = contact.gap.range();
-    let by_load = matches!(conditions.control, Control::Load(_));
+    let by_load = matches!(conditions.given, Given::Load(_));
     let mut one_held = false;
     for (i, edge) in conditions.edges.iter_mut().enumerate() {
         if let Edge::UpTo(x) = *edge {
@@ -92,7 +92,7 @@ fn attempt<T: Real>(
     warm: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
-    let pulled = matches!(conditions.control, Control::Load(load) if load <= T::zero());
+    let pulled = matches!(conditions.given, Given::Load(load) if load <= T::zero());
     let adhesive = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
     if pulled && adhesive && conditions.edges.iter().any(|edge| edge.limit().is_none()) {
         pull::find(contact, conditions, engine, warm, cost)
@@ -193,7 +193,7 @@ fn given<T: Real>(
     let (gap, range) = (&contact.gap, contact.gap.range());
     super::check(on)?;
     let sought = conditions.edges.iter().any(|edge| edge.limit().is_none());
-    if !sought && matches!(conditions.control, Control::HalfWidth(_)) {
+    if !sought && matches!(conditions.given, Given::HalfWidth(_)) {
         return Err(ContactError::Control { interval: on });
     }
     let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
@@ -224,7 +224,7 @@ fn check_strengths<T: Real>(
     m: &Moments<T>,
 ) -> Result<(), ContactError<T>> {
     let on = nested.on;
-    let Control::Load(load) = conditions.control else { return Ok(()) };
+    let Given::Load(load) = conditions.given else { return Ok(()) };
     let stiffness = conditions.kappa * on.half_width();
     let share = T::of(0.01).max(T::of(10.0) * nested.error);
     let allowed = share * (load.abs() + stiffness * m.size);
@@ -249,9 +249,9 @@ pub(super) fn contact_of<T: Real>(
     Settled { on, load, error, force }: Settled<T>,
 ) -> Result<Found<T>, ContactError<T>> {
     let m = engine.moments(&contact.gap, on)?;
-    let load = match conditions.control {
-        Control::Load(_) => load,
-        Control::HalfWidth(_) => load_of(conditions, on, load, &m),
+    let load = match conditions.given {
+        Given::Load(_) => load,
+        Given::HalfWidth(_) => load_of(conditions, on, load, &m),
     };
     Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
 }
@@ -293,12 +293,12 @@ fn nested<T: Real>(
 ) -> Result<(Nested<T>, Option<T>), ContactError<T>> {
     let load = conditions.load();
     let goal = Goal::Strength { conditions: *conditions, load };
-    match conditions.control {
-        Control::Load(load) => {
+    match conditions.given {
+        Given::Load(load) => {
             let nested = limits::find(contact, load, goal, engine, start, cost)?;
             Ok((nested, Some(load)))
         }
-        Control::HalfWidth(half_width) => {
+        Given::HalfWidth(half_width) => {
             Ok((limits::place(contact, goal, engine, half_width, cost)?, None))
         }
     }

@@ -35,7 +35,7 @@ impl<T: Real> Edge<T> {
 
 /// What is asked of the contact as a whole.
 #[derive(Clone, Copy)]
-pub(super) enum Control<T> {
+pub(super) enum Given<T> {
     Load(T),
     HalfWidth(T),
 }
@@ -46,15 +46,15 @@ pub(super) struct Conditions<T> {
     pub kappa: T,
     /// At -b and at a.
     pub edges: [Edge<T>; 2],
-    pub control: Control<T>,
+    pub given: Given<T>,
 }
 
 impl<T: Real> Conditions<T> {
     /// The load, or zero where it is not known.
     pub fn load(&self) -> T {
-        match self.control {
-            Control::Load(load) => load,
-            Control::HalfWidth(_) => T::zero(),
+        match self.given {
+            Given::Load(load) => load,
+            Given::HalfWidth(_) => T::zero(),
         }
     }
 
@@ -98,12 +98,12 @@ impl<T: Real> Conditions<T> {
     /// The interval, where both limits are given, or the half-width and one of them.
     pub fn both_limits(&self) -> Option<Interval<T>> {
         let limits = self.edges.map(|edge| edge.limit());
-        match (limits, self.control) {
+        match (limits, self.given) {
             ([Some(left), Some(right)], _) => Some(Interval { left, right }),
-            ([Some(left), None], Control::HalfWidth(half_width)) => {
+            ([Some(left), None], Given::HalfWidth(half_width)) => {
                 Some(Interval { left, right: left + half_width + half_width })
             }
-            ([None, Some(right)], Control::HalfWidth(half_width)) => {
+            ([None, Some(right)], Given::HalfWidth(half_width)) => {
                 Some(Interval { left: right - half_width - half_width, right })
             }
             _ => None,

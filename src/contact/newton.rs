@@ -17,7 +17,7 @@
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
 //! long one as in the power of L that the load is seen to go with.
 
-use super::edges::{Conditions, Control, Edge};
+use super::edges::{Conditions, Edge, Given};
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
@@ -284,9 +284,9 @@ impl<T: Real> System<T> {
         let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
         let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
         let (jacobian, residual) = ([[aa, ab], [ba, bb]], [at_a, at_b]);
-        let (matrix, wider) = match conditions.control {
-            Control::Load(_) => (Matrix2::new(aa, ab, ba, bb), None),
-            Control::HalfWidth(wanted) => {
+        let (matrix, wider) = match conditions.given {
+            Given::Load(_) => (Matrix2::new(aa, ab, ba, bb), None),
+            Given::HalfWidth(wanted) => {
                 let wider = (wanted - half_width) * by_width;
                 (Matrix2::new(aa + ab, force_a, ba + bb, force_b), Some(wider + wider))
             }
@@ -308,10 +308,10 @@ impl<T: Real> System<T> {
     /// Whether the contact grows with its load: where it does not, another does.
     fn is_stable(&self, conditions: &Conditions<T>) -> bool {
         let [[aa, ab], [ba, bb]] = self.jacobian;
-        match (conditions.control, conditions.edges.map(|edge| edge.limit())) {
-            (Control::Load(_), [None, None]) => aa * bb < ab * ba,
-            (Control::Load(_), [Some(_), None]) => aa < T::zero(),
-            (Control::Load(_), [None, Some(_)]) => bb > T::zero(),
+        match (conditions.given, conditions.edges.map(|edge| edge.limit())) {
+            (Given::Load(_), [None, None]) => aa * bb < ab * ba,
+            (Given::Load(_), [Some(_), None]) => aa < T::zero(),
+            (Given::Load(_), [None, Some(_)]) => bb > T::zero(),
             _ => true,
         }
     }

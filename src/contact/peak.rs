@@ -3,7 +3,7 @@
 //! The largest pressure is sought as a function of the half-width, with which it grows. Each trial
 //! is a contact of given half-width; the samples of one serve the next.
 
-use super::edges::{Conditions, Control, Edge};
+use super::edges::{Conditions, Edge, Given};
 use super::widest::widest;
 use super::{Contact, Found, approach};
 use crate::gap::{Cost, Gap};
@@ -86,7 +86,7 @@ struct Trials<'s, T: Real> {
 impl<T: Real> Trials<'_, T> {
     fn conditions(&self, half_width: T) -> Conditions<T> {
         let kappa = self.contact.kappa;
-        Conditions { kappa, edges: [Edge::Free; 2], control: Control::HalfWidth(half_width) }
+        Conditions { kappa, edges: [Edge::Free; 2], given: Given::HalfWidth(half_width) }
     }
 
     /// A contact and its largest pressure.

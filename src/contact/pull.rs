@@ -1,7 +1,7 @@
 //! Adhesive contacts that are pulled at.
 
 use super::approach::{contact_of, in_full, with_edges};
-use super::edges::{Conditions, Control};
+use super::edges::{Conditions, Given};
 use super::widest::widest;
 use super::{Contact, Found};
 use crate::gap::Cost;
@@ -22,7 +22,7 @@ pub(super) fn find<T: Real>(
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     let load = conditions.load();
-    let under = |load: T| Conditions { control: Control::Load(load), ..*conditions };
+    let under = |load: T| Conditions { given: Given::Load(load), ..*conditions };
     let attempt = |engine: &mut dyn Engine<T>, load: T, from: Interval<T>| {
         let conditions = under(load);
         match in_full(contact, &conditions, engine, (from, T::of(0.02)))? {

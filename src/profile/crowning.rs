@@ -12,12 +12,12 @@ use crate::Real;
 ///
 /// ```
 /// use linecontact::profile::Crowning;
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let (depth, half_length) = (0.01f64, 5.0);
 /// let roller = Crowning::new(depth, half_length, [-half_length, half_length])?;
 /// let contact = Contact::new(&Flat, &roller)?;
-/// let solution = contact.solve(Load::ToHalfWidth(4.0))?;
+/// let solution = contact.solve(Control::HalfWidth(4.0))?;
 /// // F = 2 κ C (l/sqrt(l² - L²) - 1)
 /// assert!((solution.load() / (0.02 * (5.0 / 3.0 - 1.0)) - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

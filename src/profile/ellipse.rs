@@ -12,12 +12,12 @@ use crate::Real;
 ///
 /// ```
 /// use linecontact::profile::Ellipse;
-/// use linecontact::{Contact, Load};
+/// use linecontact::{Contact, Control};
 ///
 /// // A roller of 10 mm radius in a groove of 40 mm, up to 80° either way.
 /// let (roller, groove) = (Ellipse::circle(10.0, [-1.4, 1.4])?, Ellipse::circle(40.0, [-1.4, 1.4])?);
 /// let contact = Contact::new(&groove, &roller)?.contact_modulus(115e3);
-/// let solution = contact.solve(Load::PerLength(500.0))?;
+/// let solution = contact.solve(Control::Load(500.0))?;
 /// // Hertz, with 1/R = 1/10 - 1/40.
 /// let hertz = (4.0 * 500.0 * (1.0 / (0.1 - 0.025)) / (std::f64::consts::PI * 115e3)).sqrt();
 /// assert!((solution.a() / hertz - 1.0).abs() < 1e-3);

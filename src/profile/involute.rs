@@ -23,12 +23,12 @@ use crate::reference::special::sin_minus_cos;
 ///
 /// ```
 /// use linecontact::profile::Involute;
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// // Where 0.4 rad have been rolled off a circle of 50 mm the radius of curvature is 20 mm.
 /// let flank = Involute::new(50.0, 0.4, [0.0, 0.8])?;
 /// let contact = Contact::new(&Flat, &flank)?;
-/// let solution = contact.solve(Load::ToHalfWidth(0.1))?;
+/// let solution = contact.solve(Control::HalfWidth(0.1))?;
 /// let hertz = 0.1 * 0.1 / (2.0 * 20.0);
 /// assert!((solution.load() / hertz - 1.0f64).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

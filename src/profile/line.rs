@@ -60,11 +60,11 @@ impl<T: Real> ParametricProfile<T> for Line<T> {
 ///
 /// ```
 /// use linecontact::profile::wedge;
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let body = wedge([-0.1, 0.1], 1.0)?;
 /// let contact = Contact::new(&Flat, &body)?;
-/// let solution = contact.solve(Load::PerLength(0.02))?;
+/// let solution = contact.solve(Control::Load(0.02))?;
 /// // L = π F/(2 κ m)
 /// assert!((solution.a() / (0.1 * std::f64::consts::PI) - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

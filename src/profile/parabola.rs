@@ -10,11 +10,11 @@ use crate::Real;
 ///
 /// ```
 /// use linecontact::profile::Parabola;
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let body = Parabola::new(2.0f64, [-1.0, 1.0])?;
 /// let contact = Contact::new(&Flat, &body)?;
-/// let solution = contact.solve(Load::PerLength(0.01))?;
+/// let solution = contact.solve(Control::Load(0.01))?;
 /// assert!((solution.a() - 0.2).abs() < 1e-15); // sqrt(2 F R/κ)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -12,14 +12,14 @@ use crate::Real;
 ///
 /// ```
 /// use linecontact::profile::{Ellipse, Placed, Placement};
-/// use linecontact::{Contact, Load};
+/// use linecontact::{Contact, Control};
 ///
 /// // Two rollers, one above the other and 3 to its right.
 /// let roller = Ellipse::circle(10.0f64, [-1.4, 1.4])?;
 /// let above = Placed::new(roller, Placement::default().shifted(3.0, 0.0))?;
 /// let below = Placed::new(roller, Placement::default().flipped())?;
 /// let contact = Contact::new(&below, &above)?;
-/// let solution = contact.solve(Load::PerLength(0.01))?;
+/// let solution = contact.solve(Control::Load(0.01))?;
 /// assert!((solution.interval().centre() - 1.5).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -21,12 +21,12 @@ type Parts<T> = Piecewise<T, Placed<T, Parabola<T>>>;
 /// ```
 /// use linecontact::profile::rounded_punch;
 /// use linecontact::reference::{ClosedForm, RoundedPunch};
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let (flat, radius, load) = (1.0f64, 0.5, 0.3);
 /// let body = rounded_punch(flat, radius, 3.0)?;
 /// let contact = Contact::new(&Flat, &body)?;
-/// let solution = contact.solve(Load::PerLength(load))?;
+/// let solution = contact.solve(Control::Load(load))?;
 /// let form = RoundedPunch::under_load(flat, radius, load, 1.0)?;
 /// assert!((solution.a() / form.limits().right - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

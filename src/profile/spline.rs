@@ -60,13 +60,13 @@ impl<T: Real> Default for Fit<T> {
 ///
 /// ```
 /// use linecontact::profile::Spline;
-/// use linecontact::{Contact, Flat, Load};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let points: Vec<[f64; 2]> =
 ///     (-20..=20).map(|i| 0.05 * f64::from(i)).map(|x| [x, x * x / 2.0]).collect();
 /// let body = Spline::through(&points)?;
 /// let contact = Contact::new(&Flat, &body)?;
-/// let solution = contact.solve(Load::PerLength(0.02))?;
+/// let solution = contact.solve(Control::Load(0.02))?;
 /// assert!((solution.a() - 0.2).abs() < 1e-14); // the parabola
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -6,7 +6,7 @@ use crate::formulas;
 use common::paper;
 use formulas::{Lower3, Upper3};
 use linecontact::autodiff::{Autodiff, Differentiable, Formula, Over};
-use linecontact::{Contact, Flat, Load, ParametricProfile, Piecewise, Real, check_derivatives};
+use linecontact::{Contact, Control, Flat, ParametricProfile, Piecewise, Real, check_derivatives};
 use std::f64::consts::PI;
 
 const UNIT: [f64; 2] = [1.0; 2];
@@ -39,7 +39,7 @@ fn example_3_is_solved_without_derivatives() {
     let reference = common::reference("paper_example_3_scale_one");
     let by_hand = paper::three();
     let (lower, upper) = (LOWER_3, UPPER_3);
-    let load = Load::Constant(reference.c);
+    let load = Control::Load(reference.c / PI);
     let contact = Contact::new(&lower, &upper).unwrap();
     let solution = contact.solve(load).unwrap();
     approx::assert_relative_eq!(solution.a(), reference.a, epsilon = 0.0, max_relative = 5e-15);
@@ -74,7 +74,7 @@ fn pieces_are_joined_in_either_precision() {
         ];
         let wedge = Piecewise::new(flanks).unwrap();
         let contact = Contact::new(&Flat, &wedge).unwrap();
-        contact.solve(Load::PerLength(T::of(0.5))).unwrap().a()
+        contact.solve(Control::Load(T::of(0.5))).unwrap().a()
     }
     // F = 2 m L/π.
     approx::assert_relative_eq!(half_width::<f64>(), PI / 4.0, epsilon = 0.0, max_relative = 1e-14);

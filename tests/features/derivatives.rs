@@ -12,8 +12,8 @@ use linecontact::autodiff::num_dual::{Derivative, Dual64, DualSVec64, HyperDual6
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
 use linecontact::{
-    Contact, Cost, Curve, CurvePoint, Edge, EdgePressure, Flat, Load, Midpoint, ParametricProfile,
-    Piecewise, Real, Solution, Solver,
+    Contact, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Flat, Midpoint,
+    ParametricProfile, Piecewise, Real, Solution, Solver,
 };
 use std::f64::consts::PI;
 
@@ -110,7 +110,7 @@ fn closed_forms() {
         let body = bent(&*form, reach);
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).edges(left, right);
-        let solution = contact.solve(Load::PerLength(form.load(kappa))).expect(&name);
+        let solution = contact.solve(Control::Load(form.load(kappa))).expect(&name);
         let limits = limits_off(&solution, &*form);
         let pressure = pressure_off(&solution, &*form, kappa);
         let [p, rate] = pressure;
@@ -144,13 +144,13 @@ fn every_way_to_the_limits() {
             let by_rule = by_panels.clone().quadrature(&Midpoint::DEFAULT);
             for (rule, contact) in [("panels", &by_panels), ("midpoint", &by_rule)] {
                 let name = format!("{name}, {search_name}, {rule}");
-                let solution = contact.solve(Load::PerLength(load)).expect(&name);
+                let solution = contact.solve(Control::Load(load)).expect(&name);
                 let off = limits_off(&solution, &*form);
                 assert!(off[0] < 5e-15 && off[1] < 2e-14, "{name}: {off:?}");
                 if name.starts_with("flat") {
                     continue;
                 }
-                let width = Load::ToHalfWidth(form.limits().half_width());
+                let width = Control::HalfWidth(form.limits().half_width());
                 let solution = contact.solve(width).expect(&name);
                 let off = limits_off(&solution, &*form);
                 assert!(off[0] < 5e-15 && off[1] < 2e-14, "{name}: {off:?}");
@@ -170,7 +170,7 @@ fn pressure_by_the_papers_rule() {
     let body = bent(&form, plain(9.0));
     let rule = Midpoint { segments: 128, extrapolations: 5, ..Midpoint::DEFAULT };
     let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).quadrature(&rule);
-    let solution = contact.solve(Load::PerLength(form.load(kappa))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(kappa))).unwrap();
     let pressure = solution.pressure().unwrap();
     for share in [0.0, 0.25, 0.2501, 0.1234567, 0.25 + 1.0 / 256.0, 0.25 + 1.0 / 256.0 + 1e-5, 0.9]
     {
@@ -192,7 +192,7 @@ fn a_given_peak() {
     let form = Hertz::new(radius, wanted * PI * radius / kappa).unwrap();
     let body = bent(&unit, plain(9.0));
     let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa);
-    let solution = contact.solve(Load::ToPeak(wanted)).unwrap();
+    let solution = contact.solve(Control::PeakPressure(wanted)).unwrap();
     let off = limits_off(&solution, &form);
     assert!(off[0] < 1e-14 && off[1] < 1e-13, "{off:?}");
     assert_relative_eq!(
@@ -218,7 +218,7 @@ fn a_given_peak_of_a_body_that_stiffens() {
             dy: c * k * k * k,
         });
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::ToPeak(Dual64::new(wanted, seed[1]))).unwrap();
+        let solution = contact.solve(Control::PeakPressure(Dual64::new(wanted, seed[1]))).unwrap();
         for limit in [solution.a(), solution.b()] {
             assert_relative_eq!(limit.re, l, epsilon = 0.0, max_relative = 1e-13);
             assert_relative_eq!(limit.eps, exact, epsilon = 0.0, max_relative = 1e-12);
@@ -238,7 +238,7 @@ fn given_pressures_at_the_edges() {
         });
         let wanted = EdgePressure::zero(plain(0.01), plain(1e-12));
         let contact = Contact::new(&Flat, &parabola).unwrap().edge_pressure(wanted);
-        contact.solve(Load::PerLength(load)).unwrap().a()
+        contact.solve(Control::Load(load)).unwrap().a()
     };
     let [r, f, h] = [1.3, 0.05, 1e-4];
     let value = |r: f64, f: f64| half_width(plain(r), plain(f)).re;
@@ -274,7 +274,7 @@ fn example_3(p: [Dual64; 7]) -> Vec<Dual64> {
     let lower = Autodiff(Lower3 { coefficient, scale });
     let upper = Autodiff(Upper3 { scale });
     let contact = Contact::new(&lower, &upper).unwrap().kappa(kappa);
-    answers(&contact.solve(Load::Constant(c)).unwrap(), [x0, x1])
+    answers(&contact.solve(Control::Load(c / plain(PI))).unwrap(), [x0, x1])
 }
 
 /// Example 2, likewise.
@@ -283,7 +283,7 @@ fn example_2(p: [Dual64; 7]) -> Vec<Dual64> {
     let lower = Autodiff(Body2 { along: plain(2.0) * sx, across: coefficient * sy });
     let upper = Autodiff(Body2 { along: plain(3.0) * sx, across: plain(63.0) * sy });
     let contact = Contact::new(&lower, &upper).unwrap().kappa(kappa);
-    answers(&contact.solve(Load::Constant(c)).unwrap(), [x0, x1])
+    answers(&contact.solve(Control::Load(c / plain(PI))).unwrap(), [x0, x1])
 }
 
 /// Derivatives against differences of the fourth order, parameter by parameter.
@@ -354,7 +354,7 @@ fn invariants() {
     let lower = Autodiff(Lower3 { coefficient: plain(8.0), scale });
     let upper = Autodiff(Upper3 { scale });
     let contact = Contact::new(&lower, &upper).unwrap();
-    let rates = contact.solve(Load::Constant(plain(at[4]))).unwrap().load_rates().unwrap();
+    let rates = contact.solve(Control::Load(plain(at[4] / PI))).unwrap().load_rates().unwrap();
     close(answers[0].eps, rates.a.re * at[4] / PI, answers[0].eps);
     close(answers[1].eps, rates.b.re * at[4] / PI, answers[1].eps);
 }
@@ -368,7 +368,7 @@ fn hertz<T: Real>(radius: T, load: T, kappa: T) -> T {
         dy: k / radius,
     });
     let contact = Contact::new(&Flat, &parabola).unwrap().kappa(kappa);
-    contact.solve(Load::PerLength(load)).unwrap().a()
+    contact.solve(Control::Load(load)).unwrap().a()
 }
 
 /// A whole gradient from one solution, and second derivatives.
@@ -413,7 +413,7 @@ fn a_derivative_finer_than_the_values() {
             CurvePoint { x: k, y: k * k * 0.5 + depth * bell, dx: plain(1.0), dy: k + depth * rise }
         });
         let contact = Contact::new(&Flat, &dent).unwrap();
-        let solution = contact.solve(Load::PerLength(plain(0.02))).unwrap();
+        let solution = contact.solve(Control::Load(plain(0.02))).unwrap();
         // F = L m₁, m₁ = L/2 + d n, n = (1/π) ∫ h'(L cos θ) cos θ dθ: dL = -n.
         let (l, n) = (0.2, 20_000);
         let slope = |x: f64| -2.0 * x / (width * width) * (-(x / width).powi(2)).exp();
@@ -438,7 +438,7 @@ fn again_and_again() {
         for seed in [1.0, -2.0] {
             let half_width = Dual64::new(half_width, seed);
             let form = Ellipse::circle(seeded(1.0), half_width).unwrap();
-            let solution = solver.solve(&contact, Load::PerLength(form.load(kappa))).unwrap();
+            let solution = solver.solve(&contact, Control::Load(form.load(kappa))).unwrap();
             let off = limits_off(&solution, &form);
             assert!(off[0] < 5e-15 && off[1] < 2e-14, "{off:?}");
         }
@@ -460,7 +460,7 @@ fn a_limit_given_on_the_right() {
     let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa);
     let held = contact.edges(Edge::Free, Edge::Fixed(s));
     for contact in [held.clone().search(&brent), held] {
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         let (got, want) = (solution.b(), half_width + half_width - s);
         assert_relative_eq!(got.re, want.re, epsilon = 0.0, max_relative = 1e-14);
         assert_relative_eq!(got.eps, want.eps, epsilon = 0.0, max_relative = 1e-12);

@@ -1,7 +1,7 @@
 //! Many scenes at once: the same results whatever the threads, in order, failures alone.
 #![allow(missing_docs)]
 
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, Panels, Solver, sweep};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, Solver, sweep};
 use std::sync::Mutex;
 use thiserror::Error;
 
@@ -43,7 +43,7 @@ fn solve(scenes: &[Scene], threads: usize) -> (Vec<Result<[f64; 3], Fault>>, Vec
                     CurvePoint { x, y, dx: radius * c, dy: radius * s }
                 });
                 let contact = Contact::new(&Flat, &arc)?;
-                let solution = solver.solve(&contact, Load::PerLength(load))?;
+                let solution = solver.solve(&contact, Control::Load(load))?;
                 let pressure = solution.pressure()?.at(0.1 * solution.a())?;
                 Ok([solution.a(), solution.b(), pressure])
             },
@@ -84,7 +84,7 @@ fn a_scene_that_fails_fails_alone() {
                 CurvePoint { x: radius * s, y: -radius * c, dx: radius * c, dy: radius * s }
             });
             let contact = Contact::new(&Flat, &arc).unwrap();
-            let alone = contact.solve(Load::PerLength(load)).unwrap();
+            let alone = contact.solve(Control::Load(load)).unwrap();
             let [a, b, _] = result.unwrap();
             assert!((a / alone.a() - 1.0).abs() < 2e-14 && (b / alone.b() - 1.0).abs() < 2e-14);
         }
@@ -96,7 +96,7 @@ fn settings_that_cannot_be_used_are_an_error_of_each() {
     let never = Panels { tolerance: 2.0 };
     let contact = Contact::new(&Flat, &Flat).unwrap().quadrature(&never);
     let solve =
-        |solver: &mut Solver<f64>, load| solver.solve(&contact, Load::PerLength(load)).map(|_| ());
+        |solver: &mut Solver<f64>, load| solver.solve(&contact, Control::Load(load)).map(|_| ());
     let results: Vec<Result<(), ContactError<f64>>> =
         sweep(&[1.0, 2.0, 3.0], |solver, &load| solve(solver, load), |_| {});
     assert_eq!(results, vec![Err(ContactError::Tolerance { tolerance: 2.0 }); 3]);

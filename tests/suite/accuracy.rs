@@ -6,7 +6,7 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{Counting, graph, paper, power, reference, scenes};
 use linecontact::{
-    Contact, Cost, Curve, CurvePoint, Exponents, Flat, Interval, Load, Midpoint, Panels,
+    Contact, Control, Cost, Curve, CurvePoint, Exponents, Flat, Interval, Midpoint, Panels,
     ParametricProfile, Piecewise,
 };
 use std::f64::consts::PI;
@@ -78,7 +78,7 @@ fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
         for (i, tolerance) in tolerances.into_iter().enumerate() {
             let panels = Panels { tolerance };
             let contact = Contact::new(&*known.lower, &*known.upper).unwrap().quadrature(&panels);
-            let solution = contact.solve(Load::PerLength(known.load)).unwrap();
+            let solution = contact.solve(Control::Load(known.load)).unwrap();
             evaluations[i] = solution.cost().evaluations;
             let pressure = solution.pressure().unwrap();
             let largest = known.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
@@ -129,7 +129,7 @@ fn a_joint_is_no_singularity_at_any_tolerance() {
     for tolerance in [1e-12, 1e-9, 1e-6, 1e-3] {
         let panels = Panels { tolerance };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels);
-        let solution = contact.solve(Load::Constant(want.c)).unwrap();
+        let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
         let got =
             solution.pressure().unwrap().at(0.0).unwrap_or_else(|e| panic!("{tolerance}: {e}"));
         assert!((got / exact - 1.0).abs() <= 20.0 * tolerance, "{got} at {tolerance}");
@@ -144,7 +144,7 @@ fn the_papers_example_3_takes_few_calls() {
     let panels = Panels { tolerance: 1e-12 };
     let contact = Contact::new(&lower, &upper).unwrap().quadrature(&panels);
     let contact = contact.start(Interval { left: -0.3, right: 0.3 });
-    let solution = contact.solve(Load::Constant(example.c)).unwrap();
+    let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
     let (on, mut pressures) = (solution.interval(), [0.0; 101]);
     let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(PI * (i as f64 + 0.5) / 101.0));
     solution.pressure().unwrap().at_many(&x, &mut pressures).unwrap();
@@ -161,7 +161,7 @@ fn pressures_keep_their_relative_accuracy_next_to_an_edge() {
     // Hertz with L = 1/2: P = sqrt((1/2 - x)(1/2 + x))/π.
     let body = common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(0.125)).unwrap();
+    let solution = contact.solve(Control::Load(0.125)).unwrap();
     let pressure = solution.pressure().unwrap();
     for power in 10..=40 {
         let d = 0.5f64.powi(power);
@@ -183,7 +183,7 @@ fn pressures_at_fixed_edges_keep_it_too() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let edges = [-0.5, 0.5].map(linecontact::Edge::Fixed);
     let contact = contact.edges(edges[0], edges[1]);
-    let solution = contact.solve(Load::PerLength(1.0)).unwrap();
+    let solution = contact.solve(Control::Load(1.0)).unwrap();
     let pressure = solution.pressure().unwrap();
     for power in 2..=52 {
         let d = 0.5f64.powi(power);
@@ -200,7 +200,7 @@ fn many_at_once_are_the_same_as_one_by_one() {
     for scene in scenes() {
         let want = reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+        let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
         let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
         // Any number, in any order, also outside.
         for count in [0, 1, 2, 7, 8, 9, 101] {
@@ -235,7 +235,7 @@ fn the_two_quadratures_agree() {
         let panels = Contact::new(&*known.lower, &*known.upper).unwrap();
         let midpoint = panels.clone().quadrature(&rule);
         let [panels, midpoint] = [&panels, &midpoint]
-            .map(|contact| contact.solve(Load::PerLength(known.load)).expect(known.name));
+            .map(|contact| contact.solve(Control::Load(known.load)).expect(known.name));
         assert_relative_eq!(panels.a(), midpoint.a(), epsilon = 0.0, max_relative = 4e-14);
         assert_relative_eq!(panels.b(), midpoint.b(), epsilon = 0.0, max_relative = 4e-14);
         let [panels, midpoint] = [&panels, &midpoint].map(|solution| solution.pressure().unwrap());
@@ -299,7 +299,7 @@ fn single_precision_has_its_digits() {
     ];
     for (lower, upper, kappa, c, on, exact) in cases {
         let contact = Contact::new(lower, upper).unwrap().kappa(kappa);
-        let solution = contact.solve(Load::Constant(c as f32)).unwrap();
+        let solution = contact.solve(Control::Load(c as f32 / std::f32::consts::PI)).unwrap();
         let close = 1e-5 * on.half_width();
         assert!((f64::from(solution.a()) - on.right).abs() <= close, "{}", solution.a());
         assert!((f64::from(-solution.b()) - on.left).abs() <= close, "{}", solution.b());

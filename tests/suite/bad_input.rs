@@ -21,12 +21,11 @@ use linecontact::search::{
 };
 use linecontact::stress::Stress;
 use linecontact::{
-    Body, Contact, ContactError, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents,
-    Flat, Gap, Interval, Load, Midpoint, Panels, ParametricProfile, Piece, Piecewise,
+    Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate,
+    Exponents, Flat, Gap, Interval, Midpoint, Panels, ParametricProfile, Piece, Piecewise,
     PiecewiseError, ProfileError, Solution, check_derivatives,
 };
 use std::cell::Cell;
-use std::f64::consts::PI;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 const NAN: f64 = f64::NAN;
@@ -151,7 +150,7 @@ macro_rules! contact_error {
 }
 use contact_error;
 
-fn solve(upper: &dyn ParametricProfile<f64>, load: Load<f64>) -> Result<(), Wrong> {
+fn solve(upper: &dyn ParametricProfile<f64>, load: Control<f64>) -> Result<(), Wrong> {
     Contact::new(&Flat, upper)?.solve(load)?;
     Ok(())
 }

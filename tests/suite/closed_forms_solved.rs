@@ -8,7 +8,7 @@ use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::{ClosedForm, Ellipse, Exponential, PowerLaw, Wedge, body};
 use linecontact::search::{Bisection, LimitSearch, Secant};
-use linecontact::{Contact, ContactError, Cost, Curve, CurvePoint, Flat, Interval, Load};
+use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Flat, Interval};
 use std::f64::consts::PI;
 
 #[test]
@@ -18,7 +18,7 @@ fn the_solver_agrees_with_them() {
         let body = body(&*form, -reach, reach).unwrap_or_else(|e| panic!("{name}: {e}"));
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).expect(&name).kappa(KAPPA).edges(left, right);
-        let solution = contact.solve(Load::PerLength(load)).expect(&name);
+        let solution = contact.solve(Control::Load(load)).expect(&name);
         let (got, l) = (solution.interval(), want.half_width());
         let limits = [got.right - want.right, got.left - want.left].map(|d| d.abs() / l);
         let relative = [got.right / want.right - 1.0, got.left / want.left - 1.0].map(f64::abs);
@@ -74,7 +74,7 @@ fn a_half_width_gives_the_load_of_a_nearly_full_circle() {
         CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
     });
     let contact = Contact::new(&Flat, &arc).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
     // An ulp of the half-width is 8e-12 of the load.
     assert_relative_eq!(solution.load(), form.load(1.0), epsilon = 0.0, max_relative = 4e-11);
 }
@@ -85,7 +85,7 @@ fn slopes_up_to_e_to_the_150th_do_not_hide_the_contact() {
     for end in [50.0, 100.0, 150.0] {
         let body = body(&form, -end, end).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+        let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
         assert!(off(solution.interval(), &form) < 1e-13, "{end}: {solution:?}");
     }
 }
@@ -97,7 +97,7 @@ fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
     let body = body(&form, -300.0, 300.0).unwrap();
     for strategy in [&Bisection::default() as &dyn LimitSearch<f64>, &Secant::default()] {
         let contact = Contact::new(&Flat, &body).unwrap().search(strategy);
-        let refused = contact.solve(Load::PerLength(1e10));
+        let refused = contact.solve(Control::Load(1e10));
         assert!(matches!(refused, Err(ContactError::NoBalance { .. })), "{refused:?}");
     }
 }
@@ -109,7 +109,7 @@ fn a_wedge_and_its_mirror_image_are_as_exact() {
         let body = body(&form, -10.0, 10.0).unwrap();
         let (new, secant) = (|| Contact::new(&Flat, &body).unwrap(), Secant::default());
         for (contact, short_error) in [(new(), 1e-5), (new().search(&secant), 1e-14)] {
-            let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+            let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
             assert!(off(solution.interval(), &form) < 1e-14, "{left} {right}: {solution:?}");
             // The search for one limit at a time keeps the digits of the short side, too.
             let short = solution.a().min(solution.b());
@@ -124,7 +124,7 @@ fn a_slope_that_all_but_jumps_does_not_overflow() {
     let form = PowerLaw::new(1.0, 1.03, 1.0).unwrap();
     let body = body(&form, -2.0, 2.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    match contact.solve(Load::PerLength(form.load(1.0))) {
+    match contact.solve(Control::Load(form.load(1.0))) {
         Ok(solution) => assert!(off(solution.interval(), &form) < 1e-12, "{solution:?}"),
         Err(error) => assert!(!matches!(error, ContactError::Overflow { .. }), "{error}"),
     }
@@ -139,7 +139,7 @@ fn a_punch_whose_edges_take_part_with_next_to_nothing() {
     let flat = graph(-1.0, 1.0, |_| [0.0, 0.0]);
     let body = join(vec![edge(-4.0, -1.0, -1.0), flat, edge(1.0, 4.0, 1.0)]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::Constant(1.885_618_089_763_79e-12)).unwrap();
+    let solution = contact.solve(Control::Load(1.885_618_089_763_79e-12 / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     for (x, exact) in [
         (-0.992_708_884_025_142_7, 1.585_020_485_348_030_3e-12),

@@ -6,7 +6,7 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{Profile, graph, paper, parabola, power, reference};
 use linecontact::search::{Brent, Tolerance};
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
 use std::f64::consts::PI;
 
 /// What is known of a contact: C, the half-width, the largest pressure.
@@ -21,11 +21,10 @@ fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
     let Known { a, b, c, peak } = *known;
     let half_width = 0.5 * (a + b);
     let ways = [
-        (Load::PerLength(c / PI), 1.0),
-        (Load::Constant(c), 1.0),
-        (Load::ToHalfWidth(half_width), 1.0),
+        (Control::Load(c / PI), 1.0),
+        (Control::HalfWidth(half_width), 1.0),
         // The peak is known to rounding, and so is the half-width that goes with it.
-        (Load::ToPeak(peak), 10.0),
+        (Control::PeakPressure(peak), 10.0),
     ];
     for (load, factor) in ways {
         let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
@@ -77,15 +76,15 @@ fn a_pressure_that_is_largest_beside_the_middle() {
     let body = power(6.0);
     let want = reference("power_n_6");
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
-    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     let scan = (1..4000).map(|i| pressure.at(-want.b + i as f64 * want.half_width() / 2000.0));
     let peak = scan.fold(0.0, |most: f64, p| most.max(p.unwrap()));
     assert!(peak > 1.01 * pressure.at(0.0).unwrap());
-    let by_peak = contact.solve(Load::ToPeak(peak)).unwrap();
+    let by_peak = contact.solve(Control::PeakPressure(peak)).unwrap();
     // The scan misses the top by a share of (1/2000)².
     assert_relative_eq!(by_peak.a(), want.a, epsilon = 0.0, max_relative = 1e-6);
-    let by_width = contact.solve(Load::ToHalfWidth(want.half_width())).unwrap();
+    let by_width = contact.solve(Control::HalfWidth(want.half_width())).unwrap();
     assert_relative_eq!(by_width.load() * PI, want.c, epsilon = 0.0, max_relative = 1e-14);
 }
 
@@ -95,14 +94,14 @@ fn a_wedge_has_a_width_but_no_peak() {
     let body = power(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for l in [1e-3, 0.1, 1.5] {
-        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap();
         assert_relative_eq!(solution.load(), 2.0 * l / PI, epsilon = 0.0, max_relative = 1e-14);
         assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
-        let solution = contact.solve(Load::PerLength(2.0 * l / PI)).unwrap();
+        let solution = contact.solve(Control::Load(2.0 * l / PI)).unwrap();
         assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-14);
     }
     for peak in [1e-3, 1.0, 1e3] {
-        let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
+        let error = contact.solve(Control::PeakPressure(peak)).unwrap_err();
         let ContactError::NoPeak { wanted, found, .. } = error else { panic!("{error}") };
         assert_eq!((wanted, found), (peak, f64::INFINITY));
     }
@@ -119,7 +118,8 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
             [(Edge::Fixed(x0), Edge::Free, 0), (Edge::Free, Edge::Fixed(-x0), 1)]
         {
             let contact = contact.clone().edges(left, right);
-            for control in [Load::ToHalfWidth(l), Load::PerLength(load), Load::Constant(load * PI)]
+            for control in
+                [Control::HalfWidth(l), Control::Load(load), Control::Load(load * PI / PI)]
             {
                 let solution = contact.solve(control).unwrap();
                 let limits = [solution.a(), solution.b()];
@@ -128,7 +128,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
                 assert_relative_eq!(limits[free], far, epsilon = 0.0, max_relative = 2e-15);
                 assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
             }
-            let error = contact.solve(Load::ToPeak(0.3)).unwrap_err();
+            let error = contact.solve(Control::PeakPressure(0.3)).unwrap_err();
             let edge = if free == 0 { left } else { right };
             assert_eq!(error, ContactError::PeakEdge { edge });
         }
@@ -136,15 +136,15 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     // Two adhesive edges: F = L²/2 - 2 sqrt(w L), negative where the contact is narrow.
     let (work, l) = (0.01, 0.3f64);
     let adhesive = contact.clone().edges(Edge::Adhesive(work), Edge::Adhesive(work));
-    let solution = adhesive.solve(Load::ToHalfWidth(l)).unwrap();
+    let solution = adhesive.solve(Control::HalfWidth(l)).unwrap();
     let load = l * l / 2.0 - 2.0 * (work * l).sqrt();
     assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
     // Also where it is not the one that grows with the load.
-    let narrow = adhesive.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let narrow = adhesive.solve(Control::HalfWidth(0.1)).unwrap();
     let load = 0.005 - 2.0 * (work * 0.1).sqrt();
     assert_relative_eq!(narrow.load(), load, epsilon = 0.0, max_relative = 1e-14);
-    let error = adhesive.solve(Load::ToPeak(0.3)).unwrap_err();
+    let error = adhesive.solve(Control::PeakPressure(0.3)).unwrap_err();
     assert_eq!(error, ContactError::PeakEdge { edge: Edge::Adhesive(work) });
 }
 
@@ -166,7 +166,7 @@ fn a_width_by_a_search_takes_the_load_of_its_edges() {
         ([free, Edge::Fixed(0.2)], l * (l / 2.0 + centre)),
     ] {
         let contact = contact.clone().edges(edges[0], edges[1]);
-        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap();
         assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-13);
     }
 }
@@ -176,8 +176,8 @@ const SEARCH: Brent = Brent { tolerance: Tolerance::FULL };
 #[test]
 fn values_that_are_none() {
     let bodies: [Profile; 2] = [parabola(1.0), power(3.0)];
-    let ways: [fn(f64) -> Load<f64>; 4] =
-        [Load::PerLength, Load::Constant, Load::ToHalfWidth, Load::ToPeak];
+    let ways: [fn(f64) -> Control<f64>; 3] =
+        [Control::Load, Control::HalfWidth, Control::PeakPressure];
     for body in &bodies {
         let contact = Contact::new(&Flat, &**body).unwrap();
         for value in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -196,7 +196,7 @@ fn more_than_the_bodies_can_give_is_an_error() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for value in [1.01, 2.0, 1e6, 1e300] {
-        for load in [Load::ToHalfWidth(value), Load::ToPeak(value / PI)] {
+        for load in [Control::HalfWidth(value), Control::PeakPressure(value / PI)] {
             assert!(contact.solve(load).is_err(), "{load:?}");
         }
     }
@@ -207,7 +207,7 @@ fn the_error_says_that_the_bodies_are_too_short() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for value in [1.01, 2.0, 1e6, 1e300] {
-        let error = contact.solve(Load::ToHalfWidth(value)).unwrap_err();
+        let error = contact.solve(Control::HalfWidth(value)).unwrap_err();
         let outside =
             matches!(error, ContactError::OutsideBodies { x, range: [-1.0, 1.0] } if x.abs() > 1.0);
         assert!(outside, "{value}: {error}");
@@ -223,7 +223,7 @@ fn the_error_says_that_the_bodies_are_too_short() {
 }
 
 fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
-    let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
+    let error = contact.solve(Control::PeakPressure(peak)).unwrap_err();
     let ContactError::PeakTooHigh { wanted, half_width, found } = error else { panic!("{error}") };
     assert_eq!(wanted, peak);
     assert_relative_eq!(half_width, widest, epsilon = 0.0, max_relative = 1e-14);
@@ -238,11 +238,11 @@ fn a_peak_too_high_is_measured_against_the_widest_contact_there_is_room_for() {
             [x * x / 2.0 + sign * x.powi(3) / 5.0, x + sign * 0.6 * x * x]
         });
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let error = contact.solve(Load::ToPeak(1.0)).unwrap_err();
+        let error = contact.solve(Control::PeakPressure(1.0)).unwrap_err();
         let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
         assert!(half_width > 0.3 && half_width < 0.5);
-        assert!(contact.solve(Load::ToHalfWidth(half_width * (1.0 + 1e-9))).is_err());
-        let fits = contact.solve(Load::ToHalfWidth(half_width * (1.0 - 1e-9))).unwrap();
+        assert!(contact.solve(Control::HalfWidth(half_width * (1.0 + 1e-9))).is_err());
+        let fits = contact.solve(Control::HalfWidth(half_width * (1.0 - 1e-9))).unwrap();
         assert_relative_eq!(
             fits.peak().unwrap().pressure,
             found,
@@ -250,7 +250,7 @@ fn a_peak_too_high_is_measured_against_the_widest_contact_there_is_room_for() {
             max_relative = 1e-8
         );
         for part in [1.0, 1.0 - 1e-12, 1.0 - 1e-6] {
-            let reached = contact.solve(Load::ToPeak(part * found)).unwrap();
+            let reached = contact.solve(Control::PeakPressure(part * found)).unwrap();
             let peak = reached.peak().unwrap().pressure;
             assert_relative_eq!(peak, part * found, epsilon = 0.0, max_relative = 1e-13);
         }
@@ -262,7 +262,7 @@ fn half_widths_up_to_the_ends_of_the_bodies() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for l in [0.9, 0.999, 0.999999, 1.0 - 1e-12] {
-        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
         assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
         assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 1e-13);
     }
@@ -278,7 +278,7 @@ fn a_contact_may_fill_the_bodies() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         for contact in [contact.clone().search(&brent), contact] {
             let solution =
-                contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+                contact.solve(Control::HalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
             assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 1e-14);
             assert!(solution.a() <= l && solution.b() <= l);
         }
@@ -288,7 +288,7 @@ fn a_contact_may_fill_the_bodies() {
         let contact = Contact::new(&Flat, &body).unwrap();
         for contact in [contact.clone().search(&brent), contact] {
             let solution =
-                contact.solve(Load::ToHalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
+                contact.solve(Control::HalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
             assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 2e-6);
             assert!(solution.a() <= l && solution.b() <= l);
         }
@@ -304,7 +304,7 @@ fn peaks_up_to_the_ends_of_the_bodies() {
         let near = [1.0 - 1e-7, 1.0 - 1e-10, 1.0 - 1e-13, 1.0];
         for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99, 0.9999].into_iter().chain(near) {
             let l = part * reach;
-            let solution = contact.solve(Load::ToPeak(l / PI));
+            let solution = contact.solve(Control::PeakPressure(l / PI));
             let solution = solution.unwrap_or_else(|e| panic!("{l} of {reach}: {e}"));
             assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-13);
         }
@@ -321,7 +321,7 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
             [Edge::Fixed(fixed), Edge::Free]
         };
         let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
-        let refused = contact.solve(Load::ToHalfWidth(2.6e-40));
+        let refused = contact.solve(Control::HalfWidth(2.6e-40));
         let Err(ContactError::Limits { interval }) = refused else { panic!("{refused:?}") };
         assert_eq!([interval.left, interval.right], [fixed; 2]);
     }
@@ -331,7 +331,7 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
 fn a_load_less_than_any_number_is_refused() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    for load in [Load::ToHalfWidth(1e-300), Load::ToPeak(1e-300)] {
+    for load in [Control::HalfWidth(1e-300), Control::PeakPressure(1e-300)] {
         let refused = contact.solve(load);
         assert!(matches!(refused, Err(ContactError::Overflow { .. })), "{refused:?}");
     }

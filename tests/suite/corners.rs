@@ -5,11 +5,11 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, parabola};
-use linecontact::{Contact, ContactError, Edge, Flat, Load};
+use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
 
 /// Limits and a pressure.
-fn key(contact: Contact<f64>, load: Load<f64>) -> [f64; 4] {
+fn key(contact: Contact<f64>, load: Control<f64>) -> [f64; 4] {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
     let x = solution.interval().at_angle(1.0);
     [solution.a(), solution.b(), solution.load(), solution.pressure().unwrap().at(x).unwrap()]
@@ -28,7 +28,7 @@ fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
         } else {
             ([free, free], [free, free])
         };
-        let load = Load::PerLength(load);
+        let load = Control::Load(load);
         for ([left, right], [known_left, known_right]) in
             [([free, corner], known), ([Edge::UpTo(-0.3), free], mirror)]
         {
@@ -43,7 +43,7 @@ fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
     for load in [0.01, 0.044, 0.046, 0.99 * critical, 1.01 * critical, 0.5] {
         let right = if load > 0.045 { Edge::Fixed(0.3) } else { free };
         let left = if load > critical { Edge::Fixed(-0.5) } else { free };
-        let load = Load::PerLength(load);
+        let load = Control::Load(load);
         let got = key(contact.clone().edges(Edge::UpTo(-0.5), corner), load);
         let known = key(contact.clone().edges(left, right), load);
         assert_relative_eq!(got[..], known[..], epsilon = 0.0, max_relative = 4e-15);
@@ -56,7 +56,7 @@ fn a_corner_may_be_the_end_of_the_body() {
     let endless = parabola(2.0);
     let corner = |body, load| {
         let contact = Contact::new(&Flat, body).unwrap();
-        key(contact.edges(Edge::Free, Edge::UpTo(0.3)), Load::PerLength(load))
+        key(contact.edges(Edge::Free, Edge::UpTo(0.3)), Control::Load(load))
     };
     for load in [1e-3, 0.0449, 0.0451, 0.2] {
         let (got, known) = (corner(&*ends_at_corner, load), corner(&*endless, load));
@@ -69,7 +69,7 @@ fn a_corner_far_away_does_not_matter() {
     // A contact held at the corner would have to reach beyond the other end of the body.
     let body = graph(-0.25, 1.0, |x| [x * x / 2.0, x]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let load = Load::PerLength(0.005);
+    let load = Control::Load(0.005);
     let got = key(contact.clone().edges(Edge::Free, Edge::UpTo(0.9)), load);
     assert_relative_eq!(got[0], 0.1, epsilon = 0.0, max_relative = 4e-15);
     assert_relative_eq!(got[1], 0.1, epsilon = 0.0, max_relative = 4e-15);
@@ -80,16 +80,16 @@ fn a_corner_serves_every_control() {
     let body = parabola(2.0);
     let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::UpTo(0.3));
     // Hertz below the corner.
-    for load in [Load::ToHalfWidth(0.2), Load::ToPeak(0.2 / PI), Load::PerLength(0.02)] {
+    for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI), Control::Load(0.02)] {
         let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
         assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
         assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
     }
     // Held at the corner, F = L (3 L/2 - 0.3).
-    let solution = contact.solve(Load::ToHalfWidth(0.4)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.4)).unwrap();
     assert_eq!(solution.a(), 0.3);
     assert_relative_eq!(solution.load(), 0.4 * 0.3, epsilon = 0.0, max_relative = 1e-14);
-    let error = contact.solve(Load::ToPeak(2.0 * 0.3 / PI)).unwrap_err();
+    let error = contact.solve(Control::PeakPressure(2.0 * 0.3 / PI)).unwrap_err();
     let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
     assert_relative_eq!(half_width, 0.3, epsilon = 0.0, max_relative = 1e-12);
     assert_relative_eq!(found, 0.3 / PI, epsilon = 0.0, max_relative = 1e-12);
@@ -99,7 +99,7 @@ fn a_corner_serves_every_control() {
 fn corners_on_both_sides_serve_every_control() {
     let body = parabola(2.0);
     let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::UpTo(-0.3), Edge::UpTo(0.3));
-    for load in [Load::ToHalfWidth(0.2), Load::ToPeak(0.2 / PI)] {
+    for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI)] {
         let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
         assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
         assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
@@ -115,7 +115,7 @@ fn a_corner_is_let_go_under_adhesion_too() {
         let held = Contact::new(&Flat, &*body).unwrap().edges(corner, glued);
         let free = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, glued);
         let [held, free] =
-            [&held, &free].map(|contact| contact.solve(Load::PerLength(load)).unwrap().interval());
+            [&held, &free].map(|contact| contact.solve(Control::Load(load)).unwrap().interval());
         for (held, free) in [(held.left, free.left), (held.right, free.right)] {
             assert_relative_eq!(held, free, epsilon = 0.0, max_relative = 1e-12);
         }
@@ -131,7 +131,7 @@ fn an_edge_may_be_fixed_close_to_the_end_of_the_bodies() {
         let edges =
             if s > 0.0 { [Edge::Fixed(s), Edge::Free] } else { [Edge::Free, Edge::Fixed(s)] };
         let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         let l = solution.interval().half_width();
         assert_relative_eq!(l * (1.5 * l + s.abs()), load, epsilon = 0.0, max_relative = 1e-12);
     }

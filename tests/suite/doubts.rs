@@ -6,8 +6,8 @@ use crate::common;
 use common::{graph, join, parabola, power};
 use linecontact::search::{Bracket, Brent, LimitSearch, Newton, Root, SearchError, Tolerance};
 use linecontact::{
-    Body, Contact, ContactError, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat, Interval,
-    Load, Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
+    Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat,
+    Interval, Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
 };
 use std::f64::consts::PI;
 
@@ -15,11 +15,11 @@ use std::f64::consts::PI;
 fn a_sloppy_search_for_the_limits_shows() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let exact = contact.solve(Load::PerLength(0.03)).unwrap().a();
+    let exact = contact.solve(Control::Load(0.03)).unwrap().a();
     for relative in [0.1, 1e-2, 1e-4, 1e-8] {
         let sloppy = Brent { tolerance: Tolerance::relative(relative) };
         let contact = contact.clone().search(&sloppy);
-        let solution = contact.solve(Load::PerLength(0.03)).unwrap();
+        let solution = contact.solve(Control::Load(0.03)).unwrap();
         let error = (solution.a() - exact).abs() / solution.interval().half_width();
         assert!(error <= 2.0 * solution.limits_error().unwrap(), "{relative}: {error:e}");
     }
@@ -52,13 +52,13 @@ fn a_sloppy_inversion_shows() {
         b.lo - f_lo * (b.hi - b.lo) / (f_hi - f_lo)
     });
     let sloppy = contact.clone().inversion(&chord);
-    let solution = sloppy.solve(Load::PerLength(0.02)).unwrap();
+    let solution = sloppy.solve(Control::Load(0.02)).unwrap();
     let error = (solution.a() / 0.2 - 1.0).abs();
     assert!(error > 0.05 && error <= 2.0 * solution.limits_error().unwrap(), "{error}");
 
     for astray in [Guess(|b| 5.0 * b.hi), Guess(|_| f64::NAN)] {
         let contact = contact.clone().inversion(&astray);
-        let error = contact.solve(Load::PerLength(0.02)).unwrap_err();
+        let error = contact.solve(Control::Load(0.02)).unwrap_err();
         assert!(
             matches!(error, ContactError::Inversion { source: SearchError::Astray { .. }, .. }),
             "{error}"
@@ -77,10 +77,10 @@ fn units_do_not_decide() {
     ]);
     let start = Interval { left: -0.3, right: 0.3 };
     let contact = Contact::new(&Flat, &*body).unwrap().start(start);
-    let plain = contact.solve(Load::PerLength(0.1)).unwrap();
+    let plain = contact.solve(Control::Load(0.1)).unwrap();
     for scale in [1e-20, 1e30] {
         let scaled = contact.clone().kappa(scale);
-        let solution = scaled.solve(Load::PerLength(0.1 * scale)).unwrap();
+        let solution = scaled.solve(Control::Load(0.1 * scale)).unwrap();
         assert!((solution.a() / plain.a() - 1.0).abs() < 1e-14, "{solution:?}");
         assert!(solution.limits_error().unwrap() < 1e-13);
     }
@@ -91,11 +91,11 @@ fn lopsided_domains() {
     for (left, right) in [(-1.0, 3e3), (-1.0, 1e4), (-1e5, 1.0), (-0.2001, 1e9)] {
         let body = graph(left, right, |x| [x * x / 2.0, x]);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
         assert!((solution.a() / 0.2 - 1.0).abs() < 1e-14, "[{left}, {right}]: {solution:?}");
         // A start that is not on the bodies is no start.
         let off = contact.clone().start(Interval { left: 2e9, right: 3e9 });
-        assert!((off.solve(Load::PerLength(0.02)).unwrap().a() / 0.2 - 1.0).abs() < 1e-14);
+        assert!((off.solve(Control::Load(0.02)).unwrap().a() / 0.2 - 1.0).abs() < 1e-14);
     }
 }
 
@@ -104,10 +104,10 @@ fn a_steep_body_by_every_chord() {
     // |x|^100/100: the load rises with the hundredth power of the width.
     let body = power(100.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let wanted = contact.solve(Load::PerLength(1e-17)).unwrap().a();
+    let wanted = contact.solve(Control::Load(1e-17)).unwrap().a();
     let newton = Newton::default();
     let started = contact.start(Interval { left: -0.3, right: 0.3 }).search(&newton);
-    let solution = started.solve(Load::PerLength(1e-17)).unwrap();
+    let solution = started.solve(Control::Load(1e-17)).unwrap();
     assert!((solution.a() / wanted - 1.0).abs() < 1e-14, "{solution:?} for {wanted}");
 }
 
@@ -122,7 +122,7 @@ fn starts_inside_a_wave() {
     for half_width in [0.01, 0.03, 0.05, 0.3, 2.0] {
         let start = Interval { left: -half_width, right: half_width };
         let solution = contact.clone().start(start);
-        let solution = solution.solve(Load::Constant(2.0)).unwrap();
+        let solution = solution.solve(Control::Load(2.0 / PI)).unwrap();
         assert!((solution.a() / 1.142738838438643 - 1.0).abs() < 1e-13, "{solution:?}");
     }
 }
@@ -135,7 +135,7 @@ fn pressure_next_to_a_jump_of_the_slope() {
         join(vec![graph(-1.0, 0.0, move |x| [-m * x, -m]), graph(0.0, 1.0, move |x| [m * x, m])]);
     let rule = Midpoint::default();
     let contact = Contact::new(&Flat, &*wedge).unwrap().quadrature(&rule);
-    let solution = contact.solve(Load::PerLength(2.0 * m * 0.2 / PI)).unwrap();
+    let solution = contact.solve(Control::Load(2.0 * m * 0.2 / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.05, 0.15] {
         let exact = 2.0 * m / (PI * PI) * (0.2f64 / x).acosh();
@@ -157,7 +157,7 @@ fn rules_too_coarse_to_know() {
     for (segments, extrapolations) in [(1, 0), (1, 1), (2, 0), (2, 1), (3, 0), (3, 2)] {
         let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
         let pressure = solution.pressure().unwrap();
         for z in [-0.9, -0.4, 0.0, 0.01, 0.6, 0.99] {
             let exact = 0.2 * (1.0f64 - z * z).sqrt() / PI;
@@ -169,7 +169,7 @@ fn rules_too_coarse_to_know() {
     let rule = Midpoint::paper(1, 0);
     let edges = EdgePressure::zero(0.01, 1e-6);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges).quadrature(&rule);
-    if let Ok(solution) = contact.solve(Load::PerLength(0.02)) {
+    if let Ok(solution) = contact.solve(Control::Load(0.02)) {
         assert!(solution.limits_error().unwrap() > 0.1, "{solution:?}");
     }
 }
@@ -183,8 +183,7 @@ fn derivatives_that_are_wrong() {
         })
     };
     let solve = |body: &dyn ParametricProfile<f64>| {
-        Contact::new(&Flat, body)
-            .and_then(|contact| contact.solve(Load::PerLength(0.02)).map(|_| ()))
+        Contact::new(&Flat, body).and_then(|contact| contact.solve(Control::Load(0.02)).map(|_| ()))
     };
     assert!(Piece::checked(&with(1.0, 1.0)).is_ok());
     assert_eq!(solve(&with(1.0, 1.0)), Ok(()));
@@ -219,7 +218,7 @@ fn slopes_that_are_a_third_off() {
             let bodies = [with(factor, -1.0, falls, height), with(factor, 1.0, falls, height)];
             let (left, right) = (Contact::new(&bodies[0], &Flat), Contact::new(&Flat, &bodies[1]));
             for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
-                let error = contact.unwrap().solve(Load::PerLength(0.02)).map(|_| ()).err();
+                let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).err();
                 assert_eq!(error.is_some(), seen, "{factor}: {error:?}");
                 let Some(error) = error else { continue };
                 let ContactError::Profile { body: at_fault, source } = error else { panic!() };
@@ -261,7 +260,7 @@ fn a_wave_that_both_bodies_have_is_in_no_gap() {
             [y + x * x / 2.0, slope + x]
         });
         let contact = Contact::new(&*lower, &*upper).unwrap();
-        let solution = contact.solve(Load::PerLength(0.08)).unwrap();
+        let solution = contact.solve(Control::Load(0.08)).unwrap();
         assert!((solution.a() / 0.4 - 1.0).abs() < 1e-9, "{count}: {solution:?}");
     }
 }

@@ -13,7 +13,7 @@ use crate::common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::{Profile, graph, parabola};
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Solution};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval, Midpoint, Solution};
 use std::f64::consts::PI;
 
 pub const KAPPA: f64 = 1.7;
@@ -109,7 +109,7 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
         let name = format!("{left:?} {right:?}");
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
         for load in [0.2, 0.1] {
-            let solution = contact.solve(Load::PerLength(load)).expect(&name);
+            let solution = contact.solve(Control::Load(load)).expect(&name);
             let (on, load) = (solution.interval(), solution.load());
             let scale = KAPPA * on.half_width();
             let exact = g.strengths(load, on);
@@ -143,7 +143,7 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
 fn on_parabola(load: f64, radius: f64, left: Edge<f64>, right: Edge<f64>) -> [f64; 4] {
     let body = Quadratic([0.0, 1.0 / radius, 0.0]).body(-4.0, 4.0);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     let on = solution.interval();
     let x = on.left + 0.3 * (on.right - on.left);
     let pressure = solution.pressure().unwrap().estimate(x, &mut Default::default()).unwrap();
@@ -200,7 +200,7 @@ fn a_tilted_flat_punch_rests_on_one_corner() {
         let (left, right) =
             if sign > 0.0 { (Edge::Fixed(x0), Edge::Free) } else { (Edge::Free, Edge::Fixed(-x0)) };
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         let a = if sign > 0.0 { solution.a() } else { solution.b() };
         assert_relative_eq!(a, x0 + 1.4, epsilon = 0.0, max_relative = 4e-15);
         let pressure = solution.pressure().unwrap();
@@ -226,7 +226,7 @@ fn flat_and_tilted_punches_between_two_corners() {
         let body = Quadratic([m, 0.0, 0.0]).body(-1.0, 1.0);
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
         let contact = contact.edges(Edge::Fixed(-l), Edge::Fixed(l));
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         assert_eq!([solution.a(), solution.b(), solution.load()], [l, l, load]);
         let pressure = solution.pressure().unwrap();
         for i in -9..10 {
@@ -256,7 +256,7 @@ fn two_adhesive_edges_give_the_line_contact_of_johnson_kendall_and_roberts() {
     let at_zero = (16.0 * radius * radius * work / kappa).cbrt();
     assert!(load(at_zero).abs() < 1e-15);
     for l in [at_zero, 1.02 * least, 1.2 * least, 1.5 * least, 1.3 * at_zero, 5.0] {
-        let solution = contact.solve(Load::PerLength(load(l))).unwrap();
+        let solution = contact.solve(Control::Load(load(l))).unwrap();
         // Near pull-off dF/dL vanishes, and a rounded load leaves L more open.
         let stiffness = kappa * l / radius - (kappa * work / l).sqrt();
         let open = 1e-15 * (1.0 + (kappa * work / l).sqrt() / stiffness * 4.0);
@@ -319,9 +319,9 @@ fn adhesion_of_no_work_is_none() {
     for other in [Edge::Free, none, Edge::Fixed(0.3)] {
         let without =
             contact.clone().edges(Edge::Free, if other == none { Edge::Free } else { other });
-        let without = without.solve(Load::PerLength(0.04)).unwrap();
+        let without = without.solve(Control::Load(0.04)).unwrap();
         let with = contact.clone().edges(none, other);
-        let with = with.solve(Load::PerLength(0.04)).unwrap();
+        let with = with.solve(Control::Load(0.04)).unwrap();
         assert_relative_eq!(with.a(), without.a(), epsilon = 0.0, max_relative = 2e-15);
         assert_relative_eq!(with.b(), without.b(), epsilon = 0.0, max_relative = 2e-15);
         let [with, without] = [&with, &without].map(|s| s.pressure().unwrap().at(0.05).unwrap());
@@ -334,7 +334,7 @@ fn edges_that_make_no_sense() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let error = |left, right, load| contact.clone().edges(left, right).solve(load).unwrap_err();
-    let load = Load::PerLength(0.1);
+    let load = Control::Load(0.1);
     for work in [-1.0, f64::NAN, f64::INFINITY] {
         for (left, right) in
             [(Edge::Adhesive(work), Edge::Free), (Edge::Fixed(0.0), Edge::Adhesive(work))]
@@ -364,12 +364,12 @@ fn edges_that_make_no_sense() {
         let error = by_rule.solve(load).unwrap_err();
         assert_eq!(error, ContactError::OutsideBodies { x, range });
     }
-    let peak = error(Edge::Free, Edge::UpTo(1.5), Load::ToPeak(0.1));
+    let peak = error(Edge::Free, Edge::UpTo(1.5), Control::PeakPressure(0.1));
     assert_eq!(peak, ContactError::OutsideBodies { x: 1.5, range: [-1.0, 1.0] });
     let [left, right] = [0.4, -0.4];
     let reversed = error(Edge::Fixed(left), Edge::Fixed(right), load);
     assert_eq!(reversed, ContactError::Limits { interval: Interval { left, right } });
-    for load in [Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+    for load in [Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
         let error = error(Edge::Fixed(-0.4), Edge::Fixed(0.4), load);
         assert!(matches!(error, ContactError::Control { .. }), "{error}");
     }

@@ -6,7 +6,7 @@ use crate::common;
 use common::{graph, parabola};
 use linecontact::search::{Brent, SearchError, Tolerance};
 use linecontact::{
-    Body, Contact, ContactError, Curve, CurvePoint, Edge, EdgePressure, Flat, Interval, Load,
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, Interval,
     Midpoint, ParametricProfile, ProfileError,
 };
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ fn error(
     load: f64,
 ) -> ContactError<f64> {
     let contact = Contact::new(lower, upper);
-    contact.and_then(|contact| contact.solve(Load::PerLength(load)).map(|_| ())).unwrap_err()
+    contact.and_then(|contact| contact.solve(Control::Load(load)).map(|_| ())).unwrap_err()
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn loads_that_are_none() {
     let (left, right) = (Edge::Fixed(-0.3), Edge::Fixed(0.4));
     let contact = Contact::new(&Flat, &*body).unwrap().edges(left, right);
     for load in [0.0, -1.0] {
-        assert!(contact.solve(Load::PerLength(load)).is_ok());
+        assert!(contact.solve(Control::Load(load)).is_ok());
     }
-    let error = contact.solve(Load::PerLength(f64::NAN)).unwrap_err();
+    let error = contact.solve(Control::Load(f64::NAN)).unwrap_err();
     assert!(matches!(error, ContactError::Load { .. }));
 }
 
@@ -44,7 +44,7 @@ fn scales_that_are_none() {
     let body = parabola(1.0);
     for kappa in [0.0, -2.0, f64::NAN, f64::INFINITY] {
         let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(kappa);
-        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        let error = contact.solve(Control::Load(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::Scale { .. }), "{kappa}: {error}");
     }
 }
@@ -80,7 +80,7 @@ fn a_load_too_large_for_the_domain() {
         [(-0.3, [Edge::Fixed(-0.3), Edge::Free]), (0.1, [Edge::Free, Edge::Fixed(-0.1)])]
     {
         let held = contact.clone().edges(edges[0], edges[1]);
-        let error = held.solve(Load::PerLength(2.0));
+        let error = held.solve(Control::Load(2.0));
         let Err(ContactError::TooShort { end, carried, .. }) = error else { panic!("{error:?}") };
         let l = 0.5 * (1.0 - x0);
         assert_eq!(end, if x0 < 0.0 { 1.0 } else { -1.0 });
@@ -89,7 +89,7 @@ fn a_load_too_large_for_the_domain() {
     // Exactly as large as it may be.
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    assert!((contact.solve(Load::PerLength(0.5 * (1.0 - 1e-12))).unwrap().a() - 1.0).abs() < 1e-12);
+    assert!((contact.solve(Control::Load(0.5 * (1.0 - 1e-12))).unwrap().a() - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -214,14 +214,14 @@ fn limits_out_of_order_or_off_the_bodies() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     for (left, right) in [(0.3, -0.2), (0.1, 0.1), (f64::NAN, 1.0), (-1.0, f64::INFINITY)] {
         let fixed = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
-        let error = fixed.solve(Load::PerLength(0.1)).unwrap_err();
+        let error = fixed.solve(Control::Load(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::Limits { .. }), "{error}");
         let started = contact.clone().start(Interval { left, right });
-        let error = started.solve(Load::PerLength(0.1)).unwrap_err();
+        let error = started.solve(Control::Load(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::Limits { .. }), "{error}");
     }
     let wide = contact.edges(Edge::Fixed(-1.5), Edge::Fixed(0.5));
-    let error = wide.solve(Load::PerLength(0.1)).unwrap_err();
+    let error = wide.solve(Control::Load(0.1)).unwrap_err();
     assert_eq!(error, ContactError::OutsideBodies { x: -1.5, range: [-1.0, 1.0] });
 }
 
@@ -238,17 +238,17 @@ fn unusable_edge_pressures() {
     ];
     for edges in bad {
         let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges);
-        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        let error = contact.solve(Control::Load(0.1)).unwrap_err();
         assert!(matches!(error, ContactError::EdgePressure { .. }), "{error}");
     }
     // A distance wider than the contact can ever be.
     let far = EdgePressure::zero(3.0, 1e-6);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(far);
-    assert!(contact.solve(Load::PerLength(0.1)).is_err());
+    assert!(contact.solve(Control::Load(0.1)).is_err());
     // A tolerance that rounding does not let be met: the error carries what was reached.
     let strict = EdgePressure { at_a: 0.1, at_b: 0.1, ..EdgePressure::zero(0.05, 1e-30) };
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(strict);
-    match contact.solve(Load::PerLength(0.1)) {
+    match contact.solve(Control::Load(0.1)) {
         Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => {
             assert!(at_a.abs() < 1e-12 && at_b.abs() < 1e-12);
             assert!((best.half_width() / 0.2f64.sqrt() - 1.0).abs() < 0.2, "{best:?}");
@@ -263,7 +263,7 @@ fn a_spent_budget_carries_the_best_limits() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]);
     let hasty = Brent { tolerance: Tolerance { max_evaluations: 2, ..Tolerance::FULL } };
     let contact = Contact::new(&Flat, &*body).unwrap().search(&hasty);
-    let error = contact.solve(Load::PerLength(0.03)).unwrap_err();
+    let error = contact.solve(Control::Load(0.03)).unwrap_err();
     let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
         panic!("{error}")
     };
@@ -277,7 +277,7 @@ fn an_inversion_that_gives_up() {
     let rule = Midpoint::default();
     let contact = Contact::new(&*body.lower, &*body.upper).unwrap();
     let contact = contact.inversion(&hasty).quadrature(&rule);
-    let error = contact.solve(Load::Constant(body.c)).unwrap_err();
+    let error = contact.solve(Control::Load(body.c / PI)).unwrap_err();
     assert!(matches!(error, ContactError::Inversion { source: SearchError::Budget { .. }, .. }));
 }
 
@@ -310,7 +310,7 @@ proptest! {
             1 => contact.start(Interval { left: start.0, right: start.1 }),
             _ => contact.edge_pressure(EdgePressure::zero(eps, tolerance)),
         };
-        if let Ok(solution) = contact.solve(Load::PerLength(load)) {
+        if let Ok(solution) = contact.solve(Control::Load(load)) {
             prop_assert!(solution.a().is_finite() && solution.b().is_finite());
             prop_assert!(solution.interval().left < solution.interval().right);
         }
@@ -329,7 +329,7 @@ proptest! {
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(two(kappa));
         let load = fraction * two(load);
         let exact = (2.0 * load / two(kappa) / bend).sqrt();
-        match contact.solve(Load::PerLength(load)) {
+        match contact.solve(Control::Load(load)) {
             Ok(solution) => {
                 prop_assert!((solution.a() / exact - 1.0).abs() < 4e-15, "{:?} {}", solution, exact);
                 prop_assert!((solution.b() / exact - 1.0).abs() < 4e-15, "{:?} {}", solution, exact);
@@ -350,7 +350,7 @@ fn edge_pressures_that_take_a_wider_contact_than_the_bodies() {
     let body = parabola(1.0);
     let wanted = EdgePressure::zero(distance, 1e-3);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(wanted);
-    let error = contact.solve(Load::PerLength(load)).unwrap_err();
+    let error = contact.solve(Control::Load(load)).unwrap_err();
     let ContactError::EdgePressureNotMet { best, at_a, at_b } = error else { panic!("{error}") };
     for limit in [best.right, -best.left] {
         assert!((limit - 1.0).abs() < 1e-12, "{best:?}");
@@ -372,7 +372,7 @@ fn a_profile_that_fails_where_the_bodies_touch_first_is_named() {
     let contact = Contact::new(&Flat, &*failing).unwrap().search(&brent);
     for start in [[-0.5, 0.9], [-0.8, 0.3], [-0.2, 0.9]] {
         let contact = contact.clone().start(Interval { left: start[0], right: start[1] });
-        let error = contact.solve(Load::PerLength(0.1)).unwrap_err();
+        let error = contact.solve(Control::Load(0.1)).unwrap_err();
         let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
             panic!("{error}")
         };
@@ -391,7 +391,7 @@ fn a_profile_that_fails_after_a_while_is_named_under_a_given_peak() {
             CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy }
         });
         let Ok(contact) = Contact::new(&Flat, &body) else { continue };
-        match contact.solve(Load::ToPeak(0.2)) {
+        match contact.solve(Control::PeakPressure(0.2)) {
             Ok(solution) => {
                 found += 1;
                 assert!((solution.a() / (0.2 * std::f64::consts::PI) - 1.0).abs() < 1e-12);
@@ -440,7 +440,7 @@ fn a_profile_that_fails_under_a_pull_is_named() {
     let failing =
         graph(-1.0, 1.0, |x| [x * x / 2.0, if x > 0.05 && x < 0.5 { f64::NAN } else { x }]);
     let contact = Contact::new(&Flat, &*failing).unwrap().edges(glued, glued);
-    let error = contact.solve(Load::PerLength(-1e-3)).unwrap_err();
+    let error = contact.solve(Control::Load(-1e-3)).unwrap_err();
     let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
         panic!("{error}")
     };
@@ -451,9 +451,9 @@ fn a_profile_that_fails_under_a_pull_is_named() {
 fn a_spent_budget_of_a_peak_carries_the_best_limits() {
     let body = common::power(3.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let exact = contact.solve(Load::ToPeak(0.1)).unwrap().a();
+    let exact = contact.solve(Control::PeakPressure(0.1)).unwrap().a();
     let hasty = Brent { tolerance: Tolerance { max_evaluations: 1, ..Tolerance::FULL } };
-    let error = contact.search(&hasty).solve(Load::ToPeak(0.1)).unwrap_err();
+    let error = contact.search(&hasty).solve(Control::PeakPressure(0.1)).unwrap_err();
     let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
         panic!("{error}")
     };
@@ -468,18 +468,17 @@ fn distances_and_loads_that_numbers_cannot_hold() {
     for distance in [1e-20, 1e-300] {
         for contact in [contact.clone(), contact.clone().quadrature(&Midpoint::DEFAULT)] {
             let contact = contact.edge_pressure(EdgePressure::zero(distance, 1e-6));
-            let error = contact.solve(Load::PerLength(0.01)).map(|_| ()).unwrap_err();
+            let error = contact.solve(Control::Load(0.01)).map(|_| ()).unwrap_err();
             assert_eq!(error, ContactError::EdgePressure { name: "ε_a", value: distance });
         }
     }
     let held = contact.edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
     for load in [1e308, -1e308, f64::MAX] {
-        let error = held.solve(Load::PerLength(load)).map(|_| ()).unwrap_err();
+        let error = held.solve(Control::Load(load)).map(|_| ()).unwrap_err();
         assert!(matches!(error, ContactError::Overflow { .. }), "{error}");
     }
     // P = F/(π sqrt(L² - x²)), next to which the parabola is nothing.
-    let pressure =
-        held.solve(Load::PerLength(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
+    let pressure = held.solve(Control::Load(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
     let exact = 1e300 / (std::f64::consts::PI * 0.08);
     assert!((pressure / exact - 1.0).abs() < 1e-14, "{pressure:e}");
 }

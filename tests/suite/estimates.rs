@@ -7,7 +7,7 @@ use approx::assert_relative_eq;
 use common::{graph, parabola, power, reference, scenes};
 use linecontact::reference::{ClosedForm, Jkr, body};
 use linecontact::search::Brent;
-use linecontact::{Contact, Cost, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise};
+use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise};
 use std::f64::consts::PI;
 
 /// Estimate and error, and what rounding alone makes of it.
@@ -31,7 +31,7 @@ fn judged(wanted: fn(&str) -> bool) -> Vec<Judged> {
     for scene in scenes().into_iter().filter(|scene| wanted(scene.name)) {
         let want = reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+        let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
         let half_width = want.half_width();
         let estimate = solution.limits_error().unwrap();
         for (limit, got, exact) in [("a", solution.a(), want.a), ("b", solution.b(), want.b)] {
@@ -124,7 +124,7 @@ fn scan_power_20<T: linecontact::Real>(to_f64: fn(T) -> f64) -> [f64; 2] {
     };
     let body = Piecewise::new(vec![half(-2.0, 0.0, -1.0), half(0.0, 2.0, 1.0)]).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::Constant(T::of(want.c))).unwrap();
+    let solution = contact.solve(Control::Load(T::of(want.c) / T::pi())).unwrap();
     let pressure = solution.pressure().unwrap();
     let mut binomials = vec![1.0];
     for i in 0..9 {
@@ -171,7 +171,7 @@ fn scan_cusp() -> (f64, f64) {
     let body = power(1.5);
     let want = reference("power_n_3_over_2");
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
-    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.99).fold(
         (0.0, 0.0),
@@ -205,7 +205,7 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
         let body = body(&form, -1.0, 1.0).unwrap();
         let edge = Edge::Adhesive(work);
         let contact = Contact::new(&Flat, &body).unwrap().edges(edge, edge);
-        let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+        let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
         let pressure = solution.pressure().unwrap();
         for share in [0.0, -0.5, 0.9, -0.999] {
             let x = share * solution.a();
@@ -239,7 +239,7 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
         for relative in [1e-2, 1e-4, 1e-6] {
             let sloppy = Brent { tolerance: Tolerance::relative(relative) };
             let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).search(&sloppy);
-            let solution = contact.solve(Load::PerLength(kappa * 0.08 * length)).unwrap();
+            let solution = contact.solve(Control::Load(kappa * 0.08 * length)).unwrap();
             let pressure = solution.pressure().unwrap();
             for z in [-0.999, -0.9, -0.3, 0.0, 0.5, 0.95, 0.99] {
                 let exact = scale * (1.0f64 - z * z).sqrt();
@@ -269,7 +269,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
             for load in [0.0, 1e-320, 1e-250, 1e-30] {
                 let pulled = Edge::Adhesive(work);
                 let held = contact.clone().edges(Edge::Fixed(-0.1), pulled);
-                let solution = held.solve(Load::PerLength(load)).unwrap();
+                let solution = held.solve(Control::Load(load)).unwrap();
                 assert!(
                     solution.limits_error().unwrap() < 1e-13,
                     "{work:e} {load:e} {:?}",
@@ -283,7 +283,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
                 if load < 1e-3 * work {
                     let both = contact.clone().edges(pulled, pulled);
                     let solution = both
-                        .solve(Load::PerLength(load))
+                        .solve(Control::Load(load))
                         .map_err(|e| format!("{work:e} {load:e} {e}"))
                         .unwrap();
                     let exact = (16.0 * work).cbrt();
@@ -303,7 +303,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
 fn at_joint(left: common::Profile, right: common::Profile, load: f64, x: f64) -> [f64; 3] {
     let body = common::join(vec![left, right]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::Constant(load)).unwrap();
+    let solution = contact.solve(Control::Load(load / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     let at = |x| pressure.estimate(x, &mut Cost::default()).unwrap();
     [at(x).value, at(x).error, at(x.next_up()).value]

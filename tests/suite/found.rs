@@ -6,7 +6,7 @@ use crate::common;
 use common::{Profile, graph, join};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, ContactError, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load,
+    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval,
     Midpoint, Panels,
 };
 use std::f64::consts::PI;
@@ -42,7 +42,7 @@ fn an_edge_just_beyond_a_jump_of_the_slope() {
     for ((j, x0, c, t), half_width, (a, b, load)) in cases {
         let body = with_jump(j, x0, c, t);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        for pressed in [Load::ToHalfWidth(half_width), Load::PerLength(load)] {
+        for pressed in [Control::HalfWidth(half_width), Control::Load(load)] {
             let solution = contact.solve(pressed).unwrap();
             let off = (solution.a() - a).abs().max((solution.b() - b).abs()) / half_width;
             let allowed = solution.limits_error().unwrap() + 1e-15;
@@ -68,7 +68,7 @@ fn halves_of_a_panel_that_is_all_but_resolved() {
     let lower = graph(-4.0, 4.0, move |x| two(x).map(|value| -value));
     let contact = Contact::new(&*lower, &*upper).unwrap();
     for half_width in [0.448, 0.449, 0.45, 0.45035219192504883, 0.451, 0.46] {
-        let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
         assert!(solution.limits_error().unwrap() < 1e-13, "{solution:?}");
         for z in [-0.9, -0.6, -0.2, 0.1, 0.8] {
             let on = solution.interval();
@@ -95,7 +95,7 @@ fn a_wave_on_both_bodies_is_no_wrong_derivative() {
     for contact in [contact.clone(), contact.clone().search(&brent), contact.quadrature(&coarse)] {
         for (left, right) in [(-0.611, -0.6105), (2.0, 2.001), (-3.0, 3.0), (-4.0, -3.9)] {
             let contact = contact.clone().start(Interval { left, right });
-            let solution = contact.solve(Load::ToHalfWidth(0.8)).unwrap();
+            let solution = contact.solve(Control::HalfWidth(0.8)).unwrap();
             assert!((solution.load() / 0.16 - 1.0).abs() < 1e-12, "{solution:?}");
         }
     }
@@ -113,11 +113,11 @@ fn a_steep_line_before_a_series() {
     };
     let body = graph(-3.0, 3.0, at);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let exact = contact.solve(Load::ToHalfWidth(1.0)).unwrap().interval();
+    let exact = contact.solve(Control::HalfWidth(1.0)).unwrap().interval();
     for tolerance in [1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6] {
         let rule = Panels { tolerance };
         let coarse = contact.clone().quadrature(&rule);
-        let solution = coarse.solve(Load::ToHalfWidth(1.0)).unwrap();
+        let solution = coarse.solve(Control::HalfWidth(1.0)).unwrap();
         let off = (solution.a() - exact.right).abs();
         let estimate = solution.limits_error().unwrap();
         assert!(off <= estimate, "{tolerance}: {off:e} > {estimate:e}");
@@ -167,7 +167,7 @@ fn a_step_of_a_millionth_of_the_bodies() {
         let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Fixed(left), Edge::Free);
         let brent = Brent::default();
         for contact in [contact.clone(), contact.search(&brent)] {
-            let solution = contact.solve(Load::PerLength(l * first)).unwrap();
+            let solution = contact.solve(Control::Load(l * first)).unwrap();
             let off = (solution.a() - on.right).abs() / l;
             let estimate = solution.limits_error().unwrap();
             assert!(off <= 3.0 * estimate && estimate < 1e-8, "{off:e}, {estimate:e}");
@@ -197,7 +197,7 @@ fn from_a_stiff_stretch_with_a_loose_tolerance() {
         for body in [&declared, &kinked] {
             let contact = Contact::new(&Flat, &**body).unwrap().quadrature(&rule);
             let contact = contact.edges(Edge::Fixed(left), Edge::Free);
-            let solution = contact.solve(Load::PerLength(load)).unwrap();
+            let solution = contact.solve(Control::Load(load)).unwrap();
             let off = (solution.a() - left - 2.0 * l).abs() / l;
             let estimate = solution.limits_error().unwrap();
             assert!(off <= 3.0 * estimate + tolerance, "{off:e}, {estimate:e}");
@@ -226,7 +226,7 @@ fn a_kink_beside_a_corner() {
                 [graph(-4.0, 4.0, at), graph(-4.0, 4.0, move |x| [at(-x)[0], -at(-x)[1]])];
             let load = l * (left + l + m0 + l / 2.0 + m1);
             let free = |contact: &Contact<'_, f64>, edge: f64| {
-                let solution = contact.solve(Load::PerLength(load)).unwrap();
+                let solution = contact.solve(Control::Load(load)).unwrap();
                 let on = solution.interval();
                 let off = (on.left + on.right - edge).abs() / l;
                 let estimate = solution.limits_error().unwrap();
@@ -254,7 +254,7 @@ fn pressures_of_a_given_width_by_the_midpoint_rule() {
             [x * x / 2.0 + y - mean * x, x + dy - mean]
         });
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap();
         assert!((solution.load() / (l * first) - 1.0).abs() < 1e-7);
         let pressure = solution.pressure().unwrap();
         // Gauss's rule of the first kind, at the nodes of the second: exact for polynomials, poles
@@ -294,7 +294,7 @@ fn limits_by_the_midpoint_rule_with_a_kink() {
             [x * x / 2.0 + 1.5 * t * t - m0 * x, x + 3.0 * t - m0]
         });
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        let solution = contact.solve(Load::PerLength(l * m1)).unwrap();
+        let solution = contact.solve(Control::Load(l * m1)).unwrap();
         let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
         let estimate = solution.limits_error().unwrap();
         assert!(off <= 3.0 * estimate && estimate < 1e-3, "{z}: {off:e}, {estimate:e}");
@@ -319,7 +319,7 @@ fn a_search_spends_no_more_than_its_budget() {
     };
     let (fine, coarse) = (saw(400.0), saw(40.0));
     let contact = Contact::new(&Flat, &fine).unwrap();
-    let error = contact.solve(Load::ToPeak(0.07)).unwrap_err();
+    let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);
     assert!(taken < (1 << 20) + 4096, "{taken}");
     let ContactError::Evaluations { evaluations, budget, last } = error else { panic!("{error}") };
@@ -327,7 +327,7 @@ fn a_search_spends_no_more_than_its_budget() {
     assert!(evaluations > budget && evaluations < budget + 256, "{evaluations}");
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
     let contact = Contact::new(&Flat, &coarse).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.3)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     assert!(solution.cost().evaluations < 100_000 && solution.limits_error() < Some(1e-5));
 }
 
@@ -346,6 +346,6 @@ fn a_search_down_to_the_smallest_numbers_ends() {
     let start = Interval { left: -0.28746906673291, right: 0.011354298351795801 };
     let contact = Contact::new(&Flat, &body).unwrap().quadrature(&panels).start(start);
     let contact = contact.edges(Edge::Adhesive(0.0010542937184648549), Edge::Free);
-    assert!(contact.solve(Load::PerLength(8.89447175874297e-247)).is_err());
+    assert!(contact.solve(Control::Load(8.89447175874297e-247)).is_err());
     assert!(calls.load(Ordering::Relaxed) < 200_000, "{calls:?}");
 }

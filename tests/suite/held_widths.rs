@@ -5,7 +5,7 @@ use crate::common::{graph, parabola};
 use approx::assert_relative_eq;
 use linecontact::profile::{Ellipse, wedge};
 use linecontact::search::Brent;
-use linecontact::{Contact, ContactError, Edge, Flat, Interval, Load, Midpoint, Panels, Solver};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval, Midpoint, Panels, Solver};
 use std::f64::consts::PI;
 
 /// One limit and the width give the other, and K = 0 at the free edge the load: F = L²/2 - L c with
@@ -21,16 +21,16 @@ fn a_width_beside_a_fixed_edge() {
             let load = half_width * (0.5 * half_width - (held - half_width));
             let mirrored = contact.clone().edges(Edge::Fixed(-held), Edge::Free);
             let contact = contact.clone().edges(Edge::Free, Edge::Fixed(held));
-            let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+            let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
             assert_relative_eq!(solution.interval().left, far, epsilon = 0.0, max_relative = 1e-14);
             assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-9);
-            let solution = mirrored.solve(Load::ToHalfWidth(half_width)).unwrap();
+            let solution = mirrored.solve(Control::HalfWidth(half_width)).unwrap();
             assert_relative_eq!(solution.a(), -far, epsilon = 0.0, max_relative = 1e-14);
             assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-9);
         }
         for other in [Edge::Free, Edge::Adhesive(1e-3)] {
             let contact = contact.clone().edges(other, Edge::Fixed(0.1));
-            let error = contact.solve(Load::ToHalfWidth(5.0)).map(|_| ()).unwrap_err();
+            let error = contact.solve(Control::HalfWidth(5.0)).map(|_| ()).unwrap_err();
             assert!(matches!(error, ContactError::OutsideBodies { x: -9.9, .. }), "{error}");
         }
     }
@@ -42,7 +42,7 @@ fn a_width_beside_a_fixed_edge() {
 fn a_width_beside_a_fixed_edge_is_exact() {
     let tip = wedge([-0.25, 1.75], 1.0).unwrap();
     let contact = Contact::new(&Flat, &tip).unwrap().edges(Edge::Fixed(-0.5), Edge::Free);
-    let solution = contact.solve(Load::ToHalfWidth(0.25)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.25)).unwrap();
     assert_eq!(solution.interval(), Interval { left: -0.5, right: 0.0 });
     assert_relative_eq!(solution.load(), -0.0625, epsilon = 0.0, max_relative = 1e-14);
 
@@ -57,7 +57,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
             let panels = Panels { tolerance };
             let contact = Contact::new(&Flat, &arc).unwrap().quadrature(&panels);
             let contact = contact.edges(Edge::Fixed(left), Edge::Free);
-            let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+            let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
             assert_eq!(solution.interval().left, left);
             let off = (solution.load() / load - 1.0).abs();
             let estimate = solution.limits_error().unwrap();
@@ -72,7 +72,7 @@ fn a_corner_is_not_passed() {
     let hollow = graph(-1.0, 1.0, |x| [-x * x / 2.0, -x]);
     let contact = Contact::new(&Flat, &*hollow).unwrap();
     let contact = contact.edges(Edge::UpTo(-0.1), Edge::Adhesive(0.0));
-    assert!(contact.solve(Load::ToHalfWidth(0.3)).is_err());
+    assert!(contact.solve(Control::HalfWidth(0.3)).is_err());
 }
 
 /// Two tips with a hollow between them: no narrow contact presses anywhere.
@@ -83,9 +83,9 @@ fn a_peak_of_a_hollow_tip() {
         [square * square - 0.02 * square, 4.0 * square * x - 0.04 * x]
     });
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let under = contact.solve(Load::PerLength(0.1)).unwrap();
+    let under = contact.solve(Control::Load(0.1)).unwrap();
     let peak = under.peak().unwrap().pressure;
-    let found = contact.solve(Load::ToPeak(peak)).unwrap();
+    let found = contact.solve(Control::PeakPressure(peak)).unwrap();
     assert_relative_eq!(found.a(), under.a(), epsilon = 0.0, max_relative = 1e-7);
     assert_relative_eq!(found.load(), 0.1, epsilon = 0.0, max_relative = 1e-7);
 }
@@ -97,7 +97,7 @@ fn a_doubtful_peak_is_a_doubtful_width() {
     for segments in [4, 8, 16, 32] {
         let rule = Midpoint { segments, ..Midpoint::DEFAULT };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        if let Ok(solution) = contact.solve(Load::ToPeak(0.1)) {
+        if let Ok(solution) = contact.solve(Control::PeakPressure(0.1)) {
             let off = (solution.a() / (0.1 * PI) - 1.0).abs();
             let estimate = solution.limits_error().unwrap();
             assert!(off <= 4.0 * estimate + 1e-14, "{segments}: {off} {estimate}");
@@ -121,7 +121,7 @@ fn a_width_pulled_at_one_edge() {
             let load = half_width * (0.5 * half_width - centre);
             for (edges, sign) in [([Edge::Free, pull], 1.0), ([pull, Edge::Free], -1.0)] {
                 let contact = contact.clone().edges(edges[0], edges[1]);
-                let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+                let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
                 let on = solution.interval();
                 assert_relative_eq!(
                     on.centre(),
@@ -150,7 +150,7 @@ fn a_width_pulled_far_away_ends() {
         [([Edge::Free, Edge::Adhesive(1e-2)], 1e-2), ([Edge::Adhesive(1.0), Edge::Free], 1.0)]
     {
         let contact = contact.clone().edges(edges[0], edges[1]);
-        let error = contact.solve(Load::ToHalfWidth(1e-9)).map(|_| ()).unwrap_err();
+        let error = contact.solve(Control::HalfWidth(1e-9)).map(|_| ()).unwrap_err();
         assert!(
             matches!(error, ContactError::NoBalance { .. } | ContactError::OutsideBodies { .. }),
             "{work}: {error}"
@@ -168,7 +168,7 @@ fn a_width_after_one_held_by_a_corner() {
         let mut solver = Solver::new();
         let mut last = 0;
         for half_width in half_widths {
-            let solution = solver.solve(&contact, Load::ToHalfWidth(half_width)).unwrap();
+            let solution = solver.solve(&contact, Control::HalfWidth(half_width)).unwrap();
             last = solution.cost().evaluations;
             let held = steep + half_width > corner;
             let right = if held { corner } else { steep + half_width };
@@ -176,7 +176,7 @@ fn a_width_after_one_held_by_a_corner() {
             assert_relative_eq!(solution.a(), right, epsilon = 0.0, max_relative = 1e-14);
             assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-12);
         }
-        let cold = contact.solve(Load::ToHalfWidth(half_widths[1])).unwrap().cost().evaluations;
+        let cold = contact.solve(Control::HalfWidth(half_widths[1])).unwrap().cost().evaluations;
         (last, cold)
     };
     for (steep, corner, half_widths) in [

@@ -6,7 +6,7 @@ use crate::integrals;
 mod scene;
 
 use integrals::Angles;
-use linecontact::{Contact, Cost, CurvePoint, Load};
+use linecontact::{Contact, Control, Cost, CurvePoint};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scene::{Bodies, Body, Part, Scene, Term, scenes};
@@ -27,7 +27,7 @@ struct Answer {
 
 const PLACES: [f64; 5] = [-0.95, -0.4, 0.05, 0.5, 0.97];
 
-fn answer(contact: &Contact<f64>, load: Load<f64>) -> Answer {
+fn answer(contact: &Contact<f64>, load: Control<f64>) -> Answer {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{error}"));
     let on = solution.interval();
     let pressure = solution.pressure().expect("pressures");
@@ -41,7 +41,7 @@ fn answer(contact: &Contact<f64>, load: Load<f64>) -> Answer {
 }
 
 impl Answer {
-    fn of(bodies: [Body<f64>; 2], kappa: f64, load: Load<f64>) -> Self {
+    fn of(bodies: [Body<f64>; 2], kappa: f64, load: Control<f64>) -> Self {
         answer(&Bodies::new(bodies).contact(kappa), load)
     }
 
@@ -112,7 +112,7 @@ impl Answer {
 }
 
 fn base(scene: &Scene) -> Answer {
-    Answer::of(scene.bodies(), scene.kappa, Load::ToHalfWidth(scene.half_width))
+    Answer::of(scene.bodies(), scene.kappa, Control::HalfWidth(scene.half_width))
 }
 
 /// The same, where the slopes are rounded anew: with what rounding them all the same way can do to the
@@ -128,7 +128,7 @@ fn rounded(scene: &Scene, common: f64) -> Answer {
 
 /// The scene under the load that its half-width takes, changed.
 fn changed(scene: &Scene, load: f64, bodies: [Body<f64>; 2]) -> Answer {
-    Answer::of(bodies, scene.kappa, Load::PerLength(load))
+    Answer::of(bodies, scene.kappa, Control::Load(load))
 }
 
 fn moved(
@@ -200,7 +200,7 @@ proptest! {
     fn stretched_along_and_across(scene in scenes(), sx in 0.01..100.0f64, sy in 0.01..100.0f64) {
         let wanted = rounded(&scene, 0.0);
         let bodies = stretched(scene.bodies(), sx, sy);
-        let got = Answer::of(bodies, scene.kappa, Load::PerLength(sy * wanted.load));
+        let got = Answer::of(bodies, scene.kappa, Control::Load(sy * wanted.load));
         holds(got.agrees_all(&wanted.scaled(sx, sy / sx)))?;
     }
 
@@ -210,7 +210,7 @@ proptest! {
         let load = base(&scene).load;
         let wanted = changed(&scene, load, scene.bodies());
         let bodies = stretched(scene.bodies(), sx, sy);
-        let got = Answer::of(bodies, scene.kappa * stiff, Load::PerLength(sy * stiff * load));
+        let got = Answer::of(bodies, scene.kappa * stiff, Control::Load(sy * stiff * load));
         let same = got.is_exactly(&wanted.scaled(sx, sy / sx * stiff));
         prop_assert!(same, "{:?} {:?}", got, wanted.scaled(sx, sy / sx * stiff));
     }
@@ -252,7 +252,7 @@ proptest! {
     fn equilibrium_and_the_equation(scene in scenes(), z in -0.99..0.99f64) {
         let bodies = Bodies::new(scene.bodies());
         let contact = bodies.contact(scene.kappa);
-        let solution = contact.solve(Load::ToHalfWidth(scene.half_width)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(scene.half_width)).unwrap();
         let on = solution.interval();
         let all = solution.pressure().unwrap();
         let pressure = |x: f64| all.estimate(x, &mut Cost::default()).map_or(0.0, |p| p.value);
@@ -272,7 +272,7 @@ proptest! {
         let wanted = base(&scene);
         let bodies = Bodies::<f32>::new(scene.bodies());
         let contact = bodies.contact(scene.kappa as f32);
-        let solution = contact.solve(Load::PerLength(wanted.load as f32)).unwrap();
+        let solution = contact.solve(Control::Load(wanted.load as f32)).unwrap();
         let on = solution.interval();
         let half_width = f64::from(on.half_width());
         let error = f64::from(solution.limits_error().unwrap()) * half_width;

@@ -8,7 +8,7 @@ use approx::assert_relative_eq;
 use common::{graph, paper, parabola, reference, scenes};
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
 use linecontact::{
-    Contact, Curve, CurvePoint, Edge, EdgePressure, Exponents, Flat, Interval, Load, Midpoint,
+    Contact, Control, Curve, CurvePoint, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
     ParametricProfile,
 };
 use std::f64::consts::PI;
@@ -22,7 +22,7 @@ fn limits_agree_with_the_references() {
     for scene in scenes() {
         let want = reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+        let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
         println!(
             "{:32} a {:9.1e}  b {:9.1e}  estimate {:8.1e}  {:?}",
             scene.name,
@@ -41,7 +41,7 @@ fn the_error_estimate_covers_the_error() {
     for scene in scenes() {
         let want = reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+        let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
         let error = (solution.a() - want.a).abs().max((solution.b() - want.b).abs());
         let estimate = solution.limits_error().unwrap() * want.half_width();
         // Half an ulp of the printed limits themselves is not the solver's to answer for.
@@ -69,7 +69,7 @@ fn poor_starts_converge() {
         ];
         for (b, a) in starts {
             let contact = scene.contact().start(Interval { left: -b, right: a });
-            let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+            let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
             close(solution.a(), want.a, scene.accuracy, scene.name);
             close(solution.b(), want.b, scene.accuracy, scene.name);
         }
@@ -85,7 +85,7 @@ fn every_strategy_serves_for_either_search() {
         for strategy in strategies {
             for contact in [scene.contact().search(strategy), scene.contact().inversion(strategy)] {
                 // Bisection of a curve with its zero at k = 0 goes on to the smallest number.
-                let solution = contact.solve(Load::Constant(want.c)).expect(scene.name);
+                let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
                 close(solution.a(), want.a, scene.accuracy, scene.name);
                 close(solution.b(), want.b, scene.accuracy, scene.name);
             }
@@ -100,7 +100,7 @@ fn lopsided() -> (impl Fn(f64) -> [f64; 2] + Copy, f64) {
 
 fn limits_of(lower: &dyn ParametricProfile<f64>, upper: &dyn ParametricProfile<f64>) -> [f64; 2] {
     let contact = Contact::new(lower, upper).unwrap();
-    let solution = contact.solve(Load::PerLength(0.03)).unwrap();
+    let solution = contact.solve(Control::Load(0.03)).unwrap();
     [solution.b(), solution.a()]
 }
 
@@ -161,7 +161,7 @@ fn mirror_swap_shift_and_scale() {
     for (s, p) in [(1024.0, 1.0), (1e-6, 1e11), (3.0, 0.1)] {
         let scaled = graph(-0.8 * s, 0.8 * s, move |x| [s * f(x / s)[0], f(x / s)[1]]);
         let contact = Contact::new(&Flat, &*scaled).unwrap().kappa(p);
-        let solution = contact.solve(Load::PerLength(load * s * p)).unwrap();
+        let solution = contact.solve(Control::Load(load * s * p)).unwrap();
         assert_relative_eq!(solution.a(), s * a, epsilon = 0.0, max_relative = 4e-15);
         assert_relative_eq!(solution.b(), s * b, epsilon = 0.0, max_relative = 4e-15);
     }
@@ -174,23 +174,23 @@ fn a_gap_that_is_not_convex() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3), x + 3.0 * x * x]);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for load in [1e-6, 1e-3, 5e-3, 0.01, 0.0106] {
-        let l = contact.solve(Load::PerLength(load)).unwrap().interval().half_width();
+        let l = contact.solve(Control::Load(load)).unwrap().interval().half_width();
         let carried = l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
         assert_relative_eq!(carried, load, epsilon = 0.0, max_relative = 1e-14);
         assert!(l * l < 1.0 / 27.0, "the branch that grows with the load");
     }
     for load in [0.0107, 0.011, 0.02] {
-        assert!(contact.solve(Load::PerLength(load)).is_err(), "{load}");
+        assert!(contact.solve(Control::Load(load)).is_err(), "{load}");
     }
 }
 
 #[test]
-fn load_and_scale_have_two_names_each() {
+fn the_scale_has_two_names() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let by_modulus = contact.clone().contact_modulus(3.0);
-    let modulus = by_modulus.solve(Load::PerLength(0.1)).unwrap();
-    let kappa = contact.kappa(1.5 * PI).solve(Load::Constant(0.1 * PI)).map(|s| [s.a(), s.load()]);
+    let modulus = by_modulus.solve(Control::Load(0.1)).unwrap();
+    let kappa = contact.kappa(1.5 * PI).solve(Control::Load(0.1)).map(|s| [s.a(), s.load()]);
     assert_eq!(kappa.unwrap(), [modulus.a(), modulus.load()]);
     // Hertz: L² = 4 F R/(π E*).
     assert_relative_eq!(
@@ -222,7 +222,7 @@ fn edge_pressures_of_the_exact_solution_give_its_limits() {
         let contact = Contact::new(&*example.lower, &*example.upper).unwrap().kappa(PI / 2.0);
         let contact = contact.edge_pressure(wanted).quadrature(&rule).search(strategy);
         let contact = contact.start(Interval { left: -b, right: a });
-        let solution = contact.solve(Load::Constant(example.c)).unwrap();
+        let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
         assert_relative_eq!(solution.a(), 1.0, epsilon = 0.0, max_relative = 1e-7);
         assert_relative_eq!(solution.b(), 0.6, epsilon = 0.0, max_relative = 1e-7);
         // The condition itself, as a user would check it.
@@ -244,7 +244,7 @@ fn edge_pressures_approach_the_free_limits() {
         let edges = EdgePressure::zero(eps, 1e-6);
         let contact = Contact::new(&*example.lower, &*example.upper).unwrap();
         let contact = contact.edge_pressure(edges).quadrature(&rule);
-        let solution = contact.solve(Load::Constant(example.c)).unwrap();
+        let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
         let error = (solution.a() / want.a - 1.0).abs().max((solution.b() / want.b - 1.0).abs());
         assert!(error < 0.6 * last, "{error} at ε = {eps}, {last} at four times that");
         last = error;
@@ -256,7 +256,7 @@ fn edge_pressures_approach_the_free_limits() {
 fn edge_strengths_vanish_at_free_edges_and_answer_at_fixed_ones() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let free = contact.solve(Load::PerLength(0.08)).unwrap();
+    let free = contact.solve(Control::Load(0.08)).unwrap();
     let scale = 0.08 / free.a();
     assert!(free.edge_strengths().iter().all(|k| k.abs() < 1e-14 * scale));
 
@@ -267,7 +267,7 @@ fn edge_strengths_vanish_at_free_edges_and_answer_at_fixed_ones() {
     let on = Interval { left: -0.5, right: 0.5 };
     let contact =
         Contact::new(&Flat, &*tilted).unwrap().edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     let [k_a, k_b] = solution.edge_strengths();
     assert_relative_eq!(k_a, (load - m * 0.5) / (PI * 0.5), epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(k_b, (load + m * 0.5) / (PI * 0.5), epsilon = 0.0, max_relative = 1e-14);
@@ -285,7 +285,7 @@ fn a_flat_body_is_never_evaluated() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let before = calls.load(Ordering::Relaxed);
     assert_eq!(before, 2, "of a body the two ends are looked at");
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     let cost = solution.cost();
     assert_eq!(calls.load(Ordering::Relaxed) - before, cost.evaluations, "the count is exact");
     // x = k, so that one evaluation inverts it; only the flat could have doubled that.
@@ -300,7 +300,7 @@ fn single_precision() {
         [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
     for strategy in strategies {
         let contact = Contact::new(&Flat, &body).unwrap().search(strategy).inversion(strategy);
-        let solution = contact.solve(Load::PerLength(0.25)).unwrap();
+        let solution = contact.solve(Control::Load(0.25)).unwrap();
         assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 1e-6);
         assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 1e-6);
         // P(0) = 2 L/π.
@@ -321,14 +321,14 @@ fn a_curvature_that_jumps_by_two_to_the_27th() {
     let (right, left) = (body(1.0, steep), body(steep, 1.0));
     let rule = Midpoint::default();
     let scene = Contact::new(&Flat, &*right).unwrap().quadrature(&rule);
-    let other = scene.solve(Load::PerLength(0.3)).unwrap();
+    let other = scene.solve(Control::Load(0.3)).unwrap();
     for start in [None, Some((-0.3, 0.3)), Some((3.0, 4.0)), Some((-1e-7, 1e-7))] {
         for (body, mirrored) in [(&right, false), (&left, true)] {
             let mut contact = Contact::new(&Flat, &**body).unwrap();
             if let Some((left, right)) = start {
                 contact = contact.start(Interval { left, right });
             }
-            let solution = contact.solve(Load::PerLength(0.3)).unwrap();
+            let solution = contact.solve(Control::Load(0.3)).unwrap();
             let [a, b] =
                 if mirrored { [solution.b(), solution.a()] } else { [solution.a(), solution.b()] };
             assert_relative_eq!(b, other.b(), epsilon = 0.0, max_relative = 2e-15);
@@ -349,7 +349,7 @@ fn a_point_of_first_contact_between_the_ends_of_the_start() {
         let load = l * l / 2.0 - 37.5 * f64::powi(l, 4);
         for start in [Interval { left: -0.31, right: 0.3 }, Interval { left: -0.2, right: 0.9 }] {
             let solution = contact.clone().start(start);
-            let solution = solution.solve(Load::ToHalfWidth(l)).unwrap();
+            let solution = solution.solve(Control::HalfWidth(l)).unwrap();
             close(solution.load(), load, 1e-13, "load");
             close(solution.a(), l, 1e-13, "a");
         }
@@ -363,7 +363,7 @@ fn an_edge_at_a_kink() {
     for jump in [0.5, 3.0, 5.0] {
         for short in [0.0, 1e-14, 1e-12, 1e-10, 1e-6] {
             let half_width = 1.0 - short;
-            let load = Load::PerLength(half_width * half_width / 2.0);
+            let load = Control::Load(half_width * half_width / 2.0);
             let inner = graph(-1.0, 9.0, |x| [x * x / 2.0, x]);
             let outer = graph(-9.0, -1.0, move |x| {
                 let d = x + 1.0;

@@ -9,7 +9,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::graph;
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, Tolerance};
 use linecontact::{
-    Contact, ContactError, Edge, EdgePressure, Exponents, Flat, Interval, Load, Midpoint,
+    Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
 };
 
 /// First contact is at x = 0.2707, on bodies that reach farther to the right.
@@ -76,10 +76,10 @@ fn every_pair_of_edges() {
             let contact = contact.edges(pair[0], pair[1]).search(&**strategy);
             let started = contact.clone().start(Interval { left: -0.2, right: 0.5 });
             for (contact, load) in [
-                (&contact, Load::PerLength(0.2)),
-                (&contact, Load::PerLength(0.1)),
-                (&started, Load::PerLength(0.15)),
-                (&contact, Load::ToHalfWidth(0.3)),
+                (&contact, Control::Load(0.2)),
+                (&contact, Control::Load(0.1)),
+                (&started, Control::Load(0.15)),
+                (&contact, Control::HalfWidth(0.3)),
             ] {
                 let solution = contact.solve(load).unwrap_or_else(|e| panic!("{pair:?}: {e}"));
                 let on = solution.interval();
@@ -126,14 +126,14 @@ fn far_from_the_origin() {
         });
         for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).search(&**strategy);
-            let solution = contact.solve(Load::PerLength(0.2)).unwrap();
+            let solution = contact.solve(Control::Load(0.2)).unwrap();
             let Interval { left, right } = solution.interval();
             let on = Interval { left: left - place, right: right - place };
             let rounding = 4.0 * f64::EPSILON * place.abs();
             let exact = BENT.strengths(0.2, on);
             assert_abs_diff_eq!(exact[..], [0.0; 2][..], epsilon = 4.0 * KAPPA * rounding);
             let contact = contact.clone().quadrature(&RULE);
-            let other = contact.solve(Load::PerLength(0.2)).unwrap();
+            let other = contact.solve(Control::Load(0.2)).unwrap();
             assert_abs_diff_eq!(other.a(), right, epsilon = 4.0 * rounding);
             *count += other.cost().evaluations;
         }
@@ -168,8 +168,8 @@ fn up_to_the_most_that_a_gap_bears() {
                 let start = Interval { left: place - 1.01 * half_width, right: place + half_width };
                 let contact = Contact::new(&Flat, &*body).unwrap().search(&**strategy).start(start);
                 let by_rule = contact.clone().quadrature(&RULE);
-                let other = by_rule.solve(Load::PerLength(load));
-                match contact.solve(Load::PerLength(load)) {
+                let other = by_rule.solve(Control::Load(load));
+                match contact.solve(Control::Load(load)) {
                     Ok(solution) => {
                         let l = solution.interval().half_width();
                         let carried = l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
@@ -197,7 +197,7 @@ fn a_width_beyond_the_bodies_names_the_end() {
         for half_width in [0.79, 0.81, 5.0] {
             for strategy in strategies(Tolerance::FULL) {
                 let contact = contact.clone().search(&*strategy);
-                let error = contact.solve(Load::ToHalfWidth(half_width)).unwrap_err();
+                let error = contact.solve(Control::HalfWidth(half_width)).unwrap_err();
                 let ContactError::OutsideBodies { x, range } = error else { panic!("{error}") };
                 assert_eq!(range, reach);
                 let way = if bent.0[0] < 0.0 { -half_width } else { half_width };
@@ -237,7 +237,7 @@ fn bodies_that_are_too_short_carry_so_much() {
                 searches.iter().map(|search| contact.clone().search(&**search)).collect();
             scenes.push(contact);
             for contact in scenes {
-                let error = contact.solve(Load::PerLength(load)).unwrap_err();
+                let error = contact.solve(Control::Load(load)).unwrap_err();
                 let ContactError::TooShort { end, carried, load: asked } = error else {
                     panic!("{error}")
                 };
@@ -253,11 +253,11 @@ fn a_sloppy_search_for_the_place_shows() {
     let body = BENT.body(-0.5, 1.1);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let l = 0.3;
-    let exact = contact.solve(Load::ToHalfWidth(l)).unwrap().interval().centre();
+    let exact = contact.solve(Control::HalfWidth(l)).unwrap().interval().centre();
     for relative in [0.3, 0.1, 1e-2, 1e-4, 1e-8] {
         for strategy in strategies(Tolerance::relative(relative)) {
             let contact = contact.clone().search(&*strategy);
-            let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+            let solution = contact.solve(Control::HalfWidth(l)).unwrap();
             let error = (solution.interval().centre() - exact).abs() / l;
             let estimate = solution.limits_error().unwrap();
             assert!(error <= 2.0 * estimate, "{relative}: {error:e} {estimate:e}");
@@ -295,7 +295,7 @@ fn pressures_wanted_at_a_distance() {
             if let Some([left, right]) = start {
                 contact = contact.start(Interval { left, right });
             }
-            let solution = contact.solve(Load::PerLength(load)).unwrap();
+            let solution = contact.solve(Control::Load(load)).unwrap();
             let on = solution.interval();
             assert_relative_eq!(on.right, place + l, epsilon = 0.0, max_relative = 1e-3);
             assert_relative_eq!(on.left, place - l, epsilon = 0.0, max_relative = 1e-2);
@@ -327,14 +327,14 @@ fn pressures_missed_are_those_of_the_best_contact() {
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).quadrature(&RULE);
     let missed = |wanted| {
         let contact = contact.clone().search(&sloppy).edge_pressure(wanted);
-        match contact.solve(Load::PerLength(load)) {
+        match contact.solve(Control::Load(load)) {
             Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => (best, [at_a, at_b]),
             other => panic!("{other:?}"),
         }
     };
     let (best, by) = missed(wanted);
     let fixed = contact.clone().edges(Edge::Fixed(best.left), Edge::Fixed(best.right));
-    let fixed = fixed.solve(Load::PerLength(load)).unwrap();
+    let fixed = fixed.solve(Control::Load(load)).unwrap();
     let pressure = fixed.pressure().unwrap();
     let at = |x| pressure.estimate(x, &mut Default::default()).unwrap().value;
     let exact = [at(best.right - distances[0]) - at_a, at(best.left + distances[1]) - at_b];
@@ -353,7 +353,7 @@ fn edges_take_the_place_of_edge_pressures() {
     let asked = contact.clone().edge_pressure(EdgePressure::zero(0.1, 1e-6));
     let again = asked.edges(Edge::Free, Edge::Free);
     let limits = |contact: &Contact<f64>| {
-        contact.solve(Load::PerLength(0.1)).map(|solution| solution.interval()).unwrap()
+        contact.solve(Control::Load(0.1)).map(|solution| solution.interval()).unwrap()
     };
     assert_eq!(limits(&again), limits(&contact));
 }
@@ -364,7 +364,7 @@ fn forces_beyond_any_number_are_an_overflow() {
     for strategy in strategies(Tolerance::FULL) {
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).search(&*strategy);
         for load in [1e-3, 1e300] {
-            let error = contact.solve(Load::PerLength(load)).unwrap_err();
+            let error = contact.solve(Control::Load(load)).unwrap_err();
             let ContactError::Overflow { interval } = error else { panic!("{error}") };
             assert!(interval.left < 0.0 && interval.right > 0.0, "{interval:?}");
         }

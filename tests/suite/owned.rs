@@ -6,7 +6,7 @@ use crate::common;
 use common::{graph, join};
 use linecontact::quadrature::Quadrature;
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Flat, Load, Midpoint, Panels, ParametricProfile,
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, Midpoint, Panels, ParametricProfile,
     Solution, Solver,
 };
 use std::sync::Arc;
@@ -40,14 +40,14 @@ fn bits(solution: &Solution<f64>) -> Vec<u64> {
 /// Both bodies end with this function.
 fn of_local_bodies(load: f64) -> Result<Solution<'static, f64>, ContactError<f64>> {
     let (below, above) = (arc(-2.0), bent());
-    Contact::owned(Arc::new(below), Arc::new(above))?.solve(Load::PerLength(load))
+    Contact::owned(Arc::new(below), Arc::new(above))?.solve(Control::Load(load))
 }
 
 #[test]
 fn a_function_returns_the_solution_of_bodies_of_its_own() {
     let owned = of_local_bodies(0.03).unwrap();
     let (below, above) = (arc(-2.0), bent());
-    let lent = Contact::new(&below, &above).unwrap().solve(Load::PerLength(0.03)).unwrap();
+    let lent = Contact::new(&below, &above).unwrap().solve(Control::Load(0.03)).unwrap();
     assert_eq!(bits(&owned), bits(&lent));
     assert_eq!(owned.cost(), lent.cost());
     let x = owned.a() + 0.1;
@@ -61,8 +61,8 @@ fn a_solution_outlives_the_contact_and_the_solver() {
     let solutions = {
         let contact = Contact::new(&Flat, &body).unwrap();
         let mut solver = Solver::new();
-        let warm = [0.01, 0.02].map(|load| solver.solve(&contact, Load::PerLength(load)).unwrap());
-        [warm, [0.01, 0.02].map(|load| contact.solve(Load::PerLength(load)).unwrap())]
+        let warm = [0.01, 0.02].map(|load| solver.solve(&contact, Control::Load(load)).unwrap());
+        [warm, [0.01, 0.02].map(|load| contact.solve(Control::Load(load)).unwrap())]
     };
     let [warm, cold] = solutions.map(|of| of.map(|s| s.pressure().unwrap().at(0.01).unwrap()));
     for (warm, cold) in warm.into_iter().zip(cold) {
@@ -81,7 +81,7 @@ fn solutions_that_are_kept_stay_what_they_were() {
         let [mut keeper, mut dropper] = [Solver::new(), Solver::new()];
         let (mut kept, mut seen) = (Vec::new(), Vec::new());
         for (which, load) in [(0, 0.05), (0, 0.04), (0, 0.2), (1, 0.01), (1, 0.03), (0, 0.05)] {
-            let load = Load::PerLength(load);
+            let load = Control::Load(load);
             kept.push(keeper.solve(&contacts[which], load).unwrap());
             let dropped = dropper.solve(&contacts[which], load).unwrap();
             seen.push((bits(&dropped), dropped.cost()));
@@ -94,7 +94,7 @@ fn solutions_that_are_kept_stay_what_they_were() {
             assert_eq!((bits(kept), kept.cost()), *seen);
         }
         // From nothing a solver gives what the contact gives alone.
-        let load = Load::PerLength(0.03);
+        let load = Control::Load(0.03);
         let first = Solver::new().solve(&contacts[0], load).unwrap();
         assert_eq!(bits(&first), bits(&contacts[0].solve(load).unwrap()));
     }
@@ -105,14 +105,14 @@ fn a_clone_goes_to_a_thread() {
     fn is_sent_and_shared<S: Clone + Send + Sync + std::fmt::Debug>(_: &S) {}
     let mut solver = Solver::new();
     let contact = Contact::owned(Arc::new(Flat), Arc::new(arc(1.0))).unwrap();
-    let solution = solver.solve(&contact, Load::PerLength(0.02)).unwrap();
+    let solution = solver.solve(&contact, Control::Load(0.02)).unwrap();
     is_sent_and_shared(&solution);
     let here = bits(&solution);
     let sent = solution.clone();
     let thread = std::thread::spawn(move || bits(&sent));
     // Meanwhile the solver goes on.
     for load in [0.05, 0.001, 0.03] {
-        solver.solve(&contact, Load::PerLength(load)).unwrap();
+        solver.solve(&contact, Control::Load(load)).unwrap();
     }
     assert_eq!(thread.join().unwrap(), here);
     assert_eq!(bits(&solution), here);

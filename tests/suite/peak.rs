@@ -5,7 +5,7 @@ use crate::common;
 
 use common::{graph, parabola, power};
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint, Piecewise,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -16,7 +16,7 @@ fn of_a_parabola_away_from_zero() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let paper = Midpoint::paper(256, 2);
     for (contact, accuracy) in [(contact.clone(), 1e-14), (contact.quadrature(&paper), 1e-4)] {
-        let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
         let peak = solution.peak().unwrap();
         let exact = 0.2 / PI;
         assert!((peak.pressure / exact - 1.0).abs() < accuracy, "{peak:?}");
@@ -27,7 +27,7 @@ fn of_a_parabola_away_from_zero() {
 #[test]
 fn infinite_at_a_fixed_edge_and_at_a_wedge() {
     let singular = |contact: Contact<'_, f64>, place: f64| {
-        let solution = contact.solve(Load::PerLength(0.1)).unwrap();
+        let solution = contact.solve(Control::Load(0.1)).unwrap();
         let found = solution.peak();
         assert!(matches!(found, Err(ContactError::Singular { x }) if x == place), "{found:?}");
     };
@@ -51,7 +51,7 @@ fn inside_an_adhesive_contact() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let contact = contact.edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     let peak = solution.peak().unwrap();
     let beside = solution.pressure().unwrap().at(0.05).unwrap();
     assert!(peak.x.abs() < 1e-7 && peak.pressure > beside, "{peak:?}");
@@ -75,17 +75,17 @@ fn of_many_pieces_one_of_which_has_a_corner() {
     };
     let smooth = make(0.0);
     let contact = Contact::new(&Flat, &smooth).unwrap();
-    let peak = contact.solve(Load::PerLength(0.02)).unwrap().peak().unwrap();
+    let peak = contact.solve(Control::Load(0.02)).unwrap().peak().unwrap();
     assert!((peak.pressure * PI / 0.2 - 1.0).abs() < 1e-12 && peak.x.abs() < 1e-7);
 
     let up = make(1e-4);
     let contact = Contact::new(&Flat, &up).unwrap();
-    let peak = contact.solve(Load::PerLength(0.02)).unwrap().peak();
+    let peak = contact.solve(Control::Load(0.02)).unwrap().peak();
     assert!(matches!(peak, Err(ContactError::Singular { x }) if x == end(517)), "{peak:?}");
 
     let down = make(-1e-4);
     let contact = Contact::new(&Flat, &down).unwrap();
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     assert!(solution.peak().is_ok());
     let found = solution.certify();
     assert!(matches!(found, Err(ContactError::Tension { x, .. }) if x == end(517)), "{found:?}");
@@ -98,11 +98,11 @@ fn an_infinite_peak_is_refused_whatever_its_unit() {
         let punch = graph(-1.0, 1.0, |x| [0.1 * x, 0.1]);
         let contact = Contact::new(&Flat, &*punch).unwrap().kappa(unit);
         let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-        let solution = contact.solve(Load::PerLength(2.0 * unit)).unwrap();
+        let solution = contact.solve(Control::Load(2.0 * unit)).unwrap();
         assert_eq!(solution.peak(), Err(ContactError::Singular { x: 0.5 }), "{unit}");
         let wedge = power(1.0);
         let contact = Contact::new(&Flat, &*wedge).unwrap().kappa(unit);
-        let solution = contact.solve(Load::ToHalfWidth(0.5)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(0.5)).unwrap();
         let pressure = solution.pressure().unwrap();
         let mut three = [0.0; 3];
         let refused = pressure.at_many(&[0.1, 0.0, -0.2], &mut three);
@@ -123,7 +123,7 @@ fn what_a_given_peak_costs() {
     let rule = Midpoint { segments: 32, ..Midpoint::DEFAULT };
     for contact in [contact.clone(), contact.quadrature(&rule)] {
         let before = calls.load(Relaxed);
-        let solution = contact.solve(Load::ToPeak(0.05)).unwrap();
+        let solution = contact.solve(Control::PeakPressure(0.05)).unwrap();
         assert_eq!(solution.cost().evaluations, calls.load(Relaxed) - before);
     }
 }

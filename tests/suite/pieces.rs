@@ -3,7 +3,7 @@
 
 use approx::assert_relative_eq;
 use linecontact::reference::{ClosedForm, Ellipse};
-use linecontact::{Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piecewise};
+use linecontact::{Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 
 type Profile = Box<dyn ParametricProfile<f64>>;
@@ -44,7 +44,7 @@ fn a_circle_in_thousands_of_arcs() {
     };
     let body = Piecewise::new(joints.windows(2).map(arc).collect()).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
     assert_relative_eq!(solution.a() - shift, 0.3, epsilon = 0.0, max_relative = 1e-14);
     let pressure = solution.pressure().unwrap();
     let sines: Vec<f64> = joints.iter().map(|k| k.sin()).collect();
@@ -71,7 +71,7 @@ fn a_certified_wave_in_thousands_of_pieces() {
     let least = [1, 9000].map(|pieces| {
         let body = Piecewise::new(joints(pieces).windows(2).map(wave).collect()).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(0.6)).unwrap();
         solution.certify().unwrap().pressure.unwrap()
     });
     assert_relative_eq!(least[0].value, least[1].value, epsilon = 0.0, max_relative = 1e-7);
@@ -123,7 +123,7 @@ fn a_polygon_of_a_thousand_sides() {
     let load = 0.5 * (right - left) * first_moment;
 
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     assert_relative_eq!(solution.a(), right, epsilon = 0.0, max_relative = 1e-12);
     assert_relative_eq!(solution.b(), -left, epsilon = 0.0, max_relative = 1e-12);
     let pressure = solution.pressure().unwrap();

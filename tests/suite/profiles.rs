@@ -5,7 +5,7 @@ use crate::common;
 
 use common::{graph, paper, parabola};
 use linecontact::{
-    Contact, Curve, CurvePoint, Flat, Load, ParametricProfile, Piece, Piecewise, PiecewiseError,
+    Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piece, Piecewise, PiecewiseError,
     ProfileError,
 };
 use std::sync::Arc;
@@ -30,7 +30,7 @@ impl ParametricProfile<f64> for Roller {
 
 fn half_width(upper: &dyn ParametricProfile<f64>) -> f64 {
     let contact = Contact::new(&Flat, upper).unwrap();
-    contact.solve(Load::PerLength(0.01)).unwrap().a()
+    contact.solve(Control::Load(0.01)).unwrap().a()
 }
 
 #[test]
@@ -58,9 +58,9 @@ fn closures_may_borrow_and_scenes_may_move_between_threads() {
         CurvePoint { x: radius * s, y: radius * (1.0 - c), dx: radius * c, dy: radius * s }
     });
     let contact = Contact::new(&Flat, &body).unwrap();
-    let here = contact.solve(Load::PerLength(0.01)).unwrap();
+    let here = contact.solve(Control::Load(0.01)).unwrap();
     let there = std::thread::scope(|scope| {
-        scope.spawn(|| contact.solve(Load::PerLength(0.01)).unwrap().a()).join().unwrap()
+        scope.spawn(|| contact.solve(Control::Load(0.01)).unwrap().a()).join().unwrap()
     });
     assert_eq!(here.a(), there);
 }
@@ -80,7 +80,7 @@ fn a_known_slope_inverts_nothing() {
         }
     }
     let contact = Contact::new(&Flat, &Graph).unwrap();
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     assert!((solution.a() / 0.2 - 1.0).abs() < 1e-15);
     assert_eq!(solution.cost().evaluations, 0);
 }
@@ -212,7 +212,7 @@ fn a_narrow_fold_is_found_when_it_is_met() {
     });
     assert!(Piece::checked(&dimple).is_ok());
     let contact = Contact::new(&Flat, &dimple);
-    let result = contact.and_then(|contact| contact.solve(Load::PerLength(1e-3)).map(|_| ()));
+    let result = contact.and_then(|contact| contact.solve(Control::Load(1e-3)).map(|_| ()));
     let message = result.unwrap_err().to_string();
     assert!(message.contains("turns back"), "{message}");
 }

@@ -4,7 +4,7 @@
 use crate::edges::{KAPPA, Quadratic};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use linecontact::{Contact, ContactError, Edge, Flat, Load, Solver};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, Solver};
 
 /// A parabola, and what pulls it off. dF/dL = 0: with two adhesive edges L³ = R² w/κ, with one
 /// L³ = R² w/(4 κ); F = -3 κ L²/(2 R).
@@ -36,7 +36,7 @@ impl PullOff {
         let body = Quadratic([0.0, 1.0 / Self::RADIUS, 0.0]).body(-2.0, 2.0);
         let [left, right] = self.edges;
         let contact = Contact::new(&Flat, &*body)?.kappa(KAPPA).edges(left, right);
-        Ok(contact.solve(Load::PerLength(part * self.load()))?.interval().half_width())
+        Ok(contact.solve(Control::Load(part * self.load()))?.interval().half_width())
     }
 
     fn check(&self, part: f64) {
@@ -107,7 +107,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
         let work = KAPPA * f64::powi(narrowest, 3);
         let load = |l: f64| KAPPA * l * l / 2.0 - 2.0 * (KAPPA * work * l).sqrt();
         let glued = contact.clone().edges(Edge::Adhesive(work), Edge::Adhesive(work));
-        let solve = |load| Ok(glued.solve(Load::PerLength(load))?.a());
+        let solve = |load| Ok(glued.solve(Control::Load(load))?.a());
         for part in [0.1, 0.3, 0.6, 0.9, 0.99] {
             let l = narrowest + part * (1.0 - narrowest);
             let found = solve(load(l)).unwrap_or_else(|e| panic!("{narrowest} {l}: {e}"));
@@ -133,7 +133,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
     // Wider than the bodies even when it comes off.
     let glued = contact.edges(Edge::Adhesive(2.0 * KAPPA), Edge::Adhesive(2.0 * KAPPA));
     for load in [-1.0, -2.0, -10.0] {
-        let error = glued.solve(Load::PerLength(load)).unwrap_err();
+        let error = glued.solve(Control::Load(load)).unwrap_err();
         assert!(matches!(error, ContactError::TooShort { .. }), "{error}");
     }
 }
@@ -147,12 +147,11 @@ fn a_pull_at_one_edge_may_fit_bodies_too_short_for_no_load() {
     let glued = (Edge::Adhesive(work), Edge::Free);
     let body = Quadratic([0.0, 1.0, 0.0]).body(end, 2.0);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(glued.0, glued.1);
-    assert!(contact.solve(Load::PerLength(0.0)).is_err());
+    assert!(contact.solve(Control::Load(0.0)).is_err());
     for part in [0.95, 0.8, 0.6, 0.5] {
         let l = part * none;
         let load = KAPPA * l * l / 2.0 - (KAPPA * work * l).sqrt();
-        let solution =
-            contact.solve(Load::PerLength(load)).unwrap_or_else(|e| panic!("{part}: {e}"));
+        let solution = contact.solve(Control::Load(load)).unwrap_or_else(|e| panic!("{part}: {e}"));
         let on = solution.interval();
         assert_relative_eq!(on.left, centre(l) - l, epsilon = 0.0, max_relative = 1e-12);
         assert_relative_eq!(on.right, centre(l) + l, epsilon = 0.0, max_relative = 1e-12);
@@ -166,8 +165,8 @@ fn a_pull_too_far_is_the_same_error_after_a_contact() {
     let [left, right] = case.edges;
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
     let mut solver = Solver::new();
-    solver.solve(&contact, Load::PerLength(0.5 * case.load())).unwrap();
-    let error = solver.solve(&contact, Load::PerLength(1.5 * case.load())).unwrap_err();
+    solver.solve(&contact, Control::Load(0.5 * case.load())).unwrap();
+    let error = solver.solve(&contact, Control::Load(1.5 * case.load())).unwrap_err();
     let ContactError::PullOff { least, .. } = error else { panic!("{error}") };
     assert!(least > case.load() && least <= case.load() * (1.0 - 2e-3), "{least}");
 }

@@ -8,7 +8,7 @@ use common::{example_1_exact, example_2_exact, graph, order, paper, reference, s
 use linecontact::gap::Sampler;
 use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Load, Midpoint,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Midpoint,
     Solution,
 };
 use linecontact::{Cost, Estimate, Gap, Panels};
@@ -29,7 +29,7 @@ fn pressure(example: usize, rule: Midpoint, xs: &[f64]) -> Vec<f64> {
     };
     let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap().kappa(kappa);
     let contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right)).quadrature(&rule);
-    let solution = contact.solve(Load::Constant(scene.c)).unwrap();
+    let solution = contact.solve(Control::Load(scene.c / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     xs.iter().map(|&x| pressure.at(x).unwrap()).collect()
 }
@@ -184,7 +184,7 @@ fn the_pressure_satisfies_the_equation() {
     let body = graph(-1.0, 1.0, move |x| [x * x / 2.0 + x.powi(3) / 5.0 + x.powi(4), slope(x)]);
     let rule = rule(4096, 4, HALF_ODD);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(2.0).quadrature(&rule);
-    let solution = contact.solve(Load::PerLength(0.2)).unwrap();
+    let solution = contact.solve(Control::Load(0.2)).unwrap();
     let Interval { left, right } = solution.interval();
     for z in [-0.71, -0.3, 0.013, 0.44, 0.83] {
         let x = (right + left) / 2.0 + z * (right - left) / 2.0;
@@ -217,7 +217,7 @@ fn pressures_agree_with_the_references() {
         let want = reference(scene.name);
         let rule = rule(256, 4, HALF_ODD);
         let contact = scene.contact().quadrature(&rule);
-        let solution = contact.solve(Load::Constant(want.c)).unwrap();
+        let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
         let pressure = solution.pressure().unwrap();
         let mut compared = 0;
         for &[x, p] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.95) {
@@ -241,7 +241,7 @@ fn a_pressure_carries_its_doubt() {
         for rule in rules {
             let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
             let contact = contact.kappa(want.kappa).quadrature(&rule);
-            let solution = contact.solve(Load::Constant(want.c)).unwrap();
+            let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
             let pressure = solution.pressure().unwrap();
             for &[x, p] in &want.points {
                 let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
@@ -268,7 +268,7 @@ fn a_joint_shows_in_the_estimate() {
     {
         let want = reference(name);
         let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
-        let solution = contact.solve(Load::Constant(want.c)).unwrap();
+        let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
         let pressure = solution.pressure().unwrap();
         for &[x, p] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.97) {
             let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
@@ -286,7 +286,7 @@ fn a_sharp_flat_punch() {
         Curve::new([-0.5, 0.5], move |k: f64| CurvePoint { x: k, y: m * k, dx: 1.0, dy: m });
     let contact = Contact::new(&Flat, &tilted).unwrap();
     let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [-0.4, -0.1, 0.0, 0.27, 0.45] {
         let exact = (load - m * x) / (PI * (0.25f64 - x * x).sqrt());
@@ -299,7 +299,7 @@ fn a_sharp_flat_punch() {
 fn outside_the_contact_and_outside_the_bodies() {
     let body = common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [solution.a(), -solution.b(), 0.21, -0.9, 1.0] {
         assert_eq!(pressure.at(x), Ok(0.0));
@@ -314,7 +314,7 @@ fn cost_is_counted() {
     let body = common::parabola(1.0);
     let rule = Midpoint::paper(64, 2);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     let pressure = solution.pressure().unwrap();
     assert_eq!(pressure.cost().samples, 64 + 128);
     let centre = solution.interval().centre();
@@ -332,12 +332,12 @@ fn segments_that_cannot_be_used() {
     for (segments, extrapolations) in [(0, 2), (0, 0), (1 << 20, 20), (3, 200), (usize::MAX, 1)] {
         let rule = rule(segments, extrapolations, EVEN);
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        let error = contact.solve(Load::PerLength(0.02)).unwrap_err();
+        let error = contact.solve(Control::Load(0.02)).unwrap_err();
         assert_eq!(error, ContactError::Segments { segments, extrapolations });
     }
     let one = rule(1, 1, EVEN);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&one);
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     // Fewer than four segments leave nothing to judge the result by.
     let pressure = solution.pressure().unwrap();
     assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
@@ -406,7 +406,7 @@ fn an_engine_need_not_keep_samples_or_tell_slopes() {
     let body = crate::common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&ReticentPanels);
     for l in [0.1, 0.7] {
-        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
         assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-14);
         let peak = solution.pressure().unwrap().at(0.0).unwrap();
         assert_relative_eq!(peak, l / PI, epsilon = 0.0, max_relative = 1e-14);
@@ -422,7 +422,7 @@ fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
     });
     let rule = rule(8, 1, EVEN);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-    let solution = contact.solve(Load::ToHalfWidth(0.5)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.5)).unwrap();
     let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
     let at = |place: f64| {
         let x = on.left + (on.right - on.left) * (place / 8.0);

@@ -9,7 +9,7 @@ use forms::{Form, KAPPA, forms};
 use linecontact::reference::{
     ClosedForm, FlatPunch, Hertz, Jkr, PowerLaw, UnequalRadii, Wedge, body,
 };
-use linecontact::{Contact, ContactError, Edge, EdgePressure, Flat, Load, Midpoint};
+use linecontact::{Contact, ContactError, Control, Edge, EdgePressure, Flat, Midpoint};
 use std::f64::consts::PI;
 
 /// `∫ x P dx` of a form by the trapezoidal rule in t, θ = π/(1 + e^(-sinh t)), between joints.
@@ -45,7 +45,7 @@ fn moments_of_closed_forms() {
         let body = body(&*form, -reach, reach).unwrap();
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
-        let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+        let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
         let (got, want) = (solution.moment().unwrap(), moment(&*form));
         let force = solution.load().abs().max(KAPPA * on.half_width() * 1e-3);
         let error = (got - want).abs() / (force * on.left.abs().max(on.right.abs()));
@@ -65,7 +65,7 @@ fn a_tilted_punch_is_pressed_off_centre() {
     let body = body(&form, -0.5, 0.5).unwrap();
     let [left, right] = form.edges();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
-    let solution = contact.solve(Load::PerLength(0.7)).unwrap();
+    let solution = contact.solve(Control::Load(0.7)).unwrap();
     let want = -KAPPA * 0.1 * 0.125;
     assert!((solution.moment().unwrap() / want - 1.0).abs() < 1e-14);
     let rates = solution.load_rates().unwrap();
@@ -80,7 +80,7 @@ fn flat_punches_meet_the_equation() {
         let flat = graph(-2.0, 2.0, move |x| [slope * x, slope]);
         let contact = Contact::new(&Flat, &*flat).unwrap().kappa(KAPPA);
         let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         for x in [-0.49, 0.0, 0.05, 0.3] {
             let residual = solution.residual(x).unwrap();
             assert!(
@@ -100,7 +100,7 @@ fn the_centre_of_pressure_at_either_end_of_the_numbers() {
             [unit * z * z * (0.5 + 0.3 * z), z * (1.0 + 0.9 * z)]
         });
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(kappa);
-        let solution = contact.solve(Load::PerLength(0.02 * unit * kappa)).unwrap();
+        let solution = contact.solve(Control::Load(0.02 * unit * kappa)).unwrap();
         let moment = solution.moment().map(|moment| moment / solution.load() / unit);
         (solution.centre_of_pressure().unwrap() / unit, moment)
     };
@@ -139,7 +139,7 @@ fn rates_are_those_of_solves() {
         if let Some(corner) = corner {
             contact = contact.edges(Edge::Fixed(corner), Edge::Free);
         }
-        let solve = |load| contact.solve(Load::PerLength(load)).unwrap();
+        let solve = |load| contact.solve(Control::Load(load)).unwrap();
         let solution = solve(load);
         let rates = solution.load_rates().unwrap();
         let a = difference(|load| solve(load).a(), load);
@@ -157,7 +157,7 @@ fn rates_are_those_of_solves() {
     let form = Hertz::new(1.0, 0.3).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     let rates = solution.load_rates().unwrap();
     assert!((rates.a * KAPPA * 0.3 - 1.0).abs() < 1e-14);
     assert!((rates.b * KAPPA * 0.3 - 1.0).abs() < 1e-14);
@@ -173,7 +173,7 @@ fn rates_that_are_not_known() {
     let [left, right] = form.edges();
     let parabola = || Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
     let refused = |contact: &Contact<'_, f64>, load: f64| {
-        let rates = contact.solve(Load::PerLength(load)).unwrap().load_rates();
+        let rates = contact.solve(Control::Load(load)).unwrap().load_rates();
         assert!(matches!(rates, Err(ContactError::NoRate { .. })), "{rates:?}");
     };
     refused(&parabola().edges(left, right), form.load(KAPPA));
@@ -188,7 +188,7 @@ fn the_gap_of_hertz() {
     let form = Hertz::new(2.0, 0.3).unwrap();
     let body = body(&form, -3.0, 3.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::ToHalfWidth(0.3)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     let (mut gap, mut slope) = (0.0f64, 0.0f64);
     for i in 0..60 {
         let beyond = 0.3 * 10f64.powf(-6.0 + 0.115 * f64::from(i));
@@ -224,7 +224,7 @@ fn the_gap_of_a_wedge_and_of_a_punch() {
     let form = Wedge::new(0.1, 0.2).unwrap();
     let wedge = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &wedge).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     let l = solution.a();
     for x in [0.21f64, 0.3, 0.7, -0.5] {
         let ratio = l / x.abs();
@@ -241,7 +241,7 @@ fn the_gap_of_a_wedge_and_of_a_punch() {
     let flat = graph(-2.0, 2.0, |_| [0.3, 0.0]);
     let contact = Contact::new(&Flat, &*flat).unwrap().kappa(KAPPA);
     let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let solution = contact.solve(Load::PerLength(0.1)).unwrap();
+    let solution = contact.solve(Control::Load(0.1)).unwrap();
     for x in [0.6f64, 1.9, -0.7] {
         let gap = -0.1 / KAPPA * (x.abs() / 0.5).acosh();
         let error = (solution.gap_at(x).unwrap() / gap - 1.0).abs();
@@ -255,7 +255,7 @@ fn the_gap_is_the_integral_of_its_slope() {
     for scene in scenes().into_iter().filter(|scene| scene.name.starts_with("paper_example_4")) {
         let reference = common::reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(reference.c)).unwrap();
+        let solution = contact.solve(Control::Load(reference.c / PI)).unwrap();
         let (a, half_width) = (solution.a(), solution.interval().half_width());
         let gap = |x| solution.gap_at(x).unwrap();
         let x = a + 0.5 * half_width;
@@ -273,7 +273,7 @@ fn the_equation_is_met() {
     for scene in scenes() {
         let reference = common::reference(scene.name);
         let contact = scene.contact();
-        let solution = contact.solve(Load::Constant(reference.c)).unwrap();
+        let solution = contact.solve(Control::Load(reference.c / PI)).unwrap();
         let on = solution.interval();
         let size = solution.mean_pressure();
         let mut worst = 0.0f64;
@@ -298,7 +298,7 @@ fn by_the_papers_rule() {
     let body = body(&form, -1.0, 1.0).unwrap();
     let midpoint = Midpoint::default();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).quadrature(&midpoint);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     assert!(solution.moment().unwrap().abs() < 1e-6 * solution.load() * 0.3);
     assert!((solution.gap_at(0.5).unwrap() / form.gap(0.5) - 1.0).abs() < 3e-3);
     assert!(solution.residual(0.1).unwrap().abs() < 1e-3 * solution.mean_pressure());
@@ -309,7 +309,7 @@ fn in_single_precision() {
     let form = Hertz::new(1.0f32, 0.3).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.3)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     assert!(solution.moment().unwrap().abs() < 1e-5 * solution.load() * 0.3);
     assert!((solution.load_rates().unwrap().a * 0.3 - 1.0).abs() < 1e-5);
     assert!((solution.gap_at(0.5).unwrap() - form.gap(0.5)).abs() < 1e-6);
@@ -320,7 +320,7 @@ fn in_single_precision() {
 fn a_solution_shows_its_limits_and_its_load() {
     let body = crate::common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(0.0625)).unwrap();
+    let solution = contact.solve(Control::Load(0.0625)).unwrap();
     let shown = format!("{solution:?}");
     for part in [format!("{:?}", solution.interval()), format!("load: {:?}", solution.load())] {
         assert!(shown.contains(&part), "{shown}");

@@ -19,7 +19,7 @@ mod reference;
 
 use bodies::Body;
 use linecontact::profile::Piece;
-use linecontact::{Contact, ContactError, Cost, Interval, Load, ParametricProfile};
+use linecontact::{Contact, ContactError, Control, Cost, Interval, ParametricProfile};
 use reference::{Kind, Reference};
 use serde_json::Value;
 
@@ -121,7 +121,8 @@ fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, S
     let said = |error: ContactError<f32>| format!("noise {floor:.1e}: {error}");
     let contact = Contact::new(&*single[0], &*single[1]).map_err(said)?;
     let contact = contact.kappa(want.kappa as f32);
-    let solution = contact.solve(Load::Constant(want.c as f32)).map_err(said)?;
+    let solution =
+        contact.solve(Control::Load(want.c as f32 / std::f32::consts::PI)).map_err(said)?;
     let estimate = solution.limits_error().ok_or("limits were sought")?;
     let edge = |got: f32, exact: f64| (f64::from(got) - exact).abs() / on.half_width();
     let of_limits = edge(solution.a(), on.right).max(edge(-solution.b(), on.left)) / allowed(floor);

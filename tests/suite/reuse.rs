@@ -5,9 +5,10 @@ use crate::common;
 
 use common::{Counting, graph, paper, power, scenes};
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Edge, Flat, Interval, Load, Midpoint,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
     ParametricProfile, Solution, Solver,
 };
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Limits and pressures, as one compares them: in units of the half-width and of the largest.
@@ -78,7 +79,7 @@ fn a_hundred_loads_up_and_down() {
         for i in 0..100 {
             // Now by little, now by factors up to 100.
             let load = least * 100f64.powf(scattered(i) * if i % 3 == 0 { 1.0 } else { 0.3 });
-            let load = Load::PerLength(load);
+            let load = Control::Load(load);
             let cold = Result::of(&contact.solve(load).unwrap());
             let warm = Result::of(&solver.solve(&contact, load).unwrap());
             warm.assert_close(&cold, tolerance, &format!("{i} {load:?}"));
@@ -105,7 +106,7 @@ fn a_hundred_time_steps() {
             // A poor first guess.
             contact = contact.start(Interval { left: -0.6, right: -0.55 });
         }
-        let load = Load::PerLength(0.005 * 10f64.powf(scattered(i / 7)));
+        let load = Control::Load(0.005 * 10f64.powf(scattered(i / 7)));
         let cold = Result::of(&Contact::new(&*below, &body).unwrap().solve(load).unwrap());
         let warm = Result::of(&solver.solve(&contact, load).unwrap());
         warm.assert_close(&cold, 1e-13, &format!("step {i}"));
@@ -121,7 +122,7 @@ fn the_last_contact_may_lie_beyond_the_next_bodies() {
     for middle in [0.0, 0.9, 2.5, -4.0, 1e6, 0.0] {
         let body = scene(middle);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = solver.solve(&contact, Load::PerLength(0.02));
+        let solution = solver.solve(&contact, Control::Load(0.02));
         let solution = solution.unwrap_or_else(|error| panic!("{middle}: {error}"));
         let rounding = 4.0 * f64::EPSILON * (1.0 + middle.abs());
         assert!((solution.a() - middle - 0.2).abs() <= rounding, "{middle}: {}", solution.a());
@@ -138,7 +139,7 @@ fn one_solver_serves_scenes_that_have_nothing_in_common() {
             let scene = &scenes[(i * 8 + round * 5) % scenes.len()];
             let want = common::reference(scene.name);
             let contact = scene.contact();
-            let solution = solver.solve(&contact, Load::Constant(want.c)).expect(scene.name);
+            let solution = solver.solve(&contact, Control::Load(want.c / PI)).expect(scene.name);
             for (got, want) in [(solution.a(), want.a), (solution.b(), want.b)] {
                 assert!((got / want - 1.0).abs() <= scene.accuracy, "{}: {got}", scene.name);
             }
@@ -154,7 +155,7 @@ fn the_next_load_costs_nothing_or_little() {
     let mut solver = Solver::new();
     let mut count = |load: f64| {
         let before = calls.load(Ordering::Relaxed);
-        let solution = solver.solve(&contact, Load::PerLength(load)).unwrap();
+        let solution = solver.solve(&contact, Control::Load(load)).unwrap();
         let mut pressures = [0.0; 101];
         let on = solution.interval();
         let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(0.01 + 0.03 * i as f64));
@@ -192,7 +193,7 @@ fn the_next_time_step_costs_less_than_the_first() {
         let body = ellipse(1.0, 0.7 - 0.1 * t, 0.1 * t, 0.2 * t);
         let body = Counting(body, &calls);
         let contact = Contact::new(&Flat, &body).unwrap();
-        let load = Load::PerLength(0.02);
+        let load = Control::Load(0.02);
         let before = calls.load(Ordering::Relaxed);
         contact.solve(load).unwrap();
         let between = calls.load(Ordering::Relaxed);
@@ -217,7 +218,7 @@ fn the_same_calls_give_the_same_bits() {
         let mut bits = Vec::new();
         for i in 0..30 {
             let contact = if i % 7 == 6 { &second } else { &contact };
-            let load = Load::PerLength(0.01 * 20f64.powf(scattered(i)));
+            let load = Control::Load(0.01 * 20f64.powf(scattered(i)));
             let result = Result::of(&solver.solve(contact, load).unwrap());
             bits.extend([result.on.left, result.on.right].map(f64::to_bits));
             bits.extend(result.pressures.map(f64::to_bits));
@@ -231,10 +232,10 @@ fn the_same_calls_give_the_same_bits() {
 fn a_solver_moves_to_another_thread() {
     let body = ellipse(1.0, 0.7, 0.2, 0.05);
     let contact = Contact::new(&Flat, &body).unwrap();
-    let load = Load::PerLength(0.03);
+    let load = Control::Load(0.03);
     let cold = Result::of(&contact.solve(load).unwrap());
     let mut solver = Solver::new();
-    solver.solve(&contact, Load::PerLength(0.02)).unwrap();
+    solver.solve(&contact, Control::Load(0.02)).unwrap();
     let results = std::thread::scope(|scope| {
         let first = scope.spawn(|| Result::of(&solver.solve(&contact, load).unwrap()));
         let second = scope.spawn(|| {
@@ -252,7 +253,7 @@ fn a_solver_moves_to_another_thread() {
 fn a_solver_works_on_after_an_error() {
     let body = ellipse(1.0, 0.7, 0.2, 0.05);
     let contact = Contact::new(&Flat, &body).unwrap();
-    let load = Load::PerLength(0.03);
+    let load = Control::Load(0.03);
     let cold = Result::of(&contact.solve(load).unwrap());
     let mut solver = Solver::new();
     let nan = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
@@ -266,7 +267,7 @@ fn a_solver_works_on_after_an_error() {
     for (contact_at_fault, load_at_fault) in
         [(&contact, 1e6), (&contact, -1.0), (&faulty, 0.1), (&reversed, 0.1)]
     {
-        let error = solver.solve(contact_at_fault, Load::PerLength(load_at_fault)).unwrap_err();
+        let error = solver.solve(contact_at_fault, Control::Load(load_at_fault)).unwrap_err();
         println!("{error}");
         assert!(!matches!(error, ContactError::LimitSearch { .. }));
         for _ in 0..2 {
@@ -287,9 +288,9 @@ fn edges_and_controls_may_change_from_call_to_call() {
     for i in 0..24 {
         let contact = [&contact, &corner, &adhesive, &stiffer][i % 4];
         let load = match i % 3 {
-            0 => Load::PerLength(0.02 + 0.2 * scattered(i)),
-            1 => Load::ToHalfWidth(0.2 + 0.3 * scattered(i)),
-            _ => Load::Constant(0.1 + 0.4 * scattered(i)),
+            0 => Control::Load(0.02 + 0.2 * scattered(i)),
+            1 => Control::HalfWidth(0.2 + 0.3 * scattered(i)),
+            _ => Control::Load((0.1 + 0.4 * scattered(i)) / PI),
         };
         let [cold, warm] = [contact.solve(load), solver.solve(contact, load)]
             .map(|solution| solution.unwrap_or_else(|error| panic!("{i} {load:?}: {error}")));
@@ -308,10 +309,10 @@ fn given_limits_are_sampled_once() {
     let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
     let mut solver = Solver::new();
     for (i, load) in [0.1, 0.2, 0.3].into_iter().enumerate() {
-        let solution = solver.solve(&contact, Load::PerLength(load)).unwrap();
+        let solution = solver.solve(&contact, Control::Load(load)).unwrap();
         assert_eq!(solution.cost().evaluations == 0, i > 0, "{i}");
         let root = f64::sqrt(0.16 - 0.01);
-        let want = (root + (load - 0.08) / root) / std::f64::consts::PI;
+        let want = (root + (load - 0.08) / root) / PI;
         let got = solution.pressure().unwrap().at(0.1).unwrap();
         assert!((got / want - 1.0).abs() < 1e-13, "{got} {want}");
     }
@@ -335,7 +336,7 @@ fn the_papers_rule_starts_afresh_with_other_bodies() {
     let mut solver = Solver::new();
     for i in [0, 0, 1, 0, 1, 1] {
         let before = calls.load(Ordering::Relaxed);
-        let solution = solver.solve(&scenes[i], Load::PerLength(0.02)).unwrap();
+        let solution = solver.solve(&scenes[i], Control::Load(0.02)).unwrap();
         let cost = calls.load(Ordering::Relaxed) - before;
         assert_eq!(cost, solution.cost().evaluations, "what the solution says of it");
         let middle = [0.0, 0.4][i];

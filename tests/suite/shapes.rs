@@ -6,7 +6,7 @@ use linecontact::profile::{Crowning, Ellipse, Involute, Line, Parabola, Placed, 
 use linecontact::profile::{rounded_punch, wedge};
 use linecontact::reference::{self, ClosedForm, Hertz};
 use linecontact::{
-    Contact, CurvePoint, Flat, Load, ParametricProfile, Piece, Piecewise, PiecewiseError,
+    Contact, Control, CurvePoint, Flat, ParametricProfile, Piece, Piecewise, PiecewiseError,
     ProfileError,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -18,7 +18,7 @@ type Body = Box<dyn ParametricProfile<f64>>;
 fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f64; 3] {
     let (want, load) = (form.limits(), form.load(1.0));
     let contact = Contact::new(&Flat, upper).unwrap();
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     let (got, l, pressure) = (solution.interval(), want.half_width(), solution.pressure().unwrap());
     let off = |x: f64| (pressure.at(x).unwrap() / form.pressure(x, 1.0) - 1.0).abs();
     let at = |i: i32| want.at_angle(PI * (f64::from(i) + 0.1) / 20.0);
@@ -127,7 +127,7 @@ fn two_involutes_touch_as_gear_teeth_do() {
     let pinion = Placed::new(flank(37.5), half_turn).unwrap();
     let wheel = flank(112.5);
     let contact = Contact::new(&pinion, &wheel).unwrap().contact_modulus(113187.0);
-    let solution = contact.solve(Load::Constant(1571.0)).unwrap();
+    let solution = contact.solve(Control::Load(1571.0 / PI)).unwrap();
     assert_relative_eq!(solution.a(), 0.23773942151913456, epsilon = 0.0, max_relative = 1e-13);
     assert_relative_eq!(solution.b(), 0.24161411179371945, epsilon = 0.0, max_relative = 1e-13);
 }
@@ -150,7 +150,7 @@ fn a_rotated_arc_is_an_arc() {
         assert!((got.y - want.y).abs() < 1e-15, "{k}");
     }
     assert_eq!(turned.slope_at(0.0), None);
-    let load = Load::PerLength(1e-3);
+    let load = Control::Load(1e-3);
     let solve = |body: &dyn ParametricProfile<f64>| {
         Contact::new(&Flat, body).unwrap().solve(load).unwrap().interval()
     };
@@ -180,7 +180,7 @@ fn a_rotated_parabola_is_the_formula() {
         }
     }
     let contact = Contact::new(&Flat, &turned).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(1e-4)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(1e-4)).unwrap();
     let k = -turn.tan();
     let centre = solution.interval().centre();
     assert!((centre - turned.x(k)).abs() < 1e-7, "{centre}");
@@ -189,7 +189,7 @@ fn a_rotated_parabola_is_the_formula() {
 
 fn solved(lower: &dyn ParametricProfile<f64>, upper: &dyn ParametricProfile<f64>) -> [f64; 4] {
     let contact = Contact::new(lower, upper).unwrap();
-    let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
     let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
     let third = (on.right - on.left) / 3.0;
     let pressures = [on.left + third, on.right - third].map(|x| pressure.at(x).unwrap());
@@ -226,7 +226,7 @@ fn a_mirrored_or_exchanged_scene_has_the_same_solution() {
     let large = lower.clone().placed(scale).unwrap();
     let contact_upper = Placed::new(upper, scale).unwrap();
     let contact = Contact::new(&large, &contact_upper).unwrap();
-    let solution = contact.solve(Load::PerLength(0.06)).unwrap();
+    let solution = contact.solve(Control::Load(0.06)).unwrap();
     let on = solution.interval();
     let third = (on.right - on.left) / 3.0;
     let pressure = solution.pressure().unwrap();
@@ -259,7 +259,7 @@ fn placing_keeps_joints_and_known_slopes() {
     assert!(left.dy.abs() < 1e-16 && left.y.abs() < 1e-15, "{left:?}");
     let round = Ellipse::circle(-2.0, [-1.0, 1.0]).unwrap();
     let contact = Contact::new(&round, &turned).unwrap();
-    let ends = contact.solve(Load::PerLength(0.01)).unwrap().interval();
+    let ends = contact.solve(Control::Load(0.01)).unwrap().interval();
     assert!(ends.left < 0.0 && ends.right > 0.0, "{ends:?}");
 
     // An infinite slope is still one, and not NaN.
@@ -356,6 +356,6 @@ fn shapes_are_generic() {
     let moved = Placed::new(roller, Placement::default().shifted(0.25, 0.0)).unwrap();
     let contact = Contact::new(&Flat, &moved).unwrap();
     let form = reference::Ellipse::circle(1.0f32, 0.5).unwrap();
-    let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
     assert!((solution.a() - 0.75).abs() < 1e-6, "{}", solution.a());
 }

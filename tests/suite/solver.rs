@@ -5,7 +5,7 @@ use crate::common;
 
 use common::join;
 use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Flat, Interval, Load, Midpoint, Panels,
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Panels,
     ParametricProfile, Solution, Solver,
 };
 
@@ -26,8 +26,8 @@ fn loads_up_and_down() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let mut solver = Solver::new();
         for load in [0.03, 0.031, 0.02, 0.04, 0.03, 0.03, 1e-3, 0.05, 0.04, 0.005, 0.03] {
-            let cold = contact.solve(Load::PerLength(load)).unwrap();
-            let warm = solver.solve(&contact, Load::PerLength(load)).unwrap();
+            let cold = contact.solve(Control::Load(load)).unwrap();
+            let warm = solver.solve(&contact, Control::Load(load)).unwrap();
             assert!((warm.a() / cold.a() - 1.0).abs() < 1e-14, "{load}");
             assert!((warm.b() / cold.b() - 1.0).abs() < 1e-14, "{load}");
             let [cold_pressure, pressure] = [&cold, &warm].map(|s| s.pressure().unwrap());
@@ -61,7 +61,7 @@ fn the_quadrature_is_that_of_each_contact() {
         contact.clone().quadrature(&rules[1]),
         contact.clone().quadrature(&panels[0]),
     ];
-    let load = Load::PerLength(0.03);
+    let load = Control::Load(0.03);
     let mut solver = Solver::new();
     for which in [0, 1, 0, 3, 1, 2, 0, 2, 4, 3] {
         let alone = seen(&contacts[which].solve(load).unwrap());

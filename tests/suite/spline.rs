@@ -4,7 +4,7 @@
 use approx::assert_relative_eq;
 use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
-use linecontact::{Contact, Flat, Load, ParametricProfile};
+use linecontact::{Contact, Control, Flat, ParametricProfile};
 
 /// Numbers of normal distribution, nearly: sums of twelve from a linear congruence.
 struct Noise(u64);
@@ -106,7 +106,7 @@ fn solves_agree_with_the_shape_that_the_points_are_of() {
     for points in [uneven(60, |x| x * x / 2.0), even(4, |x| x * x / 2.0)] {
         let body = Spline::through(&points).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         let form = Hertz::under_load(1.0, load, 1.0).unwrap();
         let right = form.limits().right;
         assert_relative_eq!(solution.a(), right, epsilon = 0.0, max_relative = 1e-13);
@@ -119,7 +119,7 @@ fn solves_agree_with_the_shape_that_the_points_are_of() {
     let form = Ellipse::circle(2.0, 0.5).unwrap();
     let body = Spline::through(&even(2000, circle(2.0))).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
     assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 1e-10);
     assert_eq!(solution.cost().evaluations, 0);
     let pressure = solution.pressure().unwrap().at(0.3).unwrap();
@@ -171,7 +171,7 @@ fn many_noisy_points_give_the_contact() {
 
     let form = Ellipse::circle(2.0, 0.5).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::PerLength(form.load(1.0))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
     assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 3e-4);
     assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 3e-4);
     let pressure = solution.pressure().unwrap();
@@ -266,7 +266,7 @@ fn a_spline_of_single_precision() {
     for noise in [0.0, 1e-4] {
         let body = Spline::fitted(&points, Fit { noise, ..Fit::default() }).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::PerLength(0.02)).unwrap();
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
         assert!((solution.a() / 0.2 - 1.0).abs() < 0.01, "{noise} {}", solution.a());
     }
 }

@@ -5,7 +5,7 @@ use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
 use linecontact::stress::{Stress, Subsurface};
-use linecontact::{Contact, ContactError, Curve, CurvePoint, Edge, Flat, Load, Midpoint};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint};
 use linecontact::{ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
@@ -133,7 +133,7 @@ fn hertz_everywhere() {
     let peak = form.pressure(0.0, KAPPA);
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::ToHalfWidth(0.3)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     for mu in [0.0, 0.25, -1.0] {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("Hertz", &field, peak, mu, 2e-14, |z| {
@@ -178,7 +178,7 @@ fn a_series_of_two_terms() {
     let form = Biquadratic::new(1.0, 5.0, 0.4).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     // κ (x + 20 x³) = c₁ cos θ + c₃ cos 3θ.
     let cubic = KAPPA * 20.0 * 0.4f64.powi(3) / 4.0;
     let (c1, c3) = (KAPPA * 0.4 + 3.0 * cubic, cubic);
@@ -199,7 +199,7 @@ fn a_wedge_whose_pressure_is_infinite() {
     let form = Wedge::new(0.1, 0.2).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     for mu in [0.0, 0.3] {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("wedge", &field, solution.mean_pressure(), mu, 1e-11, |z| {
@@ -217,7 +217,7 @@ fn a_tilted_flat_punch() {
     let body = body(&form, -0.5, 0.5).unwrap();
     let [left, right] = form.edges();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     let (alpha, beta) = (load / half_width / PI, -KAPPA * slope / PI);
     for mu in [0.0, 0.3] {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
@@ -239,7 +239,7 @@ fn a_cut_carries_the_load() {
     let form = UnequalRadii::under_load(1.0, 0.2, 0.05, KAPPA).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(0.05)).unwrap();
+    let solution = contact.solve(Control::Load(0.05)).unwrap();
     let mu = 0.4;
     let field = solution.subsurface().unwrap().friction(mu).unwrap();
     let on = field.interval();
@@ -264,7 +264,7 @@ fn on_the_surface_it_is_the_pressure() {
     let form = UnequalRadii::under_load(1.0, 0.2, 0.05, KAPPA).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(0.05)).unwrap();
+    let solution = contact.solve(Control::Load(0.05)).unwrap();
     let pressure = solution.pressure().unwrap();
     let peak = solution.peak().unwrap().pressure;
     let mu = 0.4;
@@ -293,7 +293,7 @@ fn on_the_surface_of_hertz() {
     let form = Hertz::new(radius, l).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::ToHalfWidth(l)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(l)).unwrap();
     let peak = solution.peak().unwrap().pressure;
     let (a, b) = (solution.a(), solution.b());
     for x in [0.0, 0.1, -0.2, 0.2999, a, -b, 0.31, -0.7, 5.0, -1e9] {
@@ -327,7 +327,7 @@ fn at_a_tip_and_at_corners() {
     let form = Wedge::new(0.1, 0.2).unwrap();
     let wedge = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &wedge).unwrap().kappa(KAPPA);
-    let solution = contact.solve(Load::PerLength(form.load(KAPPA))).unwrap();
+    let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
     let field = solution.subsurface().unwrap();
     let infinite = |refused: Result<_, _>, at: f64| {
         assert_eq!(refused.unwrap_err(), ContactError::Singular { x: at });
@@ -344,7 +344,7 @@ fn at_a_tip_and_at_corners() {
     let punch = body(&form, -1.0, 1.0).unwrap();
     let [left, right] = form.edges();
     let contact = Contact::new(&Flat, &punch).unwrap().kappa(KAPPA).edges(left, right);
-    let solution = contact.solve(Load::PerLength(0.7)).unwrap();
+    let solution = contact.solve(Control::Load(0.7)).unwrap();
     let field = solution.subsurface().unwrap().friction(0.3).unwrap();
     for x in [-0.5, 0.5] {
         infinite(field.at(x, 0.0).map(|_| ()), x);
@@ -360,7 +360,7 @@ fn where_hertz_yields() {
     let form = Hertz::new(1.0, 0.1).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     let peak = solution.peak().unwrap().pressure;
     let field = solution.subsurface().unwrap();
     let shear = field.max_shear().unwrap();
@@ -421,7 +421,7 @@ fn refusals() {
     let form = Hertz::new(1.0, 0.1).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     let field = solution.subsurface().unwrap();
     for (x, y) in [(0.0, -1e-9), (f64::NAN, 0.0), (0.0, f64::NAN), (f64::INFINITY, 1.0)] {
         let refused = field.at(x, y);
@@ -444,7 +444,7 @@ fn in_single_precision() {
     let form = Hertz::new(1.0f32, 0.1).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().edges(Edge::Free, Edge::Free);
-    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     let peak = solution.peak().unwrap().pressure;
     let shear = solution.subsurface().unwrap().max_shear().unwrap();
     assert!((shear.value / peak - 0.3002831).abs() < 1e-5, "{shear:?}");
@@ -457,7 +457,7 @@ fn at_either_end_of_the_numbers() {
         let form = Hertz::new(1.0, half_width).unwrap();
         let body = body(&form, -reach, reach).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::ToHalfWidth(half_width)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
         let peak = solution.peak().unwrap().pressure;
         let shear = solution.subsurface().unwrap().max_shear().unwrap();
         assert!((shear.value / peak - 0.3002831).abs() < 1e-7, "{shear:?}");
@@ -484,7 +484,7 @@ fn beside_a_joint_anywhere() {
         ])
         .unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::ToHalfWidth(0.2)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(0.2)).unwrap();
         let field = solution.subsurface().unwrap().friction(0.3).unwrap();
         let mut worst = 0.0f64;
         for (x, y) in [(0.0f64, 1e-9f64), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
@@ -510,7 +510,7 @@ fn strong_friction_brings_the_largest_shear_to_the_surface() {
     let form = Hertz::new(1.0, 0.1).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.1)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     let peak = solution.peak().unwrap().pressure;
     let field = solution.subsurface().unwrap().friction(0.6).unwrap();
     for x in [-0.09f64, -0.05, 0.0, 0.03, 0.08] {
@@ -526,7 +526,7 @@ fn strong_friction_brings_the_largest_shear_to_the_surface() {
 fn a_field_shows_its_contact_and_its_friction() {
     let body = crate::common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(0.01)).unwrap();
+    let solution = contact.solve(Control::Load(0.01)).unwrap();
     let field = solution.subsurface().unwrap().friction(0.375).unwrap();
     let shown = format!("{field:?}");
     for part in [format!("{:?}", solution.interval()), "friction: 0.375".into()] {
@@ -558,7 +558,7 @@ fn the_largest_shear_below_many_pieces() {
     let calls = AtomicUsize::new(0);
     let body = in_pieces(100, &calls);
     let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.6)).unwrap();
     let shear = solution.subsurface().unwrap().max_shear().unwrap();
     assert!((shear.value / (0.6 / PI) - 0.300_283_1).abs() < 1e-7, "{shear:?}");
     assert!((shear.depth / 0.6 - 0.786_151_4).abs() < 1e-6, "{shear:?}");
@@ -571,7 +571,7 @@ fn a_second_stress_knows_most_pressures() {
     let body = in_pieces(32, &calls);
     let rule = Midpoint { segments: 64, ..Midpoint::DEFAULT };
     let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule);
-    let solution = contact.solve(Load::ToHalfWidth(0.6)).unwrap();
+    let solution = contact.solve(Control::HalfWidth(0.6)).unwrap();
     let below = solution.subsurface().unwrap();
     let taken = [0.013, -0.211, 0.307].map(|x| {
         let before = calls.load(Relaxed);

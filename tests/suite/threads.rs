@@ -4,13 +4,13 @@
 use crate::common;
 
 use common::{Profile, graph, join, paper};
-use linecontact::{Contact, ContactError, Load, Solver};
+use linecontact::{Contact, ContactError, Control, Solver};
 
 /// Limits, load, a pressure and what it has cost, bit by bit.
 fn key(
     solver: &mut Solver<f64>,
     contact: &Contact<f64>,
-    load: Load<f64>,
+    load: Control<f64>,
 ) -> Result<[u64; 5], ContactError<f64>> {
     let solution = solver.solve(contact, load)?;
     let pressure = solution.pressure()?.at(solution.interval().centre())?;
@@ -39,7 +39,7 @@ fn every_thread_has_the_same_bits() {
             let which = (first + i) % scenes.len();
             let mut solver = Solver::new();
             for step in 0..40 {
-                let load = Load::PerLength(0.01 + 0.002 * f64::from(step * 7 % 40));
+                let load = Control::Load(0.01 + 0.002 * f64::from(step * 7 % 40));
                 keys[which].push(key(&mut solver, &scenes[which], load).ok());
             }
         }

@@ -6,7 +6,7 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, join, parabola, reference};
-use linecontact::{Contact, Cost, Curve, CurvePoint, Flat, Interval, Load};
+use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval};
 use linecontact::{ParametricProfile, Piecewise, Solution};
 use std::f64::consts::PI;
 
@@ -26,7 +26,7 @@ fn a_wedge_as_one_curve() {
     for (m, s, l) in [(1.0, 0.1, 0.3), (0.2, -0.237, 0.6), (3.0, 0.0123, 1e-3)] {
         let body = graph(-1.0, 1.0, move |x| [m * (x - s).abs(), m * (x - s).signum()]);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Load::PerLength(2.0 * m * l / PI)).unwrap();
+        let solution = contact.solve(Control::Load(2.0 * m * l / PI)).unwrap();
         assert_solved(&solution, Interval { left: s - l, right: s + l }, 1e-10, 5000);
         let pressure = solution.pressure().unwrap();
         for i in -9..10 {
@@ -54,7 +54,7 @@ fn a_parabola_with_a_kink_as_one_curve() {
     let body =
         graph(-1.0, 1.0, move |x| [x * x / 2.0 + m * (x - s).abs(), x + m * (x - s).signum()]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     assert_solved(&solution, Interval { left: c - l, right: c + l }, 1e-10, 5000);
     // Declared, it is the same.
     let declared = join(vec![
@@ -62,7 +62,7 @@ fn a_parabola_with_a_kink_as_one_curve() {
         graph(s, 1.0, move |x| [x * x / 2.0 + m * (x - s), x + m]),
     ]);
     let contact = Contact::new(&Flat, &*declared).unwrap();
-    let declared = contact.solve(Load::PerLength(load)).unwrap();
+    let declared = contact.solve(Control::Load(load)).unwrap();
     assert_solved(&declared, Interval { left: c - l, right: c + l }, 1e-14, 200);
     let [one, two] = [&solution, &declared].map(|solution| solution.pressure().unwrap());
     for i in -9..10 {
@@ -82,7 +82,7 @@ fn a_slope_like_a_square_root_as_one_curve() {
         [(x - s).abs() * root / 1.5, root * (x - s).signum()]
     });
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
-    let solution = contact.solve(Load::Constant(want.c)).unwrap();
+    let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
     assert_solved(&solution, Interval { left: s - want.b, right: s + want.a }, 1e-10, 5000);
     let pressure = solution.pressure().unwrap();
     let largest = want.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
@@ -126,7 +126,7 @@ fn an_end_like_a_square_root() {
     }
     let on = Interval { left: lo, right: 0.3 };
     let load = on.half_width() * moments(on)[1];
-    let solution = contact.solve(Load::PerLength(load)).unwrap();
+    let solution = contact.solve(Control::Load(load)).unwrap();
     assert_solved(&solution, on, 1e-10, 3000);
 }
 
@@ -151,7 +151,7 @@ fn parameters_that_run_unevenly() {
     for (steep, most) in [(1e-3, 80), (1.0, 80), (3.0, 200), (10.0, 400), (40.0, 2000)] {
         let body = curve(steep);
         let contact = Contact::new(&Flat, &body).unwrap();
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, most);
     }
 }
@@ -169,7 +169,7 @@ fn check_noise(noise: f64, most: usize) {
     let l = 0.4;
     let body = graph(-1.0, 1.0, move |x| [x * x / 2.0, x + noise * hash(x)]);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+    let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
     let estimate = solution.limits_error().unwrap();
     println!("noise {noise:.0e}");
     assert_solved(&solution, Interval { left: -l, right: l }, 10.0 * noise / l, most);
@@ -225,7 +225,7 @@ fn the_cost_of_pieces_is_linear() {
         let l = 1.0 - 0.7 / pieces as f64;
         let contact = Contact::new(&Flat, &body).unwrap();
         let contact = contact.start(Interval { left: -l, right: l });
-        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
         assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 20 * pieces);
         let pressure = solution.pressure().unwrap();
         for i in -9..10 {
@@ -249,12 +249,12 @@ fn few_of_many_pieces_are_looked_at() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let l = 0.0103;
     for contact in [contact.clone(), contact.start(Interval { left: -0.02, right: 0.02 })] {
-        let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+        let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
         assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 20_000);
     }
     let smooth = parabola(1.0);
     let smooth = Contact::new(&Flat, &*smooth).unwrap();
-    let smooth = smooth.solve(Load::PerLength(l * l / 2.0)).unwrap();
+    let smooth = smooth.solve(Control::Load(l * l / 2.0)).unwrap();
     assert_solved(&smooth, Interval { left: -l, right: l }, 1e-14, 60);
 }
 
@@ -268,7 +268,7 @@ fn touch_lightly<T: linecontact::Real>(half_widths: &[f64], tolerance: f64) {
     let contact = Contact::new(&Flat, &circle).unwrap();
     for &half_width in half_widths {
         let l = T::of(half_width);
-        let solution = contact.solve(Load::PerLength(l * l * T::of(0.5)));
+        let solution = contact.solve(Control::Load(l * l * T::of(0.5)));
         let solution = solution.unwrap_or_else(|error| panic!("L = {half_width:e}: {error}"));
         // F = L²/2 (1 + 3 L²/8 + ...).
         let close = T::of(tolerance + half_width * half_width);
@@ -311,7 +311,7 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
             let solve = |body: &dyn ParametricProfile<f64>| {
                 let contact = Contact::new(&Flat, body).unwrap();
                 let contact = contact.start(Interval { left: -start, right: start });
-                let solution = contact.solve(Load::PerLength(0.3)).unwrap();
+                let solution = contact.solve(Control::Load(0.3)).unwrap();
                 (solution.interval(), solution.limits_error().unwrap())
             };
             let ((got, error), (want, _)) = (solve(&whole), solve(&parts));
@@ -339,7 +339,7 @@ fn a_shape_common_to_both_bodies() {
             CurvePoint { x, y: rise + wave(x)[0], dx: 1.0, dy: slope + wave(x)[1] }
         });
         let contact = Contact::new(&lower, &upper).unwrap();
-        let solution = contact.solve(Load::PerLength(0.4519)).unwrap();
+        let solution = contact.solve(Control::Load(0.4519)).unwrap();
         (solution.interval(), solution.limits_error().unwrap())
     };
     let (plain, _) = solve(0.0);
@@ -366,7 +366,7 @@ fn a_tip_far_narrower_than_a_panel_beside_a_joint() {
             }),
         ]);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Load::ToHalfWidth(0.4)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(0.4)).unwrap();
         let (on, error) = (solution.interval(), solution.limits_error().unwrap());
         let (a, b, c) = (on.right, -on.left, on.centre());
         // Simpson's rule in x/ε.
@@ -399,7 +399,7 @@ fn a_wave_that_is_shorter_than_a_difference() {
     };
     let bodies = [wavy(1.0), wavy(2.0)];
     let contact = Contact::new(&*bodies[0], &*bodies[1]).unwrap();
-    let solution = contact.solve(Load::PerLength(0.005)).unwrap();
+    let solution = contact.solve(Control::Load(0.005)).unwrap();
     assert_relative_eq!(solution.a(), 0.1, epsilon = 0.0, max_relative = 1e-9);
 }
 
@@ -418,7 +418,7 @@ fn waves_far_shorter_than_a_panel() {
             [x * x / 2.0 + epsilon * cos, x - epsilon * omega * sin]
         });
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Load::Constant(1.5)).unwrap();
+        let solution = contact.solve(Control::Load(1.5 / PI)).unwrap();
         assert_solved(&solution, Interval { left: -l, right: l }, 2e-14, most);
         assert!(solution.certify().is_ok());
     }
@@ -437,7 +437,7 @@ fn the_pressure_at_the_tip_of_powers_close_to_one() {
         };
         let body = join(vec![side(-1.0), side(1.0)]);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Load::PerLength(0.7)).unwrap();
+        let solution = contact.solve(Control::Load(0.7)).unwrap();
         let exact = n * 0.7 / ((n - 1.0) * PI * solution.a());
         let there = solution.pressure().unwrap().at(0.0).unwrap();
         assert_relative_eq!(there, exact, epsilon = 0.0, max_relative = 1e-12);
@@ -455,7 +455,7 @@ fn a_sliver_at_the_end_of_a_body() {
     let contact = Contact::new(&Flat, &body).unwrap();
     for load in [0.1, 1.5 / PI, 0.49, 0.499] {
         let l = (2.0 * load).sqrt();
-        let solution = contact.solve(Load::PerLength(load)).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
         assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 1000);
     }
 }
@@ -474,7 +474,7 @@ fn pieces_that_meet_where_their_derivatives_vanish() {
         let body = Piecewise::new(vec![side(-1.0), side(1.0)]).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
         for l in [1e-3f64, 0.7, 3.9] {
-            let solution = contact.solve(Load::PerLength(l * l / 2.0)).unwrap();
+            let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
             assert_solved(&solution, Interval { left: -l, right: l }, 1e-13, 3000);
             assert!(solution.certify().is_ok());
             let pressure = solution.pressure().unwrap();
@@ -509,7 +509,7 @@ fn a_root_beside_an_end_where_the_derivatives_vanish() {
     for [before, after] in [[1.2e-4, 1.7e-4], [3e-4, 3e-4], [1e-4, 7e-4]] {
         let contact =
             contact.clone().start(Interval { left: joint - before, right: joint + after });
-        let solution = contact.solve(Load::ToHalfWidth(1e-4)).unwrap();
+        let solution = contact.solve(Control::HalfWidth(1e-4)).unwrap();
         let [left, right] = [joint - solution.interval().left, solution.interval().right - joint];
         assert_relative_eq!(left, 1e-4, epsilon = 0.0, max_relative = 1e-10);
         assert_relative_eq!(right, 1e-4, epsilon = 0.0, max_relative = 1e-10);

@@ -49,7 +49,7 @@ fn what_is_asked_of_a_solution() {
     let mut table = Table::new("Solution");
     let upper = body();
     let contact = Contact::new(&Flat, &*upper).unwrap();
-    let solution = contact.solve(Load::PerLength(0.05)).unwrap();
+    let solution = contact.solve(Control::Load(0.05)).unwrap();
     let on = solution.interval();
     let pressure = solution.pressure().unwrap();
     let below = || solution.subsurface().unwrap();
@@ -155,7 +155,7 @@ fn what_is_asked_of_a_solution() {
     }
     // Where the pressure is infinite, or the load is none.
     let punch = contact.clone().edges(Edge::Fixed(-0.2), Edge::Fixed(0.3));
-    let punch = punch.solve(Load::PerLength(0.5)).unwrap();
+    let punch = punch.solve(Control::Load(0.5)).unwrap();
     let pressure = punch.pressure().unwrap();
     for x in [-0.2, 0.3] {
         for asked in [pressure.at(x), punch.gap_slope(x)] {
@@ -170,7 +170,7 @@ fn what_is_asked_of_a_solution() {
     table.row("largest von Mises at a corner", 0, || Ok(below.max_von_mises(0.3)?), singular);
     table.row("peak at a corner", 0, || Ok(punch.peak()?), singular);
     let idle = contact.clone().edges(Edge::Fixed(-0.2), Edge::Fixed(0.3));
-    let idle = idle.solve(Load::PerLength(0.0)).unwrap();
+    let idle = idle.solve(Control::Load(0.0)).unwrap();
     table.row(
         "centre of no load",
         0,
@@ -178,7 +178,7 @@ fn what_is_asked_of_a_solution() {
         contact_error!(ContactError::Load { load: 0.0 }),
     );
     let sticky = contact.clone().edges(Edge::Adhesive(1e-3), Edge::Free);
-    let sticky = sticky.solve(Load::PerLength(0.05)).unwrap();
+    let sticky = sticky.solve(Control::Load(0.05)).unwrap();
     table.row(
         "rates with adhesion",
         0,
@@ -190,7 +190,7 @@ fn what_is_asked_of_a_solution() {
         ..point(k)
     });
     let on_holey = Contact::new(&Flat, &*holey).unwrap();
-    let on_holey = on_holey.solve(Load::PerLength(0.05)).unwrap();
+    let on_holey = on_holey.solve(Control::Load(0.05)).unwrap();
     table.row(
         "gap where Y is NaN",
         20,

@@ -6,7 +6,7 @@ use super::*;
 #[test]
 fn budgets_of_searches() {
     let mut table = Table::new("Contact::solve with a small budget");
-    let (upper, load) = (power(3.0), Load::PerLength(0.05));
+    let (upper, load) = (power(3.0), Control::Load(0.05));
     let inverted = body();
     let rule = Midpoint::default();
     for max_evaluations in [0, 1, 2] {
@@ -130,11 +130,11 @@ fn strategies_that_lie() {
             ("inversion of a flat spot, panels", flat.clone().inversion(liar), 40_000),
         ] {
             let load = if how.contains("width") {
-                Load::ToHalfWidth(exact)
+                Control::HalfWidth(exact)
             } else if how.contains("peak") {
-                Load::ToPeak(exact / std::f64::consts::PI)
+                Control::PeakPressure(exact / std::f64::consts::PI)
             } else {
-                Load::PerLength(0.05)
+                Control::Load(0.05)
             };
             let mut off = None;
             table.outcome(
@@ -229,7 +229,7 @@ fn quadratures_that_lie() {
         for (how, contact) in
             [("free", &contact), ("corners", &corner), ("searched", &by_brent), ("fixed", &fixed)]
         {
-            for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+            for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
                 table.outcome(
                     &format!("{how}, {value:e}, {load:?}"),
                     40_000,

@@ -20,7 +20,7 @@ fn panics_of_the_user_pass_through() {
         let pressure = solution.pressure().unwrap().at(0.05).unwrap();
         [solution.a(), solution.b(), solution.load(), pressure]
     };
-    let load = Load::PerLength(0.05);
+    let load = Control::Load(0.05);
     for contact in [
         contact.clone(),
         contact.clone().quadrature(&rule),

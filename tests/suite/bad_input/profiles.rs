@@ -35,7 +35,7 @@ fn bodies() {
     table.row(
         "a subnormal domain",
         100,
-        || solve(&*narrow, Load::PerLength(1.0)),
+        || solve(&*narrow, Control::Load(1.0)),
         contact_error!(ContactError::NoFirstContact { .. }),
     );
     for value in [NAN, INF, -INF] {
@@ -123,18 +123,13 @@ fn compound_profiles_that_are_none() {
             ];
             assert_eq!(faults, [ProfileError::Pieces { count: says, index: fault }; 2], "{name}");
         }
-        table.row(name, 100, || solve(&compound, Load::PerLength(0.02)), |wrong| {
+        table.row(name, 100, || solve(&compound, Control::Load(0.02)), |wrong| {
             matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper,
                 source: ProfileError::Pieces { count, index } }) if (*count, *index) == (says, fault))
         });
     }
     let compound = Compound { says: 3, has: 3, parts: parts() };
-    table.outcome(
-        "as it should be",
-        200,
-        || solve(&compound, Load::PerLength(0.02)),
-        Result::is_ok,
-    );
+    table.outcome("as it should be", 200, || solve(&compound, Control::Load(0.02)), Result::is_ok);
     table.finish();
 }
 
@@ -202,7 +197,7 @@ fn curves() {
               upper: Profile,
               expected: &dyn Fn(&ProfileError<f64>) -> bool,
               table: &mut Table| {
-        for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+        for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
             table.row(name, 40_000, || solve(&*upper, load), |wrong| {
                 matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source }) if expected(source))
             });
@@ -312,7 +307,7 @@ fn curves_that_change_between_calls() {
                 let CurvePoint { x, y, dx, dy } = point(k);
                 CurvePoint { x: x * noise(), y: y * noise(), dx: dx * noise(), dy: dy * noise() }
             });
-            for load in [Load::PerLength(0.05), Load::ToHalfWidth(0.3), Load::ToPeak(0.1)] {
+            for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
                 let name = format!("{load:?} with {size:e}, seed {seed}");
                 let mut seen = None;
                 table.outcome(
@@ -329,9 +324,8 @@ fn curves_that_change_between_calls() {
                 if let Some((on, error)) = seen {
                     assert!(on.left < on.right && on.right.is_finite(), "{name}: {on:?}");
                     // The estimate owns up to what the change does to the limits.
-                    let exact =
-                        if matches!(load, Load::PerLength(_)) { 0.1f64.sqrt() } else { 0.3 };
-                    if !matches!(load, Load::ToPeak(_)) {
+                    let exact = if matches!(load, Control::Load(_)) { 0.1f64.sqrt() } else { 0.3 };
+                    if !matches!(load, Control::PeakPressure(_)) {
                         let off = (on.half_width() / exact - 1.0).abs();
                         assert!(off <= 30.0 * error.unwrap() + 3e-15, "{name}: {off:e}, {error:?}");
                     }

@@ -2,17 +2,17 @@
 
 use super::*;
 use linecontact::Solver;
+use std::f64::consts::PI;
 
 #[test]
 fn loads_scales_and_edges() {
     let mut table = Table::new("Contact::solve");
-    let (upper, good) = (body(), Load::PerLength(0.05));
+    let (upper, good) = (body(), Control::Load(0.05));
     let contact = Contact::new(&Flat, &*upper).unwrap();
-    let ways: [(&str, fn(f64) -> Load<f64>); 4] = [
-        ("PerLength", Load::PerLength),
-        ("Constant", Load::Constant),
-        ("ToHalfWidth", Load::ToHalfWidth),
-        ("ToPeak", Load::ToPeak),
+    let ways: [(&str, fn(f64) -> Control<f64>); 3] = [
+        ("Load", Control::Load),
+        ("HalfWidth", Control::HalfWidth),
+        ("PeakPressure", Control::PeakPressure),
     ];
     for value in [NAN, INF, -INF, 0.0, -0.0, -1.0, -TINY] {
         for (name, way) in ways {
@@ -80,7 +80,7 @@ fn loads_scales_and_edges() {
         ] {
             let [left, right] = edges;
             let contact = contact.clone().edges(left, right);
-            for load in [good, Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+            for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
                 table.row(&format!("{edges:?}, {load:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
                     matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, x) || same(interval.right, x))
                 });
@@ -89,7 +89,7 @@ fn loads_scales_and_edges() {
     }
     for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
         let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, left) && same(interval.right, right));
-        for load in [good, Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+        for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
             let contact = contact.clone().start(Interval { left, right });
             table.row(
                 &format!("start {left} to {right}"),
@@ -115,7 +115,7 @@ fn loads_scales_and_edges() {
         });
     }
     let both = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
-    for load in [Load::ToHalfWidth(0.1), Load::ToPeak(0.1)] {
+    for load in [Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
         table.row(
             &format!("both limits and {load:?}"),
             0,
@@ -143,7 +143,7 @@ fn loads_scales_and_edges() {
 #[test]
 fn edge_pressures_rules_and_tolerances() {
     let mut table = Table::new("Contact::solve");
-    let (upper, load) = (body(), Load::PerLength(0.05));
+    let (upper, load) = (body(), Control::Load(0.05));
     let contact = Contact::new(&Flat, &*upper).unwrap();
     let good = EdgePressure::zero(1e-3, 1e-6);
     for value in [NAN, INF, -INF, 0.0, -1.0] {
@@ -165,7 +165,7 @@ fn edge_pressures_rules_and_tolerances() {
             });
         }
         let by_pressure = contact.clone().edge_pressure(good);
-        table.row(&format!("Eq. (6) under {value}"), 0, || Ok(by_pressure.solve(Load::PerLength(value)).map(|_| ())?), |wrong| {
+        table.row(&format!("Eq. (6) under {value}"), 0, || Ok(by_pressure.solve(Control::Load(value)).map(|_| ())?), |wrong| {
             matches!(wrong, Wrong::Contact(ContactError::Load { load }) if same(*load, value))
         });
     }
