@@ -48,4 +48,105 @@ impl<T: Real> Check<'_, T> {
         }
         Ok(())
     }
+
+    /// Where the bodies would have to pull at each other inside a contact, and the pressure there.
+    pub fn tension(&self, fields: &mut Vec<Field<T>>) -> Result<Option<[T; 2]>, ContactError<T>> {
+        let pulled = self.found.adhesive != [false; 2];
+        if pulled || panels::rises(self.engine, self.share()) == Some(true) {
+            return Ok(None);
+        }
+        self.fields(fields)?;
+        let mut worst: Option<[T; 2]> = None;
+        let mut meet = |x: T, pressure: T, allowed: T| {
+            let deeper = worst.is_none_or(|[_, least]| pressure < least);
+            // NaN does not press either.
+            if !(pressure >= -allowed) && deeper {
+                worst = Some([x, pressure]);
+            }
+        };
+        for (i, field) in fields.iter().enumerate() {
+            let on = field.interval();
+            let mean = field.load().abs() / on.half_width();
+            let allowed = self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+            for (x, pressure) in Field::places(on).into_iter().zip(field.pressures()) {
+                meet(x, *pressure, allowed);
+            }
+            let mut places = [T::zero(); POINTS];
+            let mut count = 0;
+            let mut look = |places: &[T]| {
+                let mut pressures = [T::zero(); POINTS];
+                let out = &mut pressures[..places.len()];
+                let cost = &mut Cost::default();
+                self.engine.pressures(self.gap, &self.pressing(), places, out, cost)?;
+                places.iter().zip(out).for_each(|(&x, &mut pressure)| meet(x, pressure, allowed));
+                Ok::<_, ContactError<T>>(())
+            };
+            // What the panels resolve is not narrower than their nodes.
+            panels::nodes(self.engine, i, &mut |x| {
+                (places[count], count) = (x, count + 1);
+                if count == POINTS {
+                    count = 0;
+                    look(&places)?;
+                }
+                Ok(())
+            })?;
+            look(&places[..count])?;
+        }
+        Ok(worst)
+    }
+
+    /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
+    /// the gap before loading show it: `[x, h]`, by rising x.
+    pub fn overlap(
+        &self,
+        fields: &[Field<T>],
+        heights: impl Iterator<Item = [T; 2]>,
+        cost: &mut Cost,
+    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        let contacts = self.contacts();
+        let last = contacts.len() - 1;
+        let mut sampler = Sampler::default();
+        let mut worst: Option<[T; 2]> = None;
+        let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
+        // The edge from which the gap is followed to x, the height of the gap there, and what the pressure
+        // takes off it.
+        let mut from: Option<(usize, T, T)> = None;
+        let mut next = 0;
+        for [x, height] in heights {
+            while next <= last && contacts[next].right <= x {
+                next += 1;
+            }
+            if next <= last && contacts[next].left <= x {
+                continue;
+            }
+            let (edge, contact, right) = match next.checked_sub(1) {
+                None => (contacts[0].left, 0, false),
+                Some(before) => (contacts[before].right, before, true),
+            };
+            let (_, at_edge, taken) = match from.filter(|&(at, ..)| at == next) {
+                Some(known) => known,
+                None => {
+                    let height = match panels::several(self.engine) {
+                        Some(several) => several.height(contact, right),
+                        None => sampler.height(self.gap, self.gap.nearest(edge))?,
+                    };
+                    *from.insert((next, height, total(edge)))
+                }
+            };
+            let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
+            let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
+            let allowed = doubt + self.share() * (height - at_edge).abs()
+                + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
+            if gap(height) >= -allowed {
+                continue;
+            }
+            // The height may be an interpolated one.
+            let gap = gap(sampler.height(self.gap, x)?);
+            if !(gap >= -allowed) && worst.is_none_or(|[_, least]| gap < least) {
+                worst = Some([x, gap]);
+            }
+        }
+        cost.heights += sampler.cost.evaluations;
+        Ok(worst)
+    }
 }

@@ -25,6 +25,7 @@ static COSINES: LazyLock<[f64; 4 * POINTS]> =
 #[derive(Clone)]
 pub(crate) struct Field<T> {
     on: Interval<T>,
+    pressures: [T; POINTS],
     q: [T; POINTS],
 }
 
@@ -46,7 +47,7 @@ impl<T: Real> Field<T> {
             let sum = (0..POINTS).fold(T::zero(), term) / T::count(POINTS);
             if n == 0 { sum } else { sum + sum }
         });
-        Self { on, q }
+        Self { on, pressures: *pressures, q }
     }
 
     /// `∫ P ln|x - s| ds` at a place that is not inside the contact.
@@ -60,9 +61,27 @@ impl<T: Real> Field<T> {
         let (mut sum, mut power) = (T::zero(), T::one());
         for (n, &q) in self.q.iter().enumerate().skip(1) {
             power *= u;
+            // From afar a contact is a line load.
+            if power.abs() < T::epsilon() {
+                break;
+            }
             sum += q * power / T::count(n);
         }
         T::pi() * (self.q[0] * (T::of(0.5) * half_width * size).ln() - sum)
+    }
+
+    pub fn interval(&self) -> Interval<T> {
+        self.on
+    }
+
+    pub fn pressures(&self) -> &[T; POINTS] {
+        &self.pressures
+    }
+
+    /// What the coefficients left out may add to the potential.
+    pub fn doubt(&self) -> T {
+        let tail = self.q[POINTS - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
+        T::of(4.0) * T::pi() * tail
     }
 
     /// The load of the contact.

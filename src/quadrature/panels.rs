@@ -37,6 +37,40 @@ pub(crate) use panel::Panel;
 pub(crate) use several::{Several, System};
 use std::any::Any;
 
+/// Whether the slope of the gap rises all over the contact last prepared, up to a share of itself; `None` for
+/// other engines, and for several contacts.
+pub(crate) fn rises<T: Real>(engine: &dyn Engine<T>, share: T) -> Option<bool> {
+    let engine: &dyn Any = engine;
+    let engine: &AtWork<T> = engine.downcast_ref()?;
+    let allowed = share * engine.cover.size;
+    (!engine.is_several)
+        .then(|| integrals::rise(&engine.cover.panels, engine.conjugate.on, allowed))
+}
+
+/// Shows the nodes of the panels of one contact, if it is held by panels.
+pub(crate) fn nodes<T: Real>(
+    engine: &dyn Engine<T>,
+    contact: usize,
+    show: &mut dyn FnMut(T) -> Result<(), ContactError<T>>,
+) -> Result<(), ContactError<T>> {
+    let engine: &dyn Any = engine;
+    let Some(engine) = engine.downcast_ref::<AtWork<T>>() else { return Ok(()) };
+    let (cover, on) = if engine.is_several {
+        (engine.several.cover(contact), engine.several.contacts()[contact])
+    } else {
+        (&engine.cover, engine.conjugate.on)
+    };
+    for panel in panel::within(&cover.panels, on) {
+        for &z in &chebyshev::Table::of(panel.n).z[..panel.n] {
+            let x = panel.x[0] + panel.half() * T::of(1.0 + z);
+            if on.contains(x) {
+                show(x)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The default quadrature: panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panels {

@@ -70,6 +70,24 @@ fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
     slopes
 }
 
+/// Whether the slope rises over the contact, up to errors of this size: its derivative is not negative
+/// by its coefficients alone, and no jump goes down.
+pub(super) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+    let mut before: Option<T> = None;
+    within(panels, on).iter().all(|panel| {
+        let mut series = [T::zero(); MOST];
+        series[..panel.counting].copy_from_slice(panel.coefficients());
+        let slopes = by_size!(size_for(panel.counting), N => derivative::<N, T>(&series));
+        let others = slopes[1..panel.counting].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let [left, right] = panel.at_ends();
+        let error = panel.tail.max(allowed);
+        let jumps_down = before.is_some_and(|before| left < before - error);
+        before = Some(right);
+        // Markov's inequality: so large may the derivative of such an error be.
+        slopes[0] - others >= -error * T::count(panel.counting) && !jumps_down
+    })
+}
+
 /// One panel holds the contact: over half a turn every cosine vanishes.
 fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
     let half = T::of(0.5);

@@ -32,6 +32,7 @@ mod part;
 mod weight;
 
 use super::conjugate::LANES;
+use super::cover::Cover;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 use part::{Part, gauss};
@@ -264,6 +265,17 @@ impl<T: Real> Several<T> {
             });
         }
         (self.at_ends, self.at_zeros) = (at_ends, at_zeros);
+    }
+
+    /// The slope of the gap around a contact.
+    pub fn cover(&self, contact: usize) -> &Cover<T> {
+        &self.parts[contact].cover
+    }
+
+    /// The height of the gap between the unloaded bodies at a limit of a contact.
+    pub fn height(&self, contact: usize, right: bool) -> T {
+        let part = &self.parts[contact];
+        part.height(if right { part.on.right } else { part.on.left })
     }
 
     /// The number of the contact in which a place lies.
