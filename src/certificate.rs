@@ -81,11 +81,11 @@ pub(crate) fn certify<T: Real>(
     let view = View::new(&cover.panels, on);
 
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
-    let at_end = [on.right >= ends[1], on.left <= ends[0]];
+    let at_end = [on.left <= ends[0], on.right >= ends[1]];
     let at_corner = [0, 1].map(|i| !free[i] && !adhesive[i] && at_end[i]);
     // With adhesion there may be no load.
     let pressed = strengths.iter().fold(mean, |max, strength| max.max(strength.abs()));
-    for (i, x) in [on.right, on.left].into_iter().enumerate() {
+    for (i, x) in [on.left, on.right].into_iter().enumerate() {
         let lifts = at_corner[i] && strengths[i] < -share * pressed;
         if lifts {
             return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
@@ -121,13 +121,12 @@ pub(crate) fn certify<T: Real>(
         (one, other) => one.or(other),
     };
     for right in [false, true] {
-        let i = usize::from(!right);
-        let end = if right { ends[1] } else { ends[0] };
+        let i = usize::from(right);
         if at_corner[i] {
             continue;
         }
-        let mut side = Side::new(&view, right, [both[i], both[1 - i]], allowed);
-        side.follow(gap, end, spacing, &mut cover, MOST_EVALUATIONS)?;
+        let mut side = Side::new(&view, right, both, allowed);
+        side.follow(gap, ends[i], spacing, &mut cover, MOST_EVALUATIONS)?;
         worst = nearer(worst, side.worst);
         closest = nearer(closest, side.closest);
     }

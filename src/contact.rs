@@ -84,9 +84,9 @@ pub enum Control<T> {
 pub(crate) struct Found<T> {
     pub interval: Interval<T>,
     pub load: T,
-    /// K_a and K_b.
+    /// K_b and K_a: here as everywhere, left before right.
     pub strengths: [T; 2],
-    /// Whether they vanish at a and at -b, being what the limits were sought by.
+    /// Whether they vanish at -b and at a, being what the limits were sought by.
     pub free: [bool; 2],
     /// Whether the bodies may pull at each other.
     pub adhesive: [bool; 2],
@@ -109,12 +109,11 @@ impl<T: Real> Found<T> {
         m: &Moments<T>,
     ) -> Self {
         let kappa = conditions.kappa;
-        let [free_b, free_a] = conditions.edges.map(|edge| edge.is_free());
         let mean_pressure = load / interval.half_width();
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = [strength(m.first + m.mean), strength(m.first - m.mean)];
-        let [at_b, at_a] = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
-        let (free, adhesive) = ([free_a, free_b], [at_a, at_b]);
+        let strengths = [strength(m.first - m.mean), strength(m.first + m.mean)];
+        let free = conditions.edges.map(|edge| edge.is_free());
+        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
         let ends = [interval.left, interval.right];
         let (force, trend) = (None, m.trend);
         Self { interval, load, strengths, free, adhesive, error, force, trend, ends }

@@ -195,7 +195,7 @@ pub enum ContactError<T: Real> {
     },
     /// The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq. (6) has
     /// left a singularity, or where the slope of a body jumps.
-    #[error("the pressure at x = {x:?} is infinite; ask beside it, or for edge_strengths()")]
+    #[error("the pressure at x = {x:?} is infinite; ask beside it, or for edge_singularities()")]
     Singular {
         /// Where.
         x: T,

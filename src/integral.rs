@@ -34,7 +34,7 @@ pub(crate) struct Integrals<'p, T: Real> {
     pub pressure: Pressure<'p, T>,
     /// Of the contact, rising.
     pub joints: Vec<T>,
-    /// Whether `P w` vanishes at a and at -b.
+    /// Whether `P w` vanishes at -b and at a.
     free: [bool; 2],
     /// `P w` on the panels between the joints, from the right one on.
     kept: OnceLock<Result<Vec<Kept<T>>, ContactError<T>>>,
@@ -55,13 +55,13 @@ impl<'p, T: Real> Integrals<'p, T> {
     fn kept(&self) -> Result<&[Kept<T>], ContactError<T>> {
         let kept = self.kept.get_or_init(|| {
             let on = self.pressure.interval();
-            let views = [on.right, on.left].map(|x| View::new(on, x));
+            let views = [on.left, on.right].map(|x| View::new(on, x));
             let ends = [0, 1].map(|i| views[i].ends(&self.joints));
             let count = self.joints.len() + 1;
             let keep = |i: usize| {
                 let j = count - 1 - i;
-                let seen = [[ends[0][i], ends[0][i + 1]], [ends[1][j], ends[1][j + 1]]];
-                let nearer = usize::from(seen[1][1] < seen[0][1]);
+                let seen = [[ends[0][j], ends[0][j + 1]], [ends[1][i], ends[1][i + 1]]];
+                let nearer = usize::from(seen[0][1] >= seen[1][1]);
                 let (view, [from, to]) = (&views[nearer], seen[nearer]);
                 let middle = T::of(0.5) * (from + to);
                 let bounded = |ends| self.bounded(view, ends);

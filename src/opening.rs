@@ -48,7 +48,7 @@ impl<T: Real> Solution<'_, T> {
         let (edge, outward) = self.edge_before(x)?;
         let Interval { right, .. } = self.interval();
         if outward.is_zero() {
-            let free = self.found().free[usize::from(edge != right)];
+            let free = self.found().free[usize::from(edge == right)];
             return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
         }
         let bodies = Sampler::default().slope(self.gap(), x)?;

@@ -12,7 +12,7 @@
 //! inverse-square-root singularities of `P` at the two edges, in `x = c + L cos θ`, are
 //!
 //! ```text
-//! K_a = (F/L - (m₁ + m₀))/π      K_b = (F/L - (m₁ - m₀))/π
+//! K_b = (F/L - (m₁ - m₀))/π      K_a = (F/L - (m₁ + m₀))/π
 //! m₀ = (1/π) ∫ g dθ              m₁ = (1/π) ∫ g cos θ dθ      θ from 0 to π
 //! ```
 //!
@@ -176,7 +176,7 @@ pub struct Pressing<T> {
     pub kappa: T,
     /// Load per unit length F.
     pub load: T,
-    /// Whether the limits `a` and `b` are such that `K_a` and `K_b` vanish.
+    /// Whether the limits -b and a are such that `K_b` and `K_a` vanish: left before right.
     pub free: [bool; 2],
 }
 

@@ -116,7 +116,7 @@ impl<T: Real> Solution<'_, T> {
         let mean = if found.free == [true; 2] {
             T::zero()
         } else {
-            let [at_a, at_b] = found.strengths;
+            let [at_b, at_a] = found.strengths;
             T::frac_pi_2() * (at_b - at_a) / kappa
         };
         let rate = |free: bool, sign: T| {
@@ -124,7 +124,7 @@ impl<T: Real> Solution<'_, T> {
             let stiffness = kappa * (T::of(0.5) * sign * mean + slope);
             if free { T::one() / stiffness } else { T::zero() }
         };
-        let [free_a, free_b] = found.free;
+        let [free_b, free_a] = found.free;
         Ok(LoadRates { a: rate(free_a, T::one()), b: rate(free_b, -T::one()), on })
     }
 

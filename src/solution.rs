@@ -68,10 +68,10 @@ impl<'b, T: Real> Solution<'b, T> {
         self.found.error
     }
 
-    /// `K_a` and `K_b`, the strengths of the singularities at the two edges: near `a`,
+    /// `[K_b, K_a]`, the strengths of the singularities at -b and at a, pressures: near `a`,
     /// `P ≈ K_a/sin θ` with `x = c + L cos θ`. Zero to rounding for free edges; at a fixed edge
     /// a negative strength means that the body lifts off there.
-    pub fn edge_strengths(&self) -> [T; 2] {
+    pub fn edge_singularities(&self) -> [T; 2] {
         self.found.strengths
     }
 
@@ -113,7 +113,7 @@ impl<'b, T: Real> Solution<'b, T> {
             return Err(ContactError::Singular { x });
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
-        for ((edge, strength), free) in [on.right, on.left].into_iter().zip(strengths).zip(free) {
+        for ((edge, strength), free) in [on.left, on.right].into_iter().zip(strengths).zip(free) {
             if !free && strength > rounding {
                 return Err(ContactError::Singular { x: edge });
             }
@@ -179,7 +179,7 @@ pub struct Pressure<'p, T: Real> {
     on: Interval<T>,
     /// The load that stands for the error of the limits.
     force: T,
-    /// That error times the strengths of the edges at a and -b, with adhesion.
+    /// That error times the strengths of the edges at -b and a, with adhesion.
     held: [T; 2],
     cost: Cost,
 }
@@ -241,7 +241,7 @@ impl<T: Real> Pressure<'_, T> {
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let [free_a, free_b] = self.pressing.free;
+        let [free_b, free_a] = self.pressing.free;
         if !self.on.contains(x) {
             let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
             return if singular {
@@ -261,7 +261,8 @@ impl<T: Real> Pressure<'_, T> {
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
-        for (held, distance) in self.held.into_iter().zip([self.on.right - x, x - self.on.left]) {
+        let [held_b, held_a] = self.held;
+        for (held, distance) in [(held_a, self.on.right - x), (held_b, x - self.on.left)] {
             let share = self.on.half_width() / distance;
             estimate.error += T::of(0.5) * held * share * share.sqrt();
         }

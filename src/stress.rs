@@ -182,7 +182,7 @@ impl<T: Real> Subsurface<'_, T> {
         if self.interval().contains(x) {
             self.integrals.pressure.values(&[x], &mut pressure)?;
         }
-        let [free_a, free_b] = self.solution.found().free;
+        let [free_b, free_a] = self.solution.found().free;
         let infinite = (x == left && !free_b) || (x == right && !free_a);
         let [pressure] = pressure;
         if infinite || !pressure.is_finite() {

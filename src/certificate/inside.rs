@@ -138,7 +138,7 @@ impl<T: Real> Inside<'_, T> {
 
     /// What makes the pressure smooth at the edges.
     fn factor(&self, x: T) -> T {
-        let [free_a, free_b] = self.pressing.free;
+        let [free_b, free_a] = self.pressing.free;
         let by_half_width = T::one() / self.on.half_width();
         let part = |distance: T, free: bool| {
             let root = (distance * by_half_width).sqrt();

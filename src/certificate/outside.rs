@@ -48,7 +48,9 @@ pub(super) struct Side<'o, T: Real> {
 }
 
 impl<'o, T: Real> Side<'o, T> {
-    pub fn new(view: &'o View<T>, right: bool, strengths: [T; 2], allowed: T) -> Self {
+    /// With π/κ times the strengths at -b and at a.
+    pub fn new(view: &'o View<T>, right: bool, [at_b, at_a]: [T; 2], allowed: T) -> Self {
+        let strengths = if right { [at_a, at_b] } else { [at_b, at_a] };
         let zero = T::zero();
         let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);

@@ -62,7 +62,7 @@ pub(super) fn find<T: Real>(
             if conditions.edges[i].is_free() && beyond {
                 conditions.edges[i] = Edge::Fixed(x);
                 changed = true;
-            } else if !conditions.edges[i].is_free() && found.strengths[1 - i] < T::zero() {
+            } else if !conditions.edges[i].is_free() && found.strengths[i] < T::zero() {
                 conditions.edges[i] = Edge::Free;
                 changed = true;
             }

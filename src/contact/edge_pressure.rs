@@ -40,14 +40,14 @@ impl<T: Real> EdgePressure<T> {
         }
     }
 
-    /// `a - ε_a` and `ε_b - b`.
+    /// `ε_b - b` and `a - ε_a`.
     pub(super) fn places(&self, on: Interval<T>) -> [T; 2] {
-        [on.right - self.distance_a, on.left + self.distance_b]
+        [on.left + self.distance_b, on.right - self.distance_a]
     }
 
     /// Whether a contact meets the conditions, given by how much it misses them.
     pub(super) fn met(&self, on: Interval<T>, excess: &Excess<T>) -> Result<(), ContactError<T>> {
-        let [x_a, x_b] = self.places(on);
+        let [x_b, x_a] = self.places(on);
         let at_a = excess.at_a / (T::pi() * on.edge_root(x_a));
         let at_b = excess.at_b / (T::pi() * on.edge_root(x_b));
         if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {

@@ -113,7 +113,7 @@ impl<T: Real> Conditions<T> {
     /// The interval with its limits moved by steps in units of the half-width, given the load as a
     /// share of what the interval would carry. The half-width moves as its square would, by no more
     /// than a factor of 33 down or 4 up.
-    pub fn moved(&self, on: Interval<T>, [right, left]: [T; 2], share: T) -> Interval<T> {
+    pub fn moved(&self, on: Interval<T>, [left, right]: [T; 2], share: T) -> Interval<T> {
         let (one, half) = (T::one(), T::of(0.5));
         let half_width = on.half_width();
         let wider = half * (right - left);

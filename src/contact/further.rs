@@ -57,7 +57,7 @@ pub(super) fn further<T: Real>(
         let excess = goal.excess(gap, on, engine, cost)?;
         let (at_a, at_b) = (excess.at_a, excess.at_b);
         Ok(match (both, half_width) {
-            (true, _) => [at_a, at_b],
+            (true, _) => [at_b, at_a],
             (false, Some(_)) => [at_a - at_b, zero],
             (false, None) => [half * (at_a + at_b), zero],
         })
@@ -70,9 +70,9 @@ pub(super) fn further<T: Real>(
     let determinant = by_one[0] * by_other[1] - by_other[0] * by_one[1];
     let mut on = start;
     for _ in 0..STEPS {
-        let [at_a, at_b] = missed(on)?;
-        let one = (by_other[0] * at_b - by_other[1] * at_a) / determinant;
-        let other = (by_one[1] * at_a - by_one[0] * at_b) / determinant;
+        let [first, second] = missed(on)?;
+        let one = (by_other[0] * second - by_other[1] * first) / determinant;
+        let other = (by_one[1] * first - by_one[0] * second) / determinant;
         on = moved(on, [one, other]);
     }
     // What is found must still be the contact that the search has found, within its tolerance.

@@ -187,7 +187,7 @@ impl<T: Real> Goal<T> {
             // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
             // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
-                let [x_a, x_b] = wanted.places(on);
+                let [x_b, x_a] = wanted.places(on);
                 for (name, value, x, end) in [
                     ("ε_a", wanted.distance_a, x_a, on.right),
                     ("ε_b", wanted.distance_b, x_b, on.left),

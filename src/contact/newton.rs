@@ -3,8 +3,8 @@
 //! Three equations for `-b`, `a` and F, linear in what the quadrature says of a trial contact:
 //!
 //! ```text
-//! at a:   F - κ L (m₁ + m₀) = π L K_a        or  a is given
 //! at -b:  F - κ L (m₁ - m₀) = π L K_b        or  b is given
+//! at a:   F - κ L (m₁ + m₀) = π L K_a        or  a is given
 //! F is given,  or the half-width L is
 //! ```
 //!
@@ -68,14 +68,14 @@ pub(super) fn settle<T: Real>(
         let m = engine.moments(gap, on)?;
         let Some(system) = System::new(conditions, on, load, &m) else { return Ok(None) };
         let Some(inverse) = system.matrix.try_inverse() else { return Ok(None) };
-        let [right, left, force] = system.step(&inverse);
+        let [left, right, force] = system.step(&inverse);
         if !((right - left).is_finite() && force.is_finite()) {
             return Ok(None);
         }
         load += force;
         let size = right.abs() + left.abs();
         let before_move = on;
-        on = conditions.moved(on, [right, left], load / (conditions.kappa * half_width * m.first));
+        on = conditions.moved(on, [left, right], load / (conditions.kappa * half_width * m.first));
         // What fills the bodies may be rounded beyond them.
         let rounded = |x: T, end: T, beyond: T| {
             let rounding = T::of(8.0) * T::epsilon() * (end.abs() + half_width);
@@ -117,7 +117,7 @@ pub(super) fn settle<T: Real>(
         let slow = before.is_some() && share >= T::of(0.25);
         if done || slow {
             let noise = system.error(&inverse, &m);
-            let rounding = [on.right, on.left].map(|x| T::epsilon() * x.abs() / on.half_width());
+            let rounding = [on.left, on.right].map(|x| T::epsilon() * x.abs() / on.half_width());
             let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
             let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
             if done || stalled {
@@ -129,7 +129,7 @@ pub(super) fn settle<T: Real>(
                 let error = |i: usize, step: T| {
                     T::of(4.0) * (noise[i] + rounding[i]) + left_over * step.abs()
                 };
-                let errors = [error(0, right), error(1, left)];
+                let errors = [error(0, left), error(1, right)];
                 let force = system.force(errors);
                 // More doubt than this is no contact found.
                 if errors[0].max(errors[1]) > T::of(0.03) {
@@ -165,9 +165,9 @@ fn further<T: Real>(
         let m = engine.moments(gap, on)?;
         let Some(system) = System::new(conditions, on, load, &m) else { break };
         let Some(inverse) = system.matrix.try_inverse() else { break };
-        let [right, left, force] = system.step(&inverse);
+        let [left, right, force] = system.step(&inverse);
         load += force;
-        on = conditions.moved(on, [right, left], T::one());
+        on = conditions.moved(on, [left, right], T::one());
     }
     Ok((on, load))
 }
@@ -239,13 +239,13 @@ fn doubtful<T: Real>(noise: T) -> T {
     (T::of(1e3) * noise).min(T::epsilon().sqrt()).max(T::of(4.0) * noise)
 }
 
-/// The equations, linearised: rows for a and -b. Limits are in units of the half-width, forces in
+/// The equations, linearised: rows for -b and a. Limits are in units of the half-width, forces in
 /// those of `scale`.
 struct System<T> {
-    /// By a and by -b.
+    /// By -b and by a.
     jacobian: [[T; 2]; 2],
     residual: [T; 2],
-    /// By the two unknowns: a and -b; or -b and the load, with `a + b` known.
+    /// By the two unknowns: -b and a; or -b and the load, with `a + b` known.
     matrix: Matrix2<T>,
     /// By how much `a + b` has to grow.
     wider: Option<T>,
@@ -281,33 +281,33 @@ impl<T: Real> System<T> {
                 (residual, [away, own], one)
             }
         };
-        let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
         let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
-        let (jacobian, residual) = ([[aa, ab], [ba, bb]], [at_a, at_b]);
+        let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
+        let (jacobian, residual) = ([[bb, ba], [ab, aa]], [at_b, at_a]);
         let (matrix, wider) = match conditions.given {
-            Given::Load(_) => (Matrix2::new(aa, ab, ba, bb), None),
+            Given::Load(_) => (Matrix2::new(bb, ba, ab, aa), None),
             Given::HalfWidth(wanted) => {
                 let wider = (wanted - half_width) * by_width;
-                (Matrix2::new(aa + ab, force_a, ba + bb, force_b), Some(wider + wider))
+                (Matrix2::new(ba + bb, force_b, aa + ab, force_a), Some(wider + wider))
             }
         };
         Some(Self { jacobian, residual, matrix, wider, scale, stiffness })
     }
 
-    /// The steps of a and of -b, in half-widths, and that of the load.
+    /// The steps of -b and of a, in half-widths, and that of the load.
     fn step(&self, inverse: &Matrix2<T>) -> [T; 3] {
         let wider = self.wider.unwrap_or(T::zero());
-        let left = |i: usize| self.residual[i] + self.jacobian[i][0] * wider;
+        let left = |i: usize| self.residual[i] + self.jacobian[i][1] * wider;
         let step = -(inverse * Vector2::new(left(0), left(1)));
         match self.wider {
             None => [step[0], step[1], T::zero()],
-            Some(_) => [step[0] + wider, step[0], step[1] * self.scale],
+            Some(_) => [step[0], step[0] + wider, step[1] * self.scale],
         }
     }
 
     /// Whether the contact grows with its load: where it does not, another does.
     fn is_stable(&self, conditions: &Conditions<T>) -> bool {
-        let [[aa, ab], [ba, bb]] = self.jacobian;
+        let [[bb, ba], [ab, aa]] = self.jacobian;
         match (conditions.given, conditions.edges.map(|edge| edge.limit())) {
             (Given::Load(_), [None, None]) => aa * bb < ab * ba,
             (Given::Load(_), [Some(_), None]) => aa < T::zero(),
@@ -325,11 +325,11 @@ impl<T: Real> System<T> {
 
     /// The load that moves the limits by so much of the half-width.
     fn force(&self, errors: [T; 2]) -> T {
-        let row = |[a, b]: [T; 2]| a.abs() * errors[0] + b.abs() * errors[1];
+        let row = |[b, a]: [T; 2]| b.abs() * errors[0] + a.abs() * errors[1];
         row(self.jacobian[0]).max(row(self.jacobian[1])) * self.scale
     }
 
-    /// What the error of the moments leaves open of `a` and of `-b`, in half-widths.
+    /// What the error of the moments leaves open of `-b` and of `a`, in half-widths.
     fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
         let error = self.stiffness * m.error / self.scale;
         let row = |i: usize| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs());

@@ -114,8 +114,8 @@ impl<T: Real> View<T> {
         };
         let s = s.max(left + rounding).min(right - rounding);
         let share = match (at_right, free) {
-            (true, [true, _]) => inward / (right - s),
-            (false, [_, true]) => inward / (s - left),
+            (true, [_, true]) => inward / (right - s),
+            (false, [true, _]) => inward / (s - left),
             _ => T::one(),
         };
         (s, share)

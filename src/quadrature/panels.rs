@@ -351,23 +351,23 @@ impl<T: Real> AtWork<T> {
         std::array::from_fn(|i| {
             let (left, right) = (edges.left[i], edges.right[i]);
             let by_root = half / edges.root[i];
-            let pressure = scale * regular[i] + (bound[0] * left + bound[1] * right) * by_root;
+            let pressure = scale * regular[i] + (bound[1] * left + bound[0] * right) * by_root;
             // What rounding has left of a strength that should be zero stands for the load
             // that the rounded limits have too much or too little. Close to the edge it is the
             // limit that counts.
-            let left_over = (free[0] * left + free[1] * right) * by_root;
+            let left_over = (free[1] * left + free[0] * right) * by_root;
             let counts = left_over.abs() < least * pressure.abs();
             pressure + if counts { left_over } else { T::zero() }
         })
     }
 
-    /// K_a and K_b: what is left of them at free edges, and what they are at the others.
+    /// K_b and K_a: what is left of them at free edges, and what they are at the others.
     fn strengths(&self, pressing: &Pressing<T>) -> [[T; 2]; 2] {
         let zero = T::zero();
         let Some((_, m)) = self.moments else { return [[zero; 2]; 2] };
         let mean_pressure = pressing.load / self.conjugate.on.half_width();
         let strength = |sum: T| (mean_pressure - pressing.kappa * sum) / T::pi();
-        let both = [strength(m.first + m.mean), strength(m.first - m.mean)];
+        let both = [strength(m.first - m.mean), strength(m.first + m.mean)];
         let pick =
             |free: bool| [0, 1].map(|i| if pressing.free[i] == free { both[i] } else { zero });
         [pick(true), pick(false)]

@@ -51,7 +51,7 @@ impl<T: Real> Subsurface<'_, T> {
     fn check_edges(&self) -> Result<(), ContactError<T>> {
         let (found, Interval { left, right }) = (self.solution.found(), self.interval());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
-        for (i, x) in [right, left].into_iter().enumerate() {
+        for (i, x) in [left, right].into_iter().enumerate() {
             if !found.free[i] && found.strengths[i].abs() > least {
                 return Err(ContactError::Singular { x });
             }

@@ -37,7 +37,7 @@ fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
             epsilon = 0.0,
             max_relative = 10.0 * tolerance
         );
-        let strengths = solution.edge_strengths().map(|k| (k * half_width * PI / c).abs());
+        let strengths = solution.edge_singularities().map(|k| (k * half_width * PI / c).abs());
         assert!(strengths.iter().all(|&k| k < 10.0 * tolerance), "{load:?}: {strengths:?}");
     }
 }

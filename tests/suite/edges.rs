@@ -40,16 +40,16 @@ impl Quadratic {
         [g0 + g1 * c + g2 * c * c + g2 * l * l / 2.0, l * (g1 + 2.0 * g2 * c), g2 * l * l / 2.0]
     }
 
-    /// K_a and K_b.
+    /// K_b and K_a.
     pub fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
         let [mean, first, _] = self.coefficients(on);
         let alpha = (load / on.half_width() - KAPPA * first / 2.0) / PI;
-        [alpha - KAPPA * mean / PI, alpha + KAPPA * mean / PI]
+        [alpha + KAPPA * mean / PI, alpha - KAPPA * mean / PI]
     }
 
     fn pressure(self, load: f64, on: Interval<f64>, theta: f64) -> f64 {
         let [_, c1, c2] = self.coefficients(on);
-        let [at_a, at_b] = self.strengths(load, on);
+        let [at_b, at_a] = self.strengths(load, on);
         let (sin, cos) = theta.sin_cos();
         let singular = (at_a * (1.0 + cos) + at_b * (1.0 - cos)) / (2.0 * sin);
         KAPPA * (c1 * sin + c2 * (2.0 * theta).sin()) / PI + singular
@@ -113,12 +113,12 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
             let (on, load) = (solution.interval(), solution.load());
             let scale = KAPPA * on.half_width();
             let exact = g.strengths(load, on);
-            for (i, edge) in [right, left].into_iter().enumerate() {
+            for (i, edge) in [left, right].into_iter().enumerate() {
                 if let Some(wanted) = wanted(edge, on.half_width()) {
                     assert_abs_diff_eq!(exact[i], wanted, epsilon = 2e-15 * scale);
                 }
                 assert_abs_diff_eq!(
-                    solution.edge_strengths()[i],
+                    solution.edge_singularities()[i],
                     exact[i],
                     epsilon = 4e-15 * scale
                 );

@@ -253,12 +253,12 @@ fn edge_pressures_approach_the_free_limits() {
 }
 
 #[test]
-fn edge_strengths_vanish_at_free_edges_and_answer_at_fixed_ones() {
+fn edge_singularities_vanish_at_free_edges_and_answer_at_fixed_ones() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let free = contact.solve(Control::Load(0.08)).unwrap();
     let scale = 0.08 / free.a();
-    assert!(free.edge_strengths().iter().all(|k| k.abs() < 1e-14 * scale));
+    assert!(free.edge_singularities().iter().all(|k| k.abs() < 1e-14 * scale));
 
     // A flat punch of half-width 0.5, tilted by m: P = (F - m x)/(π sqrt(L² - x²)) for κ = 1, so
     // K = (F - m x)/(π L) at each edge.
@@ -268,7 +268,7 @@ fn edge_strengths_vanish_at_free_edges_and_answer_at_fixed_ones() {
     let contact =
         Contact::new(&Flat, &*tilted).unwrap().edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
     let solution = contact.solve(Control::Load(load)).unwrap();
-    let [k_a, k_b] = solution.edge_strengths();
+    let [k_b, k_a] = solution.edge_singularities();
     assert_relative_eq!(k_a, (load - m * 0.5) / (PI * 0.5), epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(k_b, (load + m * 0.5) / (PI * 0.5), epsilon = 0.0, max_relative = 1e-14);
     assert_eq!(solution.limits_error(), None);

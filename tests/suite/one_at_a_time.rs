@@ -85,7 +85,7 @@ fn every_pair_of_edges() {
                 let on = solution.interval();
                 let scale = KAPPA * on.half_width();
                 let exact = BENT.strengths(solution.load(), on);
-                for (i, edge) in [pair[1], pair[0]].into_iter().enumerate() {
+                for (i, edge) in pair.into_iter().enumerate() {
                     if let Some(wanted) = wanted(edge, on.half_width()) {
                         assert_abs_diff_eq!(exact[i], wanted, epsilon = 2e-14 * scale);
                     }
