@@ -29,15 +29,22 @@ const NODES: usize = 16;
 /// Panels beyond those between the joints before an integral is given up.
 const MOST_PANELS: usize = 20_000;
 
-/// The pressure of a contact, ready to be integrated.
+/// The pressure of all contacts, ready to be integrated.
 pub(crate) struct Integrals<'p, T: Real> {
     pub pressure: Pressure<'p, T>,
-    /// Of the contact, rising.
-    pub joints: Vec<T>,
-    /// Whether `P w` vanishes at -b and at a.
+    /// The contacts, from left to right.
+    contacts: Vec<One<T>>,
+}
+
+/// One of the contacts.
+struct One<T> {
+    on: Interval<T>,
+    /// The joints inside, rising.
+    joints: Vec<T>,
+    /// Whether `P w` vanishes at the left and at the right limit.
     free: [bool; 2],
     /// `P w` on the panels between the joints, from the right one on.
-    kept: OnceLock<Result<Vec<Kept<T>>, ContactError<T>>>,
+    kept: OnceLock<Vec<Kept<T>>>,
 }
 
 /// `P w` at the nodes of a panel, of its right half and of its left one, each from right to left.
@@ -45,32 +52,22 @@ type Kept<T> = [[T; NODES]; 3];
 
 impl<'p, T: Real> Integrals<'p, T> {
     pub fn new(solution: &'p Solution<'_, T>) -> Result<Self, ContactError<T>> {
-        let on = solution.interval();
-        let joints = solution.gap().joints(on).collect();
+        let contacts = solution.intervals();
+        let last = contacts.len() - 1;
         let free = solution.found().free;
-        Ok(Self { pressure: solution.pressure()?, joints, free, kept: OnceLock::new() })
+        let one = |(i, &on): (usize, &Interval<T>)| {
+            let joints = solution.gap().joints(on).collect();
+            // Between two contacts all limits are free.
+            let free = [i > 0 || free[0], i < last || free[1]];
+            One { on, joints, free, kept: OnceLock::new() }
+        };
+        let contacts = contacts.iter().enumerate().map(one).collect();
+        Ok(Self { pressure: solution.pressure()?, contacts })
     }
 
-    /// Taken from whichever edge is nearer.
-    fn kept(&self) -> Result<&[Kept<T>], ContactError<T>> {
-        let kept = self.kept.get_or_init(|| {
-            let on = self.pressure.interval();
-            let views = [on.left, on.right].map(|x| View::new(on, x));
-            let ends = [0, 1].map(|i| views[i].ends(&self.joints));
-            let count = self.joints.len() + 1;
-            let keep = |i: usize| {
-                let j = count - 1 - i;
-                let seen = [[ends[0][j], ends[0][j + 1]], [ends[1][i], ends[1][i + 1]]];
-                let nearer = usize::from(seen[0][1] >= seen[1][1]);
-                let (view, [from, to]) = (&views[nearer], seen[nearer]);
-                let middle = T::of(0.5) * (from + to);
-                let bounded = |ends| self.bounded(view, ends);
-                let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
-                Ok([0, 1, 2].map(|part| view.seen(&kept, part)))
-            };
-            (0..count).map(keep).collect()
-        });
-        kept.as_deref().map_err(Clone::clone)
+    /// The joints inside the contacts, rising.
+    pub fn joints(&self) -> impl Iterator<Item = T> {
+        self.contacts.iter().flat_map(|one| one.joints.iter().copied())
     }
 
     /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
@@ -79,42 +76,50 @@ impl<'p, T: Real> Integrals<'p, T> {
         x: T,
         kernel: impl Fn(T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
-        self.over_as_of(T::zero(), x, kernel)
+        self.over_as_of(T::zero(), x, |_, distance, strength| kernel(distance, strength))
     }
 
     /// The same to no more than the tolerance of an integral of this size: for a kernel that may be
-    /// the rounding of a difference and nothing else.
+    /// the rounding of a difference and nothing else. It is told whether s lies in the contact with x.
     pub fn over_as_of<const N: usize>(
         &self,
         least: T,
         x: T,
-        kernel: impl Fn(T, T) -> [T; N],
+        kernel: impl Fn(bool, T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
-        let view = View::new(self.pressure.interval(), x);
-        let kept = self.kept()?;
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
-        let panel = |ends: [T; 2], known: Option<usize>, part: usize| {
+        let mut views = Vec::with_capacity(self.contacts.len());
+        for one in &self.contacts {
+            views.push((one, View::new(one.on, x), one.kept(&self.pressure)?));
+        }
+        let panel = |i: usize, ends: [T; 2], known: Option<usize>, part: usize| {
+            let (one, view, kept) = &views[i];
             let bounded = match known {
-                Some(i) => view.seen(&kept[i], part),
-                None => self.bounded(&view, ends)?,
+                Some(known) => view.seen(&kept[known], part),
+                None => one.bounded(&self.pressure, view, ends)?,
             };
-            Ok::<_, ContactError<T>>(Panel::new(&view, ends, &bounded, &kernel))
+            let kernel = |distance, strength| kernel(one.on.contains(x), distance, strength);
+            Ok::<_, ContactError<T>>(Panel::new(view, ends, &bounded, &kernel))
         };
-        for (ends, known) in view.panels(&self.joints) {
-            let whole = panel(ends, known, 0)?;
-            add(&mut size, &whole.size);
-            pending.push((whole, known));
+        for (i, (one, view, _)) in views.iter().enumerate() {
+            for (ends, known) in view.panels(&one.joints) {
+                let whole = panel(i, ends, known, 0)?;
+                add(&mut size, &whole.size);
+                pending.push((i, whole, known));
+            }
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
         // Below the least normal number, which is about that, there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
         let mut left = MOST_PANELS;
-        while let Some((whole, known)) = pending.pop() {
+        while let Some((contact, whole, known)) = pending.pop() {
             let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
-            let halves = [panel([from, middle], known, 1)?, panel([middle, to], known, 2)?];
-            let noise = self.noise(view.place(middle, self.free).0);
+            let halves =
+                [panel(contact, [from, middle], known, 1)?, panel(contact, [middle, to], known, 2)?];
+            let (one, view, _) = &views[contact];
+            let noise = one.noise(view.place(middle, one.free).0);
             let mut agreed = true;
             let mut refined = [T::zero(); N];
             for i in 0..N {
@@ -131,15 +136,39 @@ impl<'p, T: Real> Integrals<'p, T> {
                 return Err(ContactError::Integral { x, panels: MOST_PANELS });
             }
             left -= 1;
-            pending.extend(halves.map(|half| (half, None)));
+            pending.extend(halves.map(|half| (contact, half, None)));
         }
         Ok(total)
+    }
+}
+
+impl<T: Real> One<T> {
+    /// Taken from whichever edge is nearer.
+    fn kept(&self, pressure: &Pressure<'_, T>) -> Result<&[Kept<T>], ContactError<T>> {
+        if let Some(kept) = self.kept.get() {
+            return Ok(kept);
+        }
+        let views = [self.on.left, self.on.right].map(|x| View::new(self.on, x));
+        let ends = [0, 1].map(|i| views[i].ends(&self.joints));
+        let count = self.joints.len() + 1;
+        let keep = |i: usize| {
+            let j = count - 1 - i;
+            let seen = [[ends[0][j], ends[0][j + 1]], [ends[1][i], ends[1][i + 1]]];
+            let nearer = usize::from(seen[0][1] >= seen[1][1]);
+            let (view, [from, to]) = (&views[nearer], seen[nearer]);
+            let middle = T::of(0.5) * (from + to);
+            let bounded = |ends| self.bounded(pressure, view, ends);
+            let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
+            Ok([0, 1, 2].map(|part| view.seen(&kept, part)))
+        };
+        let kept = (0..count).map(keep).collect::<Result<_, ContactError<T>>>()?;
+        Ok(self.kept.get_or_init(|| kept))
     }
 
     /// What the rounding of s makes of the pressure beside a joint, where it may go like a
     /// logarithm: no halving mends that.
     fn noise(&self, s: T) -> T {
-        let Interval { left, right } = self.pressure.interval();
+        let Interval { left, right } = self.on;
         let mut distance = right - left;
         let next = self.joints.partition_point(|&joint| joint < s);
         for joint in &self.joints[next.saturating_sub(1)..self.joints.len().min(next + 1)] {
@@ -150,13 +179,18 @@ impl<'p, T: Real> Integrals<'p, T> {
     }
 
     /// `P w` at the nodes of a panel.
-    fn bounded(&self, view: &View<T>, ends: [T; 2]) -> Result<[T; NODES], ContactError<T>> {
+    fn bounded(
+        &self,
+        pressure: &Pressure<'_, T>,
+        view: &View<T>,
+        ends: [T; 2],
+    ) -> Result<[T; NODES], ContactError<T>> {
         let (mut s, mut share) = ([T::zero(); NODES], [T::zero(); NODES]);
         for (i, turn) in turns(ends).into_iter().enumerate() {
             (s[i], share[i]) = view.place(turn, self.free);
         }
         let mut bounded = [T::zero(); NODES];
-        self.pressure.values(&s, &mut bounded)?;
+        pressure.values(&s, &mut bounded)?;
         for i in 0..NODES {
             bounded[i] *= share[i] * view.on.edge_root(s[i]);
         }

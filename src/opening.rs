@@ -26,8 +26,9 @@ impl<T: Real> Solution<'_, T> {
     /// either body, and for NaN; those of [`pressure`](Self::pressure), of sampling the gap, and
     /// [`ContactError::Integral`].
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
-        let (edge, outward) = self.edge_before(x)?;
-        if outward.is_zero() {
+        let (edge, _) = self.nearest_edge(x)?;
+        let beyond = x - edge;
+        if beyond.is_zero() {
             return Ok(T::zero());
         }
         let mut sampler = Sampler::default();
@@ -35,7 +36,7 @@ impl<T: Real> Solution<'_, T> {
         let at_edge = sampler.height(self.gap(), edge.max(from).min(to))?;
         let bodies = sampler.height(self.gap(), x)? - at_edge;
         let [pushed] = Integrals::new(self)?
-            .over(edge, |distance, strength| [strength * (outward / distance.abs()).ln_1p()])?;
+            .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.scale())
     }
 
@@ -45,10 +46,8 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// As [`gap_at`](Self::gap_at), and [`ContactError::Singular`] at an edge that is not free.
     pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
-        let (edge, outward) = self.edge_before(x)?;
-        let Interval { right, .. } = self.interval();
-        if outward.is_zero() {
-            let free = self.found().free[usize::from(edge == right)];
+        let (edge, free) = self.nearest_edge(x)?;
+        if x == edge {
             return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
         }
         let bodies = Sampler::default().slope(self.gap(), x)?;
@@ -57,17 +56,27 @@ impl<T: Real> Solution<'_, T> {
         Ok(bodies - pull / self.scale())
     }
 
-    /// The edge nearest to a point outside the contact, and how far the point is from it.
-    fn edge_before(&self, x: T) -> Result<(T, T), ContactError<T>> {
-        let (interval, range) = (self.interval(), self.gap().range());
-        if interval.contains(x) {
+    /// The edge nearest to a point outside the contacts, and whether it is free.
+    fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
+        let (contacts, range) = (self.intervals(), self.gap().range());
+        let next = contacts.partition_point(|on| on.right <= x);
+        if let Some(&interval) = contacts.get(next).filter(|on| on.contains(x)) {
             return Err(ContactError::Misplaced { x, inside: false, interval });
         }
-        let Interval { left, right } = interval;
+        let Interval { left, right } = self.interval();
         // An edge may have been rounded to beyond the end of a body that it lies at.
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        Ok(if x >= right { (right, x - right) } else { (left, left - x) })
+        let [free_left, free_right] = self.found().free;
+        let before = next.checked_sub(1).map(|i| contacts[i].right);
+        let after = contacts.get(next).map(|on| on.left);
+        Ok(match (before, after) {
+            (Some(before), Some(after)) => {
+                (if x - before <= after - x { before } else { after }, true)
+            }
+            (Some(before), None) => (before, free_right),
+            (None, after) => (after.unwrap_or(left), free_left),
+        })
     }
 }

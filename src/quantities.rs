@@ -50,9 +50,10 @@ impl<T: Real> LoadRates<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Mean pressure `F/(a + b)`.
+    /// Mean pressure: F over the widths of all contacts, `F/(a + b)` of a single one.
     pub fn mean_pressure(&self) -> T {
-        self.load() / (T::of(2.0) * self.interval().half_width())
+        let half = |sum: T, on: &Interval<T>| sum + on.half_width();
+        self.load() / (T::of(2.0) * self.intervals().iter().fold(T::zero(), half))
     }
 
     /// Moment of the pressure about x = 0, `∫ x P dx`: force. Its error is rounding of F times the
@@ -139,10 +140,9 @@ impl<T: Real> Solution<'_, T> {
     /// [`ContactError::Misplaced`] for an x not strictly inside; those of
     /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
-        let interval = self.interval();
-        if !interval.contains(x) {
-            return Err(ContactError::Misplaced { x, inside: true, interval });
-        }
+        let Some(interval) = self.contact_with(x) else {
+            return Err(ContactError::Misplaced { x, inside: true, interval: self.interval() });
+        };
         let integrals = Integrals::new(self)?;
         let mut at_x = [T::zero()];
         integrals.pressure.values(&[x], &mut at_x)?;
@@ -151,7 +151,9 @@ impl<T: Real> Solution<'_, T> {
         }
         let at_x = at_x[0] * interval.edge_root(x);
         // PV∫ ds/((x - s) w(s)) is zero.
-        let difference = |distance: T, strength: T| [(strength - at_x) / distance];
+        // In the contact with x only: the others are regular.
+        let difference =
+            |own, distance: T, strength: T| [(if own { strength - at_x } else { strength }) / distance];
         let size = at_x.abs() / interval.half_width();
         let [sum] = integrals.over_as_of(size, x, difference)?;
         let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;

@@ -3,6 +3,7 @@
 use crate::certificate::{Certificate, certify};
 use crate::contact::{Found, peak};
 use crate::gap::{Cost, Gap};
+use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
 use std::sync::Arc;
@@ -53,7 +54,13 @@ impl<'b, T: Real> Solution<'b, T> {
         self.found.interval
     }
 
-    /// Load per unit length F.
+    /// The intervals in which the bodies touch, from left to right.
+    pub fn intervals(&self) -> &[Interval<T>] {
+        let several = panels::several(&*self.engine).map(Several::contacts);
+        several.unwrap_or(std::slice::from_ref(&self.found.interval))
+    }
+
+    /// Load per unit length F, of all contacts.
     pub fn load(&self) -> T {
         self.found.load
     }
@@ -107,8 +114,14 @@ impl<'b, T: Real> Solution<'b, T> {
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         let Found { interval: on, strengths, free, .. } = self.found;
         self.engine.complete(&self.gap)?;
-        let (x, Estimate { value: pressure, .. }) =
-            peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
+        let (mut x, mut pressure) = (on.left, T::min_value().unwrap_or(-T::one()));
+        for &on in self.intervals() {
+            let (place, Estimate { value, .. }) =
+                peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
+            if !(value <= pressure) {
+                (x, pressure) = (place, value);
+            }
+        }
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
@@ -141,7 +154,15 @@ impl<'b, T: Real> Solution<'b, T> {
         let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
         let held = [held(0), held(1)];
         let pressing = self.pressing();
-        Ok(Pressure { gap, engine: &*self.engine, pressing, on, force, held, cost })
+        let (engine, contacts) = (&*self.engine, self.intervals());
+        Ok(Pressure { gap, engine, pressing, on, contacts, force, held, cost })
+    }
+
+    /// The contact in which a place lies.
+    pub(crate) fn contact_with(&self, x: T) -> Option<Interval<T>> {
+        let contacts = self.intervals();
+        let first = contacts.partition_point(|on| on.right <= x);
+        contacts.get(first).copied().filter(|on| on.contains(x))
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -176,7 +197,9 @@ pub struct Pressure<'p, T: Real> {
     gap: &'p Gap<'p, T>,
     engine: &'p dyn Engine<T>,
     pressing: Pressing<T>,
+    /// From the first to the last limit.
     on: Interval<T>,
+    contacts: &'p [Interval<T>],
     /// The load that stands for the error of the limits.
     force: T,
     /// That error times the strengths of the edges at -b and a, with adhesion.
@@ -242,14 +265,15 @@ impl<T: Real> Pressure<'_, T> {
             return Err(ContactError::OutsideBodies { x, range });
         }
         let [free_b, free_a] = self.pressing.free;
-        if !self.on.contains(x) {
+        let first = self.contacts.partition_point(|on| on.right <= x);
+        let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
             let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
             return if singular {
                 Err(ContactError::Singular { x })
             } else {
                 Ok(Estimate { value: T::zero(), error: T::zero() })
             };
-        }
+        };
         let mut estimate = self.engine.estimate(self.gap, &self.pressing, x, cost)?;
         if !estimate.value.is_finite() {
             return Err(ContactError::Singular { x });
@@ -257,7 +281,7 @@ impl<T: Real> Pressure<'_, T> {
         // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
         // of it. The load is what it is: so the change is of second order, but for points so close
         // to an edge that they might lie on its other side.
-        let change = self.force / (T::pi() * self.on.edge_root(x));
+        let change = self.force / (T::pi() * on.edge_root(x));
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
@@ -272,10 +296,6 @@ impl<T: Real> Pressure<'_, T> {
     /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
     pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut Cost::default())
-    }
-
-    pub(crate) fn interval(&self) -> Interval<T> {
-        self.on
     }
 
     /// What making ready has cost.

@@ -177,9 +177,9 @@ impl<T: Real> Subsurface<'_, T> {
     /// The limit of the stress as the depth goes to zero.
     fn on_surface(&self, x: T) -> Result<Stress<T>, ContactError<T>> {
         let Interval { left, right } = self.interval();
-        let touches = x >= left && x <= right;
+        let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
-        if self.interval().contains(x) {
+        if self.solution.contact_with(x).is_some() {
             self.integrals.pressure.values(&[x], &mut pressure)?;
         }
         let [free_b, free_a] = self.solution.found().free;
@@ -206,7 +206,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// The contact.
     pub fn interval(&self) -> Interval<T> {
-        self.integrals.pressure.interval()
+        self.solution.interval()
     }
 }
 

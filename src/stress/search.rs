@@ -61,9 +61,9 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses joints at which the pressure is infinite.
     fn check_joints(&self) -> Result<(), ContactError<T>> {
-        let joints = &self.integrals.joints;
+        let joints: Vec<_> = self.integrals.joints().collect();
         let mut pressures = vec![T::zero(); joints.len()];
-        self.integrals.pressure.values(joints, &mut pressures)?;
+        self.integrals.pressure.values(&joints, &mut pressures)?;
         match joints.iter().zip(&pressures).find(|(_, pressure)| !pressure.is_finite()) {
             Some((&x, _)) => Err(ContactError::Singular { x }),
             None => Ok(()),
@@ -74,7 +74,22 @@ impl<T: Real> Subsurface<'_, T> {
         &self,
         value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
     ) -> Result<StressPeak<T>, ContactError<T>> {
-        let on = self.interval();
+        let mut best: Option<StressPeak<T>> = None;
+        for &on in self.solution.intervals() {
+            let peak = self.largest_below(on, &value)?;
+            if best.is_none_or(|best| peak.value > best.value) {
+                best = Some(peak);
+            }
+        }
+        best.ok_or(ContactError::Load { load: self.solution.load() })
+    }
+
+    /// Below one contact.
+    fn largest_below(
+        &self,
+        on: Interval<T>,
+        value: &impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
+    ) -> Result<StressPeak<T>, ContactError<T>> {
         let (centre, half_width) = (on.centre(), on.half_width());
         // By places in half-widths, the depth by its logarithm.
         let [shallowest, deepest] = [SHALLOWEST, DEEPEST].map(|depth| T::of(depth.ln()));
