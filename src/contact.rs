@@ -1,6 +1,8 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
+mod active_set;
 mod approach;
+mod check;
 mod edge_pressure;
 mod edges;
 mod field;
@@ -15,6 +17,7 @@ mod several;
 mod sketch;
 mod stretch;
 mod stride;
+mod topology;
 mod widest;
 
 pub use edge_pressure::EdgePressure;
@@ -22,11 +25,14 @@ pub use edges::Edge;
 pub(crate) use peak::peak;
 
 use crate::gap::{Cost, Gap, Shape};
+use crate::quadrature::panels;
 use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::Solution;
+use crate::solution::{Report, Solution, Start, Verdict};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
+pub(crate) use topology::Workspace;
+use topology::Sought;
 use goal::Goal;
 use std::sync::Arc;
 
@@ -65,6 +71,7 @@ pub struct Contact<'b, T: Real> {
     search: Option<&'b dyn LimitSearch<T>>,
     quadrature: &'b dyn Quadrature<T>,
     certified: bool,
+    single_interval: bool,
 }
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
@@ -117,6 +124,19 @@ impl<T: Real> Found<T> {
         let ends = [interval.left, interval.right];
         let (force, trend) = (None, m.trend);
         Self { interval, load, strengths, free, adhesive, error, force, trend, ends }
+    }
+
+    /// A corner that is said to hold the contact, and would have to pull at it.
+    fn lifts_off(&self, edges: &[Edge<T>; 2]) -> Option<ContactError<T>> {
+        let mean = T::of(0.5) * self.load.abs() / self.interval.half_width();
+        let rounding = T::epsilon().sqrt() * mean;
+        edges.iter().zip(self.strengths).find_map(|(edge, strength)| match *edge {
+            Edge::Fixed(x) if strength < -rounding => {
+                let (interval, load) = (self.interval, self.load);
+                Some(ContactError::LiftsOff { x, strength, interval, load })
+            }
+            _ => None,
+        })
     }
 }
 
@@ -178,6 +198,7 @@ impl<'b, T: Real> Contact<'b, T> {
             search: None,
             quadrature: &Panels::FULL,
             certified: false,
+            single_interval: false,
         })
     }
 
@@ -232,6 +253,14 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { certified, ..self }
     }
 
+    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of the
+    /// equations, with tension inside or overlap outside if that is what solves them, and
+    /// [`Verdict::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
+    /// or several.
+    pub fn single_interval(self, single_interval: bool) -> Self {
+        Self { single_interval, ..self }
+    }
+
     /// Finds the limits of the contact under a load. The pressure is left for
     /// [`Solution::pressure`].
     ///
@@ -248,9 +277,9 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
-        let mut engine = self.quadrature.engine()?;
-        let (found, cost) = self.find(&mut *engine, None, control)?;
-        self.solution(engine.into(), found, cost)
+        let (mut engine, mut workspace) = (self.quadrature.engine()?, Workspace::new());
+        let (found, cost) = self.find(&mut *engine, &mut workspace, control)?;
+        self.solution(engine.into(), found, cost, workspace.report)
     }
 
     /// The solution that was found, if it need not be a contact or is one.
@@ -259,8 +288,9 @@ impl<'b, T: Real> Contact<'b, T> {
         engine: Arc<dyn Engine<T>>,
         found: Found<T>,
         cost: Cost,
+        report: Report,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
-        let solution = Solution::new(self.gap.clone(), engine, self.kappa, found, cost);
+        let solution = Solution::new(self.gap.clone(), engine, self.kappa, found, cost, report);
         if self.certified {
             solution.certify()?;
         }
@@ -275,11 +305,11 @@ impl<'b, T: Real> Contact<'b, T> {
         self.quadrature
     }
 
-    /// Finds the limits with an engine that has been reset, from a contact like this one.
+    /// Finds the limits with an engine that has been reset, from the contacts in the workspace.
     pub(crate) fn find(
         &self,
         engine: &mut dyn Engine<T>,
-        warm: Option<Interval<T>>,
+        workspace: &mut Workspace<T>,
         control: Control<T>,
     ) -> Result<(Found<T>, Cost), ContactError<T>> {
         let kappa = self.kappa;
@@ -293,22 +323,30 @@ impl<'b, T: Real> Contact<'b, T> {
         if self.edge_pressure.is_some() && !by_load {
             return Err(ContactError::EdgePressureLoad);
         }
+        workspace.report = Report::new();
         let mut cost = Cost::default();
-        let mut found = match control {
-            Control::Load(load) => self.under(engine, warm, load, &mut cost)?,
-            Control::HalfWidth(half_width) => {
+        let mut found = match (control, self.edge_pressure) {
+            (Control::Load(load), Some(wanted)) => {
+                workspace.report.add(Start::Middle, Verdict::Unchecked);
+                self.by_edge_pressure(wanted, engine, load, &mut cost)?
+            }
+            (Control::Load(load), None) => {
+                let conditions = self.under(load)?;
+                topology::find(self, Sought::By(conditions), engine, workspace, &mut cost)?
+            }
+            (Control::HalfWidth(half_width), _) => {
                 if !(half_width.is_finite() && half_width > T::zero()) {
                     return Err(ContactError::Load { load: half_width });
                 }
                 let given = Given::HalfWidth(half_width);
                 let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
-                approach::find(self, conditions, engine, warm, &mut cost)?
+                topology::find(self, Sought::By(conditions), engine, workspace, &mut cost)?
             }
-            Control::PeakPressure(pressure) => {
+            (Control::PeakPressure(pressure), _) => {
                 if !(pressure.is_finite() && pressure > T::zero()) {
                     return Err(ContactError::Load { load: pressure });
                 }
-                peak::find(self, pressure, engine, warm, &mut cost)?
+                topology::find(self, Sought::Peak(pressure), engine, workspace, &mut cost)?
             }
         };
         // A width may be less than the rounding of x, and its load less than any number.
@@ -321,40 +359,47 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::Overflow { interval: found.interval });
         }
         found.ends = self.ends();
-        engine.prepare(&self.gap, found.interval)?;
+        match panels::several(engine) {
+            Some(several) => workspace.keep(several.contacts()),
+            None => {
+                engine.prepare(&self.gap, found.interval)?;
+                workspace.keep(&[found.interval]);
+            }
+        }
         cost += engine.cost();
         Ok((found, cost))
     }
 
-    /// The contact under a given load.
-    fn under(
+    /// The contact with edges by Eq. (6), under a given load.
+    fn by_edge_pressure(
         &self,
+        wanted: EdgePressure<T>,
         engine: &mut dyn Engine<T>,
-        warm: Option<Interval<T>>,
         load: T,
         cost: &mut Cost,
     ) -> Result<Found<T>, ContactError<T>> {
         let kappa = self.kappa;
-        if let Some(wanted) = self.edge_pressure {
-            wanted.check()?;
-            if !(load.is_finite() && load > T::zero()) {
-                return Err(ContactError::Load { load });
-            }
-            let goal = Goal::Pressure { kappa, load, wanted };
-            let nested = limits::find(self, load, goal, engine, self.start, cost)?;
-            let m = engine.moments(&self.gap, nested.on)?;
-            let given = Given::Load(load);
-            let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };
-            return Ok(Found::new(&conditions, nested.on, load, Some(nested.error), &m));
+        wanted.check()?;
+        if !(load.is_finite() && load > T::zero()) {
+            return Err(ContactError::Load { load });
         }
+        let goal = Goal::Pressure { kappa, load, wanted };
+        let nested = limits::find(self, load, goal, engine, self.start, cost)?;
+        let m = engine.moments(&self.gap, nested.on)?;
+        let given = Given::Load(load);
+        let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };
+        Ok(Found::new(&conditions, nested.on, load, Some(nested.error), &m))
+    }
+
+    /// The conditions of a given load.
+    fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
-        let conditions = Conditions { kappa, edges, given: Given::Load(load) };
         let sought = edges.iter().any(|edge| edge.is_free());
         let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
         if !load.is_finite() || (sought && !adhesive && load <= T::zero()) {
             return Err(ContactError::Load { load });
         }
-        approach::find(self, conditions, engine, warm, cost)
+        Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
 
     /// Where the bodies end. A corner ends them.

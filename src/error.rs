@@ -210,6 +210,25 @@ pub enum ContactError<T: Real> {
         x: T,
         /// What it would be there; minus infinity where the slope of the gap jumps down.
         pressure: T,
+        /// What solves the equations with it: the first and the last limit, and the load.
+        interval: Interval<T>,
+        /// The load per unit length of that.
+        load: T,
+    },
+    /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative.
+    #[error(
+        "the contact is said to end at the corner x = {x:?}, but the body lifts off there (the strength of \
+         the singularity is {strength:?}): use Edge::UpTo, for a corner that is free until it is reached"
+    )]
+    LiftsOff {
+        /// The corner.
+        x: T,
+        /// K, see [`Solution::edge_singularities`](crate::Solution::edge_singularities).
+        strength: T,
+        /// What solves the equations with it.
+        interval: Interval<T>,
+        /// The load per unit length of that.
+        load: T,
     },
     /// The bodies would overlap outside the contact: they touch there as well.
     #[error(
@@ -221,6 +240,10 @@ pub enum ContactError<T: Real> {
         x: T,
         /// The gap there, negative.
         gap: T,
+        /// What solves the equations with it: the first and the last limit.
+        interval: Interval<T>,
+        /// The load per unit length of that.
+        load: T,
     },
     /// The slope of the gap inside the contact is not what the samples say from which the contact was
     /// found: something lies between two of them.

@@ -11,12 +11,14 @@
 //! abscissae, and aim instead: see `aim.rs`.
 
 mod aim;
+mod first_look;
 mod sampler;
 
 pub(crate) use aim::{Knot, Trace, aim};
+pub(crate) use first_look::FirstLook;
 pub use sampler::Sampler;
 
-use crate::profile::Piece;
+use crate::profile::{Convexity, Piece};
 use crate::search::LimitSearch;
 use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
 use std::sync::Arc;
@@ -38,6 +40,7 @@ pub struct Gap<'b, T: Real> {
     /// Tells the gap from every other that was made, so that samples are not taken for those of
     /// another.
     number: u64,
+    convex: bool,
 }
 
 /// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
@@ -135,6 +138,8 @@ pub struct Cost {
     /// Evaluations of the users' curves while solving: points asked for, one by one with
     /// [`ParametricProfile::at`] or in a batch with [`ParametricProfile::at_many`].
     pub evaluations: usize,
+    /// Evaluations of the users' curves for the heights of both bodies, besides those.
+    pub heights: usize,
 }
 
 impl std::ops::Add for Cost {
@@ -149,6 +154,7 @@ impl std::ops::AddAssign for Cost {
     fn add_assign(&mut self, other: Self) {
         self.samples = self.samples.saturating_add(other.samples);
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
+        self.heights = self.heights.saturating_add(other.heights);
     }
 }
 
@@ -166,17 +172,30 @@ impl<'b, T: Real> Gap<'b, T> {
         inversion: &'b dyn LimitSearch<T>,
     ) -> Result<Self, ContactError<T>> {
         static MADE: AtomicU64 = AtomicU64::new(1);
+        let convexity = [&lower, &upper].map(|shape| shape.profile().convexity());
+        let convex = Convexity::gap_is_convex(convexity[0], convexity[1]);
         let bodies = [Surface::new(Body::Lower, lower)?, Surface::new(Body::Upper, upper)?];
         let [lower, upper] = [bodies[0].extent(), bodies[1].extent()];
         let range = [lower[0].max(upper[0]), lower[1].min(upper[1])];
         if range[0] >= range[1] {
             return Err(ContactError::Apart { lower, upper });
         }
-        Ok(Self { bodies, inversion, range, number: MADE.fetch_add(1, Ordering::Relaxed) })
+        let number = MADE.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { bodies, inversion, range, number, convex })
     }
 
     pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
         Self { inversion, ..self }
+    }
+
+    /// Whether the bodies say of themselves that the gap between them is convex: they touch in one interval.
+    pub(crate) fn is_convex(&self) -> bool {
+        self.convex
+    }
+
+    /// The place nearest to `x` that both bodies cover.
+    pub(crate) fn nearest(&self, x: T) -> T {
+        x.max(self.range[0]).min(self.range[1])
     }
 
     /// The range of `x` that both bodies cover.

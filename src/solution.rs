@@ -8,6 +8,10 @@ use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
 use std::sync::Arc;
 
+mod report;
+
+pub use report::{Report, Start, Trial, Verdict};
+
 /// A solved contact: its limits, and on request its pressure.
 ///
 /// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
@@ -25,6 +29,7 @@ pub struct Solution<'b, T: Real> {
     kappa: T,
     found: Found<T>,
     cost: Cost,
+    report: Report,
 }
 
 impl<'b, T: Real> Solution<'b, T> {
@@ -34,8 +39,9 @@ impl<'b, T: Real> Solution<'b, T> {
         kappa: T,
         found: Found<T>,
         cost: Cost,
+        report: Report,
     ) -> Self {
-        Self { gap, engine, kappa, found, cost }
+        Self { gap, engine, kappa, found, cost, report }
     }
 
     /// The limit `a`.
@@ -138,6 +144,11 @@ impl<'b, T: Real> Solution<'b, T> {
     /// for it included.
     pub fn cost(&self) -> Cost {
         self.cost
+    }
+
+    /// The starts that the solve has tried, and what the checks say of the solution.
+    pub fn report(&self) -> &Report {
+        &self.report
     }
 
     /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for

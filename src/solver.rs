@@ -1,9 +1,9 @@
 //! Solving again: the next load, the next time step.
 
-use crate::contact::Control;
+use crate::contact::{Control, Workspace};
 use crate::quadrature::Engine;
 use crate::solution::Solution;
-use crate::{Contact, ContactError, Interval, Real};
+use crate::{Contact, ContactError, Real};
 use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
@@ -39,14 +39,15 @@ use std::sync::Arc;
 /// ```
 pub struct Solver<T: Real> {
     engine: Option<Arc<dyn Engine<T>>>,
-    /// The gap last solved, by its number, and the contact found.
-    last: Option<(u64, Interval<T>)>,
+    workspace: Workspace<T>,
+    /// The gap last solved, by its number; the contacts found are in the workspace.
+    last: Option<u64>,
 }
 
 impl<T: Real> Solver<T> {
     /// A solver that has not solved anything yet.
-    pub const fn new() -> Self {
-        Self { engine: None, last: None }
+    pub fn new() -> Self {
+        Self { engine: None, workspace: Workspace::new(), last: None }
     }
 
     /// Solves a scene, as [`Contact::solve`] does. Where the quadrature of the scene is not that of the
@@ -76,10 +77,13 @@ impl<T: Real> Solver<T> {
                 None => *engine = engine.fork().into(),
             }
         };
-        work.reset(last.is_some_and(|(number, _)| number == gap.number()));
-        let (found, cost) = contact.find(work, last.map(|(_, on)| on), control)?;
-        let solution = contact.solution(engine.clone(), found, cost)?;
-        self.last = Some((gap.number(), found.interval));
+        work.reset(last == Some(gap.number()));
+        if last.is_none() {
+            self.workspace.forget();
+        }
+        let (found, cost) = contact.find(work, &mut self.workspace, control)?;
+        let solution = contact.solution(engine.clone(), found, cost, self.workspace.report)?;
+        self.last = Some(gap.number());
         Ok(solution)
     }
 }

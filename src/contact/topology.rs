@@ -8,13 +8,12 @@
 
 use super::active_set::{NotFound, Scene, active_set};
 use super::check::Check;
-use super::edges::{Conditions, Edge};
+use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
 use super::several::{Newton, Outcome};
-use super::{Contact, Found, approach};
+use super::{Contact, Found, approach, peak};
 use crate::gap::{Cost, FirstLook, Gap, Sampler};
-use crate::quadrature::Engine;
-use crate::quadrature::panels;
+use crate::quadrature::{Engine, Panels, Quadrature, panels};
 use crate::solution::{Report, Start, Verdict};
 use crate::{ContactError, Interval, Real};
 
@@ -28,20 +27,18 @@ const CLOSER: f64 = 0.01;
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, with the number of the gap that they are of.
-    look: FirstLook<T>,
-    of: Option<u64>,
+    look: Option<(u64, FirstLook<T>)>,
     newton: Newton<T>,
     fields: Vec<Field<T>>,
     /// The contacts last found.
     last: Vec<Interval<T>>,
-    pub report: Report<T>,
+    pub report: Report,
 }
 
 impl<T: Real> Workspace<T> {
     pub fn new() -> Self {
         Self {
-            look: FirstLook::new(),
-            of: None,
+            look: None,
             newton: Newton::new(),
             fields: Vec::new(),
             last: Vec::new(),
@@ -60,41 +57,63 @@ impl<T: Real> Workspace<T> {
         self.last.extend_from_slice(contacts);
     }
 
-    /// The hull of the contacts last found.
-    pub fn hull(&self) -> Option<Interval<T>> {
-        let (first, last) = (self.last.first()?, self.last.last()?);
-        Some(Interval { left: first.left, right: last.right })
-    }
-
     /// Looks at the bodies, once for a pair of them.
-    fn look_at(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
-        if self.of != Some(gap.number()) {
-            self.of = None;
-            self.look.take(gap, cost)?;
-            self.of = Some(gap.number());
+    fn look(
+        &mut self,
+        gap: &Gap<'_, T>,
+        cost: &mut Cost,
+    ) -> Result<&FirstLook<T>, ContactError<T>> {
+        if self.look.as_ref().is_none_or(|(of, _)| *of != gap.number()) {
+            self.look = Some((gap.number(), FirstLook::take(gap, cost)?));
         }
-        Ok(())
+        match &self.look {
+            Some((_, look)) => Ok(look),
+            None => unreachable!("it has just been taken"),
+        }
     }
 }
 
-/// Finds the contacts under a load.
+/// What is sought.
+#[derive(Clone, Copy)]
+pub(super) enum Sought<T> {
+    /// A contact that meets conditions.
+    By(Conditions<T>),
+    /// One with this largest pressure.
+    Peak(T),
+}
+
+/// Finds the contacts of two bodies.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
-    conditions: Conditions<T>,
+    sought: Sought<T>,
     engine: &mut dyn Engine<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     let gap = &contact.gap;
-    let mut search = Search { contact, conditions, engine, workspace, cost };
+    let edges = contact.edges;
+    let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let convex = gap.is_convex();
+    let mut search = Search { contact, sought, engine, workspace, cost };
+    if contact.single_interval || given {
+        let start = search.first_start(true)?;
+        let found = search.one(start)?;
+        search.workspace.report.add(start.0, Verdict::Unchecked);
+        return Ok(found);
+    }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
         let start = search.first_start(convex)?;
         match search.one(start) {
             Ok(found) => match search.checked(&found, convex)? {
-                None => return Ok(found),
-                failed => fault = failed,
+                None => {
+                    search.workspace.report.add(start.0, Verdict::Passed);
+                    return Ok(found);
+                }
+                Some(error) => {
+                    search.workspace.report.add(start.0, Verdict::of(&error));
+                    fault = Some(error);
+                }
             },
             Err(error) if convex || !error.may_be_several() => return Err(error),
             Err(error) => {
@@ -108,7 +127,7 @@ pub(super) fn find<T: Real>(
 
 struct Search<'s, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
-    conditions: Conditions<T>,
+    sought: Sought<T>,
     engine: &'s mut dyn Engine<T>,
     workspace: &'s mut Workspace<T>,
     cost: &'s mut Cost,
@@ -120,17 +139,14 @@ impl<T: Real> Search<'_, '_, T> {
         &mut self,
         convex: bool,
     ) -> Result<(Start, Option<Interval<T>>), ContactError<T>> {
-        if let Some(&last) = self.workspace.last.first() {
+        if let [last] = self.workspace.last[..] {
             return Ok((Start::Last, Some(last)));
         }
         if self.contact.start.is_some() {
             return Ok((Start::Given, None));
         }
-        if !convex {
-            self.workspace.look_at(&self.contact.gap, self.cost)?;
-            if !self.workspace.look.bulges() {
-                return Ok((Start::LowestGap, None));
-            }
+        if !convex && !self.workspace.look(&self.contact.gap, self.cost)?.bulges() {
+            return Ok((Start::LowestGap, None));
         }
         Ok((Start::Middle, None))
     }
@@ -140,16 +156,23 @@ impl<T: Real> Search<'_, '_, T> {
         &mut self,
         (start, last): (Start, Option<Interval<T>>),
     ) -> Result<Found<T>, ContactError<T>> {
-        let Self { contact, conditions, .. } = *self;
-        let at_lowest;
-        let contact = if start == Start::LowestGap {
-            let around = self.workspace.look.around_lowest(conditions.kappa, conditions.load());
-            at_lowest = Contact { start: Some(around), ..contact.clone() };
-            &at_lowest
-        } else {
-            contact
-        };
-        approach::find(contact, conditions, self.engine, last, self.cost)
+        let mut contact = self.contact.clone();
+        if start == Start::LowestGap {
+            let load = match self.sought {
+                Sought::By(Conditions { given: Given::Load(load), .. }) => Some(load / contact.kappa),
+                _ => None,
+            };
+            let look = self.workspace.look(&contact.gap, self.cost)?;
+            contact.start = Some(look.around_lowest(load));
+        }
+        match self.sought {
+            Sought::By(conditions) => {
+                approach::find(&contact, conditions, self.engine, last, self.cost)
+            }
+            Sought::Peak(pressure) => {
+                peak::find(&contact, pressure, self.engine, last, self.cost)
+            }
+        }
     }
 
     /// What a solution fails by, if anything.
@@ -158,70 +181,84 @@ impl<T: Real> Search<'_, '_, T> {
         found: &Found<T>,
         convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        if let Some(error) = found.lifts_off(&self.conditions) {
+        if let Some(error) = found.lifts_off(&self.contact.edges) {
             return Err(error);
         }
         if convex {
             return Ok(None);
         }
-        let gap = &self.contact.gap;
+        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        // Where the engine has no panels, the contact is looked at on some that are made for it.
+        let mut own = None;
         if panels::several(self.engine).is_none() {
-            self.engine.prepare(gap, found.interval)?;
+            let engine = if panels::is_panels(self.engine) {
+                &mut *self.engine
+            } else {
+                &mut **own.insert(Panels::FULL.engine()?)
+            };
+            engine.prepare(gap, found.interval)?;
         }
-        self.workspace.look_at(gap, self.cost)?;
-        let Workspace { look, fields, .. } = &mut *self.workspace;
-        let kappa = self.conditions.kappa;
-        let check = Check { gap, engine: &*self.engine, kappa, found };
+        let engine = own.as_deref().unwrap_or(&*self.engine);
+        self.workspace.look(gap, self.cost)?;
+        let Workspace { look: Some((_, look)), fields, .. } = &mut *self.workspace else {
+            return Ok(None);
+        };
+        let check = Check { gap, engine, kappa, found };
         let (interval, load) = (found.interval, found.load);
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields)? {
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
-        if look.bulges() {
-            return Ok(None);
+        let mut overlap = None;
+        if !look.bulges() {
+            if fields.is_empty() {
+                check.fields(fields)?;
+            }
+            let [left, right] = self.contact.ends();
+            let within = |&[x, _]: &[T; 2]| x >= left && x <= right;
+            let heights = look.heights().iter().copied().filter(within);
+            overlap = check.overlap(fields, heights, self.cost)?;
         }
-        if fields.is_empty() {
-            check.fields(fields)?;
+        if let Some(own) = own {
+            self.cost.heights += own.cost().evaluations;
         }
-        let [left, right] = self.contact.ends();
-        let within = |&[x, _]: &[T; 2]| x >= left && x <= right;
-        let heights = look.heights().iter().copied().filter(within);
-        let overlap = check.overlap(fields, heights, self.cost)?;
         Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
     }
 
     /// Seeks any number of contacts; `fault` is what one alone has failed by.
-    fn several(
-        &mut self,
-        mut fault: Option<ContactError<T>>,
-    ) -> Result<Found<T>, ContactError<T>> {
+    fn several(&mut self, fault: Option<ContactError<T>>) -> Result<Found<T>, ContactError<T>> {
         let gap = &self.contact.gap;
-        // Engines of the user's, and the paper's, know but one contact.
-        if panels::several_mut(self.engine).is_none() {
-            return Err(fault.unwrap_or(ContactError::NoBalance {
-                half_width: gap.range()[1] - gap.range()[0],
-                near: gap.range()[0],
-            }));
+        let [from, to] = gap.range();
+        let edges = self.contact.edges;
+        let no_balance =
+            ContactError::NoBalance { half_width: T::of(0.5) * (to - from), near: from };
+        let Sought::By(conditions @ Conditions { given: Given::Load(_), .. }) = self.sought else {
+            return Err(fault.unwrap_or(no_balance));
+        };
+        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        // Engines of the user's, and the paper's, know but one contact; so do the searches.
+        if adhesive || self.contact.search.is_some() || panels::several_mut(self.engine).is_none() {
+            return Err(fault.unwrap_or(no_balance));
         }
-        self.workspace.look_at(gap, self.cost)?;
+        let first = fault.clone().filter(|fault| Verdict::of(fault) == Verdict::NotFound);
+        let mut fault = fault;
         let ends = self.contact.ends();
-        let edges = self.conditions.edges;
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
+        let fixed = edges.map(|edge| matches!(edge, Edge::Fixed(_)));
         let last = &self.workspace.last;
         let mut start = if last.len() > 1 { Start::Last } else { Start::ActiveSet };
         self.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             if start == Start::ActiveSet {
-                self.active_set(fault.as_ref())?;
+                self.active_set(&conditions, fault.as_ref())?;
             }
             let on = &mut self.workspace.newton.on;
-            let hull = Interval { left: on[0].left, right: on[on.len() - 1].right };
+            let last = on.len() - 1;
             let corners = [
-                at_corner[0] && (hull.left <= ends[0] || matches!(edges[0], Edge::Fixed(_))),
-                at_corner[1] && (hull.right >= ends[1] || matches!(edges[1], Edge::Fixed(_))),
+                fixed[0] || at_corner[0] && on[0].left <= ends[0],
+                fixed[1] || at_corner[1] && on[last].right >= ends[1],
             ];
-            let count = on.len();
-            let found = match self.settle(corners, ends) {
+            let found = match self.settle(&conditions, corners, ends) {
                 Ok(found) => found,
                 Err(error) if error.may_be_several() => {
                     self.workspace.report.add(start, Verdict::NotFound);
@@ -230,7 +267,7 @@ impl<T: Real> Search<'_, '_, T> {
                 }
                 Err(error) => return Err(error),
             };
-            match found {
+            let outcome = match found {
                 Ok(found) => match self.checked(&found, false)? {
                     None => {
                         self.workspace.report.add(start, Verdict::Passed);
@@ -239,57 +276,49 @@ impl<T: Real> Search<'_, '_, T> {
                     Some(error) => {
                         self.workspace.report.add(start, Verdict::of(&error));
                         (start, fault) = (Start::ActiveSet, Some(error));
+                        continue;
                     }
                 },
-                Err(outcome) => {
-                    let on = &mut self.workspace.newton.on;
-                    let verdict = match outcome {
-                        Outcome::Closed(i) if count > 1 => {
-                            let next = on.remove(i + 1);
-                            on[i].right = next.right;
-                            Verdict::Merged
-                        }
-                        Outcome::Lost(i) if count > 1 => {
-                            on.remove(i);
-                            Verdict::Lost
-                        }
-                        Outcome::Beyond(side) if at_corner[side] => {
-                            let last = on.len() - 1;
-                            if side == 0 {
-                                on[0].left = ends[0];
-                            } else {
-                                on[last].right = ends[1];
-                            }
-                            Verdict::ReachedCorner
-                        }
-                        _ => Verdict::NotFound,
-                    };
-                    self.workspace.report.add(start, verdict);
-                    start = if verdict == Verdict::NotFound {
-                        Start::ActiveSet
-                    } else {
-                        Start::Contacts
-                    };
+                Err(outcome) => outcome,
+            };
+            let on = &mut self.workspace.newton.on;
+            let verdict = match outcome {
+                Outcome::Closed(i) => {
+                    on[i].right = on.remove(i + 1).right;
+                    Verdict::Merged
                 }
-            }
+                Outcome::Lost(i) if on.len() > 1 => {
+                    on.remove(i);
+                    Verdict::Lost
+                }
+                Outcome::Beyond(0) if at_corner[0] => {
+                    on[0].left = ends[0];
+                    Verdict::ReachedCorner
+                }
+                Outcome::Beyond(1) if at_corner[1] => {
+                    on[last].right = ends[1];
+                    Verdict::ReachedCorner
+                }
+                _ => Verdict::NotFound,
+            };
+            self.workspace.report.add(start, verdict);
+            start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
         }
-        Err(fault.unwrap_or(ContactError::NoBalance {
-            half_width: gap.range()[1] - gap.range()[0],
-            near: gap.range()[0],
-        }))
+        Err(first.or(fault).unwrap_or(no_balance))
     }
 
     /// Moves the contacts at hand to where they bear the load.
     fn settle(
         &mut self,
+        conditions: &Conditions<T>,
         corners: [bool; 2],
         ends: [T; 2],
     ) -> Result<Result<Found<T>, Outcome>, ContactError<T>> {
-        let Self { contact, conditions, .. } = *self;
+        let contact = self.contact;
         let newton = &mut self.workspace.newton;
         if let [on] = newton.on[..] {
             let around = Contact { start: Some(on), ..contact.clone() };
-            return approach::find(&around, conditions, self.engine, Some(on), self.cost).map(Ok);
+            return approach::find(&around, *conditions, self.engine, Some(on), self.cost).map(Ok);
         }
         for (side, corner) in corners.into_iter().enumerate() {
             let last = newton.on.len() - 1;
@@ -316,7 +345,7 @@ impl<T: Real> Search<'_, '_, T> {
                     _ => newton.on[last].right -= inward,
                 }
                 let corners = if side == 0 { [false, corners[1]] } else { [corners[0], false] };
-                return self.settle(corners, ends);
+                return self.settle(conditions, corners, ends);
             }
         }
         let on = &newton.on;
@@ -336,11 +365,17 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
-    fn active_set(&mut self, fault: Option<&ContactError<T>>) -> Result<(), ContactError<T>> {
-        let Workspace { look, newton, .. } = &mut *self.workspace;
+    fn active_set(
+        &mut self,
+        conditions: &Conditions<T>,
+        fault: Option<&ContactError<T>>,
+    ) -> Result<(), ContactError<T>> {
         let (gap, range) = (&self.contact.gap, self.contact.ends());
-        let Conditions { kappa, .. } = self.conditions;
-        let load = self.conditions.load();
+        self.workspace.look(gap, self.cost)?;
+        let Workspace { look: Some((_, look)), newton, .. } = &mut *self.workspace else {
+            return Ok(());
+        };
+        let (kappa, load) = (conditions.kappa, conditions.load());
         let share = T::of(CLOSER);
         let mut seeds = std::mem::take(&mut newton.on);
         match fault {

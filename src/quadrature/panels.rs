@@ -132,6 +132,12 @@ pub(crate) fn several_mut<T: Real>(engine: &mut dyn Engine<T>) -> Option<&mut Se
     Some(&mut engine.several)
 }
 
+/// Whether an engine is one of panels.
+pub(crate) fn is_panels<T: Real>(engine: &dyn Engine<T>) -> bool {
+    let engine: &dyn Any = engine;
+    engine.is::<AtWork<T>>()
+}
+
 /// The several contacts that an engine was last turned to; `None` if it was one.
 pub(crate) fn several<T: Real>(engine: &dyn Engine<T>) -> Option<&Several<T>> {
     let engine: &dyn Any = engine;
@@ -331,6 +337,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
     fn reset(&mut self, same_bodies: bool) {
         self.cover.cost = Cost::default();
         self.several.reset(same_bodies);
+        self.is_several = false;
         if !same_bodies {
             self.cover.clear(false);
             (self.fall, self.moments) = (None, None);

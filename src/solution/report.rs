@@ -1,0 +1,97 @@
+//! What a solve went through.
+
+use crate::ContactError;
+use crate::Real;
+
+/// The most trials that are told apart; of more the last is kept.
+const MOST: usize = 12;
+
+/// The starts that a solve has tried, in their order, and what became of each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    trials: [Trial; MOST],
+    count: usize,
+}
+
+/// One start, and what became of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trial {
+    /// Where the contacts were sought.
+    pub start: Start,
+    /// What the checks say of what was found.
+    pub verdict: Verdict,
+}
+
+/// Where contacts were sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Start {
+    /// In the middle of the bodies: they bulge towards each other, or look so.
+    Middle,
+    /// At the lowest gap between the bodies.
+    LowestGap,
+    /// Where the user said, by [`Contact::start`](crate::Contact::start).
+    Given,
+    /// Where the solver found them last.
+    Last,
+    /// Where a coarse active set on cells of constant pressure has them.
+    ActiveSet,
+    /// Where the trial before has left them.
+    Trial,
+}
+
+/// What became of a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Verdict {
+    /// It is the contact: the pressure is nowhere negative and the bodies do not overlap, as far as they
+    /// were looked at. Bodies that [bulge](crate::profile::Convexity) towards each other need no look.
+    Passed,
+    /// It solves the equations, and nobody asked for more: both limits are given, or the edges are by the
+    /// paper's Eq. (6), or [a single interval](crate::Contact::single_interval) was asked for.
+    Unchecked,
+    /// The bodies would pull at each other inside.
+    Tension,
+    /// The bodies would overlap outside.
+    Overlap,
+    /// Two contacts became one.
+    Merged,
+    /// A contact vanished.
+    Lost,
+    /// A contact reached a corner.
+    ReachedCorner,
+    /// No limits were found.
+    NotFound,
+}
+
+impl Verdict {
+    pub(crate) fn of<T: Real>(error: &ContactError<T>) -> Self {
+        match error {
+            ContactError::Tension { .. } => Self::Tension,
+            ContactError::Overlap { .. } => Self::Overlap,
+            _ => Self::NotFound,
+        }
+    }
+}
+
+impl Report {
+    pub(crate) fn new() -> Self {
+        let trial = Trial { start: Start::Middle, verdict: Verdict::NotFound };
+        Self { trials: [trial; MOST], count: 0 }
+    }
+
+    pub(crate) fn add(&mut self, start: Start, verdict: Verdict) {
+        self.count = (self.count + 1).min(MOST);
+        self.trials[self.count - 1] = Trial { start, verdict };
+    }
+
+    /// The trials, the last of which has led to the solution.
+    pub fn trials(&self) -> &[Trial] {
+        &self.trials[..self.count]
+    }
+
+    /// Whether the solution was checked, and is the contact as far as the checks can see.
+    pub fn is_checked(&self) -> bool {
+        self.trials().last().is_some_and(|trial| trial.verdict == Verdict::Passed)
+    }
+}
