@@ -1,5 +1,6 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
+mod active_set;
 mod approach;
 mod edge_pressure;
 mod edges;
