@@ -211,8 +211,7 @@ impl<T: Real> Group<T> {
 impl<T: Real> Block<T> {
     fn new(cells: &[Place<T>], groups: &[Group<T>], target: &Group<T>, root: usize) -> Self {
         let [from, to] = target.cells;
-        let place =
-            |m: usize| (T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES)).cos();
+        let place = |m: usize| (T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES)).cos();
         let places: [T; PLACES] = std::array::from_fn(place);
         let (mut near, mut far) = (Vec::new(), Vec::new());
         let mut waiting = vec![root];
@@ -311,9 +310,8 @@ mod tests {
         // The midpoint rule in the angle is enough away from the diagonal.
         let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / n as f64;
         let weight = |i: usize| {
-            let series = |k: usize| {
-                2.0 * (2.0 * k as f64 * angle(i)).cos() / (4.0 * (k * k) as f64 - 1.0)
-            };
+            let series =
+                |k: usize| 2.0 * (2.0 * k as f64 * angle(i)).cos() / (4.0 * (k * k) as f64 - 1.0);
             2.0 / n as f64 * (1.0 - (1..=n / 2).map(series).sum::<f64>())
         };
         ((0..n).map(|i| angle(i).cos()).collect(), (0..n).map(weight).collect())
