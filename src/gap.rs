@@ -11,9 +11,11 @@
 //! abscissae, and aim instead: see `aim.rs`.
 
 mod aim;
+mod first_look;
 mod sampler;
 
 pub(crate) use aim::{Knot, Trace, aim};
+pub(crate) use first_look::FirstLook;
 pub use sampler::Sampler;
 
 use crate::profile::Piece;
@@ -113,6 +115,8 @@ pub struct Cost {
     /// Evaluations of the users' curves while solving: points asked for, one by one with
     /// [`ParametricProfile::at`] or in a batch with [`ParametricProfile::at_many`].
     pub evaluations: usize,
+    /// Evaluations of the users' curves for the heights of both bodies, besides those.
+    pub heights: usize,
 }
 
 impl std::ops::Add for Cost {
@@ -127,6 +131,7 @@ impl std::ops::AddAssign for Cost {
     fn add_assign(&mut self, other: Self) {
         self.samples = self.samples.saturating_add(other.samples);
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
+        self.heights = self.heights.saturating_add(other.heights);
     }
 }
 
