@@ -58,7 +58,7 @@ pub struct Place<T> {
     pub value: T,
 }
 
-fn undecided<T: Real>(x: T, Cost { evaluations, samples }: Cost) -> ContactError<T> {
+fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactError<T> {
     ContactError::Undecided { x, evaluations, samples }
 }
 

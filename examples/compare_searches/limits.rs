@@ -46,7 +46,7 @@ fn head(what: &str) {
 
 fn row(scene: &Scene, i: usize, outcome: &Outcome) {
     let Outcome { cost, errors: [a, b], .. } = outcome;
-    let (name, Cost { samples, evaluations }) = (if i == 0 { scene.name } else { "" }, cost);
+    let (name, Cost { samples, evaluations, .. }) = (if i == 0 { scene.name } else { "" }, cost);
     println!("{name:<24} {:<10} {samples:>8} {evaluations:>11} {a:>9.1e} {b:>9.1e}", NAMES[i]);
 }
 

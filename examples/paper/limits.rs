@@ -94,7 +94,7 @@ impl fmt::Display for Solved {
         let Self { number, reading: Reading { kappa, .. }, contact, cost, .. } = self;
         let (a, b) = (contact.right, -contact.left);
         let [rel_a, rel_b] = self.errors();
-        let Cost { samples, evaluations } = cost;
+        let Cost { samples, evaluations, .. } = cost;
         write!(f, "{number} {kappa} {a} {b} {rel_a:.1e} {rel_b:.1e} {samples} {evaluations}")
     }
 }

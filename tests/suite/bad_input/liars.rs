@@ -212,7 +212,7 @@ impl Engine<f64> for Same {
         Ok(Estimate { value: self.0, error: self.0 })
     }
     fn cost(&self) -> Cost {
-        Cost { samples: usize::MAX, evaluations: usize::MAX }
+        Cost { samples: usize::MAX, evaluations: usize::MAX, heights: usize::MAX }
     }
 }
 

@@ -1,0 +1,844 @@
+//! Where two bodies touch, roughly, from nothing but heights: a coarse active set.
+//!
+//! The bodies are cut into cells of constant pressure. A cell is *loaded*, and the gap in it is closed;
+//! or it is *open*, and bears nothing. With the force q on each cell and K the potential of a unit force
+//! in one cell, averaged over another,
+//!
+//! ```text
+//! κ h_i + Σ_j K_ij q_j = δ,   q_i ≥ 0    in loaded cells
+//! κ h_i + Σ_j K_ij q_j ≥ δ,   q_i = 0    in open ones,      Σ q_i = F
+//! ```
+//!
+//! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
+//! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
+//! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three
+//! where the contact is not yet seen well: they grow in number with the logarithm of how small it is.
+//! The runs of loaded cells are the contacts.
+
+mod potential;
+
+use crate::{ContactError, Interval, Real};
+use nalgebra::{DMatrix, DVector};
+use potential::{Place, Potential};
+use thiserror::Error;
+
+/// Cells at first; where a check has failed, twice as many may see more.
+pub(super) const FIRST_CELLS: usize = 33;
+
+/// Cells after which none is cut any more.
+const MOST_CELLS: usize = 6000;
+
+/// Times that cells are cut: enough for a contact of 1e-16 of the bodies.
+const MOST_CUTS: usize = 48;
+
+/// Loaded cells that a run must have.
+const CELLS_OF_A_RUN: usize = 6;
+
+/// Changes of the set of loaded cells before the search is given up.
+const MOST_CHANGES: usize = 400;
+
+/// Changes of all wrong cells that may leave as many wrong ones, before only one is changed.
+const MOST_IN_VAIN: usize = 4;
+
+/// Loaded cells up to which their equations are solved by elimination.
+const DENSE: usize = 120;
+
+/// Steps of conjugate gradients for one system.
+const MOST_STEPS: usize = 300;
+
+/// How much finer than a contact the cells at a narrow gap in it may become.
+const FINEST: f64 = 1.0 / 40.0;
+
+/// Two bodies and a load.
+pub(super) struct Scene<'s, T> {
+    pub kappa: T,
+    pub load: T,
+    /// Where both bodies are, or up to their corners.
+    pub range: [T; 2],
+    /// Cells at first, such as [`FIRST_CELLS`].
+    pub cells: usize,
+    /// Heights of the gap that are known, `[x, h]` by rising x; may be none.
+    pub known: &'s [[T; 2]],
+    /// Where the bodies touched last; may be none.
+    pub start: &'s [Interval<T>],
+}
+
+/// Where the bodies touch, to some per cent of each width.
+#[derive(Clone, Debug)]
+pub(super) struct Coarse<T> {
+    /// From left to right.
+    pub intervals: Vec<Interval<T>>,
+    /// δ, for the heights as given and distances in units of the range.
+    pub approach: T,
+    /// Whether the contact reaches the left and the right end of the range.
+    pub reaches: [bool; 2],
+    pub count: Count,
+}
+
+/// What it has taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Count {
+    /// Cells in the end.
+    pub cells: usize,
+    /// Heights asked for.
+    pub heights: usize,
+    /// Systems of linear equations.
+    pub solves: usize,
+}
+
+/// Why no contact is found.
+#[derive(Debug, Error, PartialEq)]
+pub(super) enum NotFound<T: Real> {
+    /// A height cannot be had.
+    #[error(transparent)]
+    Height(#[from] ContactError<T>),
+    /// A height is not finite.
+    #[error("the height of the gap at x = {x:?} is {height:?}")]
+    NotFinite { x: T, height: T },
+    /// The range is empty, or the load or κ not positive and finite.
+    #[error("κ = {kappa:?}, F = {load:?}, from x = {:?} to {:?}", range[0], range[1])]
+    Scene { kappa: T, load: T, range: [T; 2] },
+    /// The set of loaded cells does not settle.
+    #[error("the cells that touch do not settle in {changes} changes")]
+    Unsettled { changes: usize },
+}
+
+type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
+
+/// Finds the contacts of a scene, with the height of the gap at any x of the range.
+pub(super) fn active_set<T: Real>(
+    scene: &Scene<'_, T>,
+    height: Height<'_, T>,
+) -> Result<Coarse<T>, NotFound<T>> {
+    let mut set = ActiveSet::new(scene, height)?;
+    set.take_up(scene.start, height)?;
+    for _ in 0..MOST_CUTS {
+        set.settle()?;
+        let marks = set.marks(scene.known);
+        if !set.cut(&marks, height)? {
+            break;
+        }
+    }
+    if set.changed {
+        set.settle()?;
+    }
+    Ok(set.found())
+}
+
+#[derive(Clone, Copy)]
+struct Cell<T> {
+    left: T,
+    right: T,
+    height: T,
+    /// As a share of the load.
+    force: T,
+    loaded: bool,
+}
+
+impl<T: Real> Cell<T> {
+    fn centre(&self) -> T {
+        T::of(0.5) * self.left + T::of(0.5) * self.right
+    }
+
+    fn width(&self) -> T {
+        self.right - self.left
+    }
+
+    fn pressure(&self) -> T {
+        self.force / self.width()
+    }
+}
+
+struct ActiveSet<T> {
+    cells: Vec<Cell<T>>,
+    range: [T; 2],
+    kappa: T,
+    load: T,
+    /// κ h/F above the lowest cell, the potential, and what their sum is in loaded cells.
+    rise: Vec<T>,
+    potential: Vec<T>,
+    level: T,
+    /// Whether cells were cut since these were found.
+    changed: bool,
+    count: Count,
+}
+
+impl<T: Real> ActiveSet<T> {
+    fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
+        let Scene { kappa, load, range, cells, .. } = *scene;
+        let [kappa, load] = [kappa, load].map(|value| value.part(0));
+        let range = range.map(|end| end.part(0));
+        let width = range[1] - range[0];
+        let positive = |value: T| value > T::zero() && value.is_finite();
+        if !([kappa, load, width].into_iter().all(positive)
+            && range[0].is_finite()
+            && range[1].is_finite())
+        {
+            return Err(NotFound::Scene { kappa, load, range });
+        }
+        let mut set = Self {
+            cells: Vec::new(),
+            range,
+            kappa,
+            load,
+            rise: Vec::new(),
+            potential: Vec::new(),
+            level: T::zero(),
+            changed: true,
+            count: Count::default(),
+        };
+        let mut left = range[0];
+        let cells = cells.clamp(1, MOST_CELLS);
+        for i in 1..=cells {
+            let share = T::count(i) / T::count(cells);
+            let right = if i == cells { range[1] } else { range[0] + share * width };
+            // A range of a few units in the last place has fewer cells.
+            if right > left {
+                set.add(left, right, T::zero(), false, None, height)?;
+                left = right;
+            }
+        }
+        if let Some(lowest) = set.lowest() {
+            set.cells[lowest].loaded = true;
+        }
+        Ok(set)
+    }
+
+    fn lowest(&self) -> Option<usize> {
+        let by_height = |&i: &usize, &j: &usize| {
+            let [one, other] = [i, j].map(|i| self.cells[i].height);
+            one.partial_cmp(&other).unwrap_or(std::cmp::Ordering::Equal)
+        };
+        (0..self.cells.len()).min_by(by_height)
+    }
+
+    fn add(
+        &mut self,
+        left: T,
+        right: T,
+        force: T,
+        loaded: bool,
+        known: Option<T>,
+        height: Height<'_, T>,
+    ) -> Result<(), NotFound<T>> {
+        let mut cell = Cell { left, right, height: T::zero(), force, loaded };
+        cell.height = match known {
+            Some(height) => height,
+            None => {
+                self.count.heights += 1;
+                let x = cell.centre();
+                let height = height(x)?.part(0);
+                if !height.is_finite() {
+                    return Err(NotFound::NotFinite { x, height });
+                }
+                height
+            }
+        };
+        self.cells.push(cell);
+        Ok(())
+    }
+
+    /// Cuts the marked cells in three; whether there were any that can be.
+    fn cut(&mut self, marks: &[bool], height: Height<'_, T>) -> Result<bool, NotFound<T>> {
+        let room = MOST_CELLS.saturating_sub(self.cells.len()) / 2;
+        let cells = std::mem::take(&mut self.cells);
+        let mut cut = 0;
+        for (cell, &mark) in cells.iter().zip(marks) {
+            let Cell { left, right, height: middle, force, loaded } = *cell;
+            let width = cell.width();
+            // The centre stays where it is.
+            let inner = [left + width / T::of(3.0), right - width / T::of(3.0)];
+            let finest = T::of(64.0) * T::epsilon() * left.abs().max(right.abs());
+            if !mark || cut >= room || width <= finest || inner[0] >= inner[1] {
+                self.cells.push(*cell);
+                continue;
+            }
+            cut += 1;
+            let force = force / T::of(3.0);
+            self.add(left, inner[0], force, loaded, None, height)?;
+            self.add(inner[0], inner[1], force, loaded, Some(middle), height)?;
+            self.add(inner[1], right, force, loaded, None, height)?;
+        }
+        self.changed |= cut > 0;
+        Ok(cut > 0)
+    }
+
+    /// κ h/F above the lowest cell.
+    fn rise_of(&self, height: T, lowest: T) -> T {
+        (height - lowest) / self.load * self.kappa
+    }
+
+    /// Starts from the contacts found last.
+    fn take_up(&mut self, start: &[Interval<T>], height: Height<'_, T>) -> Result<(), NotFound<T>> {
+        let start: Vec<_> = start.iter().map(Interval::plain).collect();
+        let touched = |cell: &Cell<T>| {
+            let first = start.partition_point(|on| !(on.right > cell.left));
+            start.get(first).copied().filter(|on| on.left < cell.right)
+        };
+        for _ in 0..MOST_CUTS {
+            let wide = |cell: &Cell<T>| {
+                let sixth = |on: Interval<T>| on.half_width() / T::count(CELLS_OF_A_RUN / 2);
+                touched(cell).is_some_and(|on| cell.width() > sixth(on))
+            };
+            let marks: Vec<_> = self.cells.iter().map(wide).collect();
+            if !self.cut(&marks, height)? {
+                break;
+            }
+        }
+        let inside = |cell: &Cell<T>| touched(cell).is_some_and(|on| on.contains(cell.centre()));
+        if self.cells.iter().any(inside) {
+            for cell in &mut self.cells {
+                cell.loaded = inside(cell);
+            }
+        }
+        Ok(())
+    }
+
+    /// Changes the set of loaded cells until none pulls and none overlaps.
+    fn settle(&mut self) -> Result<(), NotFound<T>> {
+        let [left, right] = self.range;
+        let place = |cell: &Cell<T>| Place {
+            centre: (cell.centre() - left) / (right - left),
+            width: cell.width() / (right - left),
+        };
+        let potential = Potential::new(self.cells.iter().map(place).collect());
+        let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
+        // Beyond that it is all one how high a cell is.
+        let highest = T::epsilon().recip().powi(4);
+        let rise = |cell: &Cell<T>| self.rise_of(cell.height, lowest).min(highest);
+        self.rise = self.cells.iter().map(rise).collect();
+        let (mut least, mut in_vain) = (usize::MAX, 0);
+        for _ in 0..MOST_CHANGES {
+            let rounding = self.solve(&potential);
+            let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
+            let wrong: Vec<_> = (0..self.cells.len())
+                .filter(|&i| {
+                    let Cell { loaded, force, .. } = self.cells[i];
+                    if loaded { force < -rounding } else { gap(i) < -rounding }
+                })
+                .collect();
+            if wrong.is_empty() {
+                self.changed = false;
+                return Ok(());
+            }
+            in_vain = if wrong.len() < least { 0 } else { in_vain + 1 };
+            least = least.min(wrong.len());
+            let all = if in_vain <= MOST_IN_VAIN { 0 } else { wrong.len() - 1 };
+            for &i in &wrong[all..] {
+                let cell = &mut self.cells[i];
+                cell.loaded = !cell.loaded;
+                cell.force = T::zero();
+            }
+        }
+        Err(NotFound::Unsettled { changes: MOST_CHANGES })
+    }
+
+    /// Closes the gap in the loaded cells; how far off the forces may be.
+    fn solve(&mut self, potential: &Potential<T>) -> T {
+        self.count.solves += 1;
+        let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        let exact = if on.len() <= DENSE { self.eliminate(potential, &on) } else { None };
+        let found = exact.is_some();
+        let forces = exact.unwrap_or_else(|| self.iterate(potential, &on));
+        let mut all = vec![T::zero(); self.cells.len()];
+        let mut largest = T::zero();
+        for (&i, &force) in on.iter().zip(&forces) {
+            self.cells[i].force = force;
+            all[i] = force;
+            largest = largest.max(force.abs());
+        }
+        self.potential = all.clone();
+        potential.of(&all, &mut self.potential);
+        let total: T = on.iter().fold(T::zero(), |sum, &i| sum + self.rise[i] + self.potential[i]);
+        self.level = total / T::count(on.len());
+        let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
+        if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
+    }
+
+    /// By elimination: `K q = level - rise` with `Σ q = 1`.
+    fn eliminate(&self, potential: &Potential<T>, on: &[usize]) -> Option<Vec<T>> {
+        let n = on.len();
+        let matrix = DMatrix::from_fn(n, n, |i, j| potential.entry(on[i], on[j]));
+        let factor = matrix.cholesky()?;
+        let lowest = on.iter().fold(None, |low: Option<T>, &i| {
+            Some(low.map_or(self.rise[i], |low| low.min(self.rise[i])))
+        })?;
+        let ones = factor.solve(&DVector::from_element(n, T::one()));
+        let rise = factor.solve(&DVector::from_fn(n, |i, _| self.rise[on[i]] - lowest));
+        let level = (T::one() + rise.sum()) / ones.sum();
+        let forces: Vec<_> =
+            ones.iter().zip(&rise).map(|(&one, &rise)| level * one - rise).collect();
+        forces.iter().all(|force| force.is_finite()).then_some(forces)
+    }
+
+    /// By conjugate gradients among forces of one sum.
+    fn iterate(&self, potential: &Potential<T>, on: &[usize]) -> Vec<T> {
+        let (n, zero) = (T::count(on.len()), T::zero());
+        let mut all = vec![zero; self.cells.len()];
+        let mut sunk = all.clone();
+        let mut times = |forces: &[T], result: &mut [T]| {
+            for (&i, &force) in on.iter().zip(forces) {
+                all[i] = force;
+            }
+            potential.of(&all, &mut sunk);
+            for (&i, result) in on.iter().zip(result) {
+                *result = sunk[i];
+            }
+        };
+        let sum = |values: &[T]| values.iter().fold(zero, |sum, &value| sum + value);
+        let dot = |a: &[T], b: &[T]| a.iter().zip(b).fold(zero, |sum, (&a, &b)| sum + a * b);
+        let mut forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
+        let missing = (T::one() - sum(&forces)) / n;
+        forces.iter_mut().for_each(|force| *force += missing);
+        let mut product = vec![zero; on.len()];
+        times(&forces, &mut product);
+        let mut left: Vec<_> =
+            on.iter().zip(&product).map(|(&i, &sunk)| -sunk - self.rise[i]).collect();
+        let centred = |values: &mut [T]| {
+            let mean = sum(values) / n;
+            values.iter_mut().for_each(|value| *value -= mean);
+        };
+        centred(&mut left);
+        let mut way = left.clone();
+        let mut size = dot(&left, &left);
+        for _ in 0..MOST_STEPS {
+            let allowed = T::of(1e-4);
+            // What is missed in a cell changes its force by as much.
+            if !(size > allowed * allowed * dot(&forces, &forces)) {
+                break;
+            }
+            times(&way, &mut product);
+            let step = size / dot(&way, &product);
+            if !step.is_finite() {
+                break;
+            }
+            for i in 0..on.len() {
+                forces[i] += step * way[i];
+                left[i] -= step * product[i];
+            }
+            centred(&mut left);
+            let before = std::mem::replace(&mut size, dot(&left, &left));
+            for (way, &left) in way.iter_mut().zip(&left) {
+                *way = left + size / before * *way;
+            }
+        }
+        forces
+    }
+
+    /// The first and last cell of each run of loaded cells.
+    fn runs(&self) -> Vec<[usize; 2]> {
+        let mut runs: Vec<[usize; 2]> = Vec::new();
+        for (i, _) in self.cells.iter().enumerate().filter(|(_, cell)| cell.loaded) {
+            match runs.last_mut() {
+                Some(run) if run[1] + 1 == i => run[1] = i,
+                _ => runs.push([i, i]),
+            }
+        }
+        runs
+    }
+
+    /// The cells in which the contact is not yet seen well.
+    fn marks(&self, known: &[[T; 2]]) -> Vec<bool> {
+        let n = self.cells.len();
+        let mut marks = vec![false; n];
+        let width = |[from, to]: [usize; 2]| self.cells[to].right - self.cells[from].left;
+        let mut mark = |from: usize, to: usize| marks[from..=to.min(n - 1)].fill(true);
+        let runs = self.runs();
+        for &run in &runs {
+            let [from, to] = run;
+            if to + 1 - from < CELLS_OF_A_RUN {
+                mark(from.saturating_sub(1), to + 1);
+            }
+            // A valley of the pressure may be a gap.
+            for i in from + 1..to {
+                let [before, at, after] = [i - 1, i, i + 1].map(|i| self.cells[i].pressure());
+                let deep = T::of(3.0) * at < before.min(after);
+                if deep && self.cells[i].width() > T::of(FINEST) * width(run) {
+                    mark(i - 1, i + 1);
+                }
+            }
+        }
+        for pair in runs.windows(2) {
+            let [left, right] = [pair[0], pair[1]];
+            let (from, to) = (left[1] + 1, right[0] - 1);
+            let narrower = width(left).min(width(right));
+            if from == to && self.cells[from].width() > T::of(FINEST) * narrower {
+                mark(from - 1, to + 1);
+            }
+        }
+        // A minimum of the open gap that may close: lower than what it rises by to a neighbour.
+        let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
+        for i in (0..n).filter(|&i| !self.cells[i].loaded) {
+            let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
+            let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
+            let minimum = |&(_, there, loaded): &(usize, T, bool)| !loaded && there >= gap(i);
+            if !beside.iter().flatten().all(minimum) {
+                continue;
+            }
+            let highest = beside.iter().flatten().fold(gap(i), |high, there| high.max(there.1));
+            if gap(i) <= highest - gap(i) {
+                let lower = match beside {
+                    [Some(one), Some(other)] => {
+                        if one.1 < other.1 {
+                            one.0
+                        } else {
+                            other.0
+                        }
+                    }
+                    _ => i,
+                };
+                mark(i.min(lower), i.max(lower));
+            }
+        }
+        self.mark_by(known, &mut marks);
+        marks
+    }
+
+    /// Marks cells with heights inside that their centres know nothing of.
+    fn mark_by(&self, known: &[[T; 2]], marks: &mut [bool]) {
+        let Some(lowest) = self.lowest().map(|lowest| self.cells[lowest].height) else { return };
+        let [first, end] = self.range;
+        let (mut i, mut before) = (0, None);
+        for &[x, height] in known {
+            let [x, height] = [x, height].map(|value| value.part(0));
+            if !(x > first && x < end) {
+                continue;
+            }
+            while i + 1 < self.cells.len() && self.cells[i].right <= x {
+                i += 1;
+            }
+            let cell = &self.cells[i];
+            let gap = self.rise_of(height, lowest) + self.potential_at(x, i) - self.level;
+            let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
+            let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));
+            if !cell.loaded {
+                marks[i] |= gap < -T::of(0.1) * pressure * cell.width();
+                before = None;
+                continue;
+            }
+            // In the centre the gap is closed.
+            for (there, gap_there) in before.into_iter().chain([(cell.centre(), T::zero())]) {
+                let (along, rise) = ((x - there).abs(), (gap - gap_there).abs());
+                // A wave of this slope has pressures of up to a πth of it.
+                marks[i] |= along > cell.width() / T::of(64.0)
+                    && rise > T::of(0.5) * T::pi() * pressure * along;
+            }
+            if before.is_none_or(|(there, _)| x - there > cell.width() / T::of(64.0)) {
+                before = Some((x, gap));
+            }
+        }
+    }
+
+    /// The potential at a place in a cell, on a line between the centres.
+    fn potential_at(&self, x: T, i: usize) -> T {
+        let aside = x - self.cells[i].centre();
+        let beside = if aside < T::zero() { i.checked_sub(1) } else { Some(i + 1) };
+        match beside.and_then(|j| Some((j, self.cells.get(j)?))) {
+            Some((j, other)) => {
+                let share = aside / (other.centre() - self.cells[i].centre());
+                self.potential[i] + share * (self.potential[j] - self.potential[i])
+            }
+            None => self.potential[i],
+        }
+    }
+
+    /// The runs as intervals.
+    fn found(mut self) -> Coarse<T> {
+        let runs = self.runs();
+        let last = self.cells.len().saturating_sub(1);
+        let interval = |&[from, to]: &[usize; 2]| {
+            let run = &self.cells[from..=to];
+            let left = if from == 0 {
+                self.range[0]
+            } else {
+                -edge(run.iter().map(|cell| [-cell.right, -cell.left, cell.force]))
+            };
+            let right = if to == last {
+                self.range[1]
+            } else {
+                edge(run.iter().rev().map(|cell| [cell.left, cell.right, cell.force]))
+            };
+            Interval { left, right }
+        };
+        let intervals = runs.iter().map(interval).collect();
+        let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
+        let reaches = [
+            runs.first().is_some_and(|run| run[0] == 0),
+            runs.last().is_some_and(|run| run[1] == last),
+        ];
+        self.count.cells = self.cells.len();
+        let approach = self.kappa * lowest + self.load * self.level;
+        Coarse { intervals, approach, reaches, count: self.count }
+    }
+}
+
+/// The right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
+/// beyond a place bear grows with the power 3/2 of its distance from the edge.
+fn edge<T: Real>(mut cells: impl Iterator<Item = [T; 3]>) -> T {
+    let Some([near, right, outermost]) = cells.next() else { return T::zero() };
+    let Some([far, _, next]) = cells.next() else { return right };
+    let ratio = (outermost / (outermost + next)).powf(T::of(2.0 / 3.0));
+    let edge = near + (near - far) * ratio / (T::one() - ratio);
+    // It is in the outermost cell, or not far into the next, which is open.
+    let furthest = right + T::of(0.5) * (right - near);
+    if edge.is_finite() { edge.max(near).min(furthest) } else { right }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    type Found = Result<Coarse<f64>, NotFound<f64>>;
+
+    fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
+        let cells = FIRST_CELLS;
+        Scene { kappa: FRAC_PI_2, load, range, cells, known: &[], start: &[] }
+    }
+
+    fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Found {
+        active_set(scene, &mut |x| Ok(h(x)))
+    }
+
+    /// The same on many even cells.
+    fn even(scene: &Scene<'_, f64>, cells: usize, h: impl Fn(f64) -> f64) -> Coarse<f64> {
+        let scene = Scene { cells, known: &[], start: &[], ..*scene };
+        let mut set = ActiveSet::new(&scene, &mut |x| Ok(h(x))).unwrap();
+        set.settle().unwrap();
+        set.found()
+    }
+
+    fn heights(n: usize, [from, to]: [f64; 2], h: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let x = |i| from + (to - from) * f64::from(i) / (n - 1) as f64;
+        (0..n as i32).map(|i| [x(i), h(x(i))]).collect()
+    }
+
+    /// By how much the limits are off, as a share of the width.
+    fn off(on: Interval<f64>, exact: Interval<f64>) -> f64 {
+        let width = exact.right - exact.left;
+        (on.left - exact.left).abs().max((on.right - exact.right).abs()) / width
+    }
+
+    struct Random(u64);
+
+    impl Random {
+        fn unit(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let x = (self.0 ^ (self.0 >> 29)).wrapping_mul(0xbf58476d1ce4e5b9);
+            ((x ^ (x >> 32)) >> 11) as f64 / (1u64 << 53) as f64
+        }
+
+        fn within(&mut self, from: f64, to: f64) -> f64 {
+            from + (to - from) * self.unit()
+        }
+
+        fn normal(&mut self) -> f64 {
+            (-2.0 * (1.0 - self.unit()).ln()).sqrt() * (2.0 * PI * self.unit()).cos()
+        }
+
+        /// One wave, or twelve of any length: amplitude, wave number, phase.
+        fn waves(&mut self, one: bool) -> Vec<[f64; 3]> {
+            if one {
+                let (steep, length) = (10f64.powf(self.within(-1.7, 0.5)), self.within(0.15, 0.8));
+                return vec![[steep * length * length, 2.0 * PI / length, self.within(0.0, 6.28)]];
+            }
+            let size = 0.8 * 10f64.powf(self.within(-0.3, 1.2));
+            let mut wave = |_| {
+                let k = self.within(3.0, 25.0);
+                [size * self.normal() / k / k, k, self.within(0.0, 6.28)]
+            };
+            (0..12).map(&mut wave).collect()
+        }
+    }
+
+    fn wavy(waves: &[[f64; 3]], x: f64) -> f64 {
+        waves.iter().map(|[a, k, phase]| a * (k * x + phase).cos()).sum()
+    }
+
+    #[test]
+    fn hertz_under_any_load() {
+        let mut random = Random(3);
+        let mut all = Vec::new();
+        for i in 0..=100 {
+            let (load, c) = (10f64.powf(f64::from(i) * 0.137 - 14.0), random.within(-0.7, 0.7));
+            let found = find(&scene(load, [-2.0, 2.0]), |x| (x - c).powi(2) / 2.0).unwrap();
+            let half = (4.0 * load / PI).sqrt();
+            let &[on] = found.intervals.as_slice() else { panic!("{load}: {found:?}") };
+            all.push(off(on, Interval { left: c - half, right: c + half }));
+            assert!(found.count.cells <= 130 && found.reaches == [false; 2], "{found:?}");
+            // δ = F (1/2 - ln(L/2)) for distances in units of 1, here of 4.
+            let approach = load * (0.5 - (half / 8.0).ln());
+            assert!((found.approach / approach - 1.0).abs() < 0.02, "{load}: {found:?}");
+        }
+        all.sort_by(f64::total_cmp);
+        assert!(all[50] < 0.015 && all[100] < 0.08, "{} {}", all[50], all[100]);
+    }
+
+    #[test]
+    fn two_contacts_until_they_merge() {
+        let h = |x: f64| x.powi(4) - 2.0 * x * x;
+        for (load, allowed) in [(1e-8, 0.08), (0.1, 0.04), (1.0, 0.04), (3.0, 0.06), (3.3, 0.04)] {
+            let found = find(&scene(load, [-3.0, 3.0]), h).unwrap();
+            let d = (4.0f64 * load / PI).sqrt();
+            let [inner, outer] =
+                [1.0 - d / 2.0, 1.0 + d / 2.0].map(|square| square.max(0.0).sqrt());
+            let exact = if load < PI {
+                vec![[-outer, -inner], [inner, outer]]
+            } else {
+                // One contact: 3β⁴ - 4β² = 4F/π.
+                let square = (2.0 + (4.0 + 12.0 * load / PI).sqrt()) / 3.0;
+                vec![[-square.sqrt(), square.sqrt()]]
+            };
+            assert_eq!(found.intervals.len(), exact.len(), "{load}: {found:?}");
+            for (&on, [left, right]) in found.intervals.iter().zip(exact) {
+                assert!(off(on, Interval { left, right }) < allowed, "{load}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn random_bodies_as_on_fine_even_cells() {
+        let mut random = Random(7);
+        let (mut wrong, mut counted) = (0, Vec::new());
+        for i in 0..200 {
+            let waves = random.waves(i % 2 == 1);
+            let h = |x: f64| x * x / 2.0 + wavy(&waves, x);
+            let known = heights(64, [-2.0, 2.0], h);
+            let load = 10f64.powf(random.within(-4.0, -0.3));
+            let scene = Scene { known: &known, ..scene(load, [-2.0, 2.0]) };
+            let found = find(&scene, h).unwrap();
+            counted.push(found.count.cells);
+            let fine = even(&scene, 801, h);
+            // Of runs of a few of its cells the fine one does not know the width.
+            let far = |(&on, &fine): (&Interval<f64>, &Interval<f64>)| {
+                fine.half_width() > 0.05 && off(on, fine) > 0.12
+            };
+            wrong += usize::from(
+                found.intervals.len() != fine.intervals.len()
+                    || found.intervals.iter().zip(&fine.intervals).any(far),
+            );
+        }
+        counted.sort_unstable();
+        assert!(wrong <= 2, "{wrong} of 200");
+        assert!(counted[100] <= 70 && counted[199] <= 250, "{counted:?}");
+    }
+
+    #[test]
+    fn a_hundred_contacts() {
+        let h = |x: f64| 0.05 * x * x - 1e-3 * (2.0 * PI * x / 0.03).cos();
+        let known = heights(10_000, [-2.0, 2.0], h);
+        let mut scene = Scene { known: &known, ..scene(0.1, [-2.0, 2.0]) };
+        let found = find(&scene, h).unwrap();
+        let fine = even(&scene, 4001, h);
+        assert_eq!(found.intervals.len(), fine.intervals.len());
+        assert!(found.intervals.len() > 70 && found.count.cells < 2000, "{:?}", found.count);
+        for (&on, &fine) in found.intervals.iter().zip(&fine.intervals) {
+            assert!(off(on, fine) < 0.12, "{on:?} {fine:?}");
+        }
+        // From there to a little more load: contacts are born, none dies.
+        (scene.start, scene.load) = (&found.intervals, 0.11);
+        let more = find(&scene, h).unwrap();
+        assert!(more.intervals.len() >= found.intervals.len());
+        let fine = even(&scene, 4001, h);
+        assert_eq!(more.intervals.len(), fine.intervals.len());
+    }
+
+    #[test]
+    fn corners_hold_the_ends() {
+        for (a, k, phase, load, n, reaches) in [
+            (0.02, 7.0, 0.4, 0.05, 3, [true, false]),
+            (0.02, 7.0, 0.0, 0.08, 3, [true, true]),
+            (0.02, 4.2, 2.9, 0.05, 2, [true, true]),
+            (0.02, 7.0, 3.5, 0.002, 1, [false, false]),
+        ] {
+            let h = |x: f64| -a * (k * x + phase).cos() + 0.02 * x;
+            let scene = scene(load, [-1.0, 1.0]);
+            let (found, fine) = (find(&scene, h).unwrap(), even(&scene, 1001, h));
+            assert_eq!(fine.reaches, found.reaches, "{found:?} {fine:?}");
+            assert_eq!((n, reaches), (fine.intervals.len(), fine.reaches), "{fine:?}");
+            for (&on, &fine) in found.intervals.iter().zip(&fine.intervals) {
+                assert!(off(on, fine) < 0.12, "{on:?} {fine:?}");
+            }
+            for (end, at, x) in [(0, 0, -1.0), (1, n - 1, 1.0)] {
+                let on = found.intervals[at];
+                assert_eq!([on.left, on.right][end] == x, found.reaches[end]);
+            }
+        }
+    }
+
+    #[test]
+    fn from_the_last_contact_with_fewer_solves() {
+        let h = |x: f64| x.powi(4) - 2.0 * x * x;
+        let mut scene = scene(1e-6, [-3.0, 3.0]);
+        let cold = find(&scene, h).unwrap();
+        scene.start = &cold.intervals;
+        scene.load = 1.1e-6;
+        let warm = find(&scene, h).unwrap();
+        assert_eq!(warm.intervals.len(), 2);
+        assert!(warm.count.solves <= 4 && 3 * warm.count.solves < cold.count.solves);
+        // A start that is nowhere near costs some more, but leads to the same.
+        scene.start = &[Interval { left: 1.9, right: 1.900_001 }];
+        assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
+        scene.start =
+            &[Interval { left: f64::NAN, right: 1.0 }, Interval { left: 5.0, right: -7.0 }];
+        assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
+    }
+
+    #[test]
+    fn single_precision() {
+        for load in [1e-5f32, 1e-3, 0.1] {
+            let scene = Scene {
+                kappa: std::f32::consts::FRAC_PI_2,
+                load,
+                range: [-2.0f32, 2.0],
+                cells: FIRST_CELLS,
+                known: &[],
+                start: &[],
+            };
+            let found = active_set(&scene, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
+            let half = f64::from(4.0 * load / std::f32::consts::PI).sqrt();
+            // What 3 has cost of the heights shows under light loads.
+            for Interval { left, right } in &found.intervals {
+                let on = Interval { left: f64::from(*left), right: f64::from(*right) };
+                assert!(off(on, Interval { left: -half, right: half }) < 0.15, "{load}: {on:?}");
+            }
+            assert_eq!(found.intervals.len(), 1);
+        }
+    }
+
+    #[test]
+    fn no_scene_is_a_trap() {
+        let flat = find(&scene(0.1, [-1.0, 3.0]), |_| 7.0).unwrap();
+        assert_eq!(flat.intervals, [Interval { left: -1.0, right: 3.0 }]);
+        assert_eq!(flat.reaches, [true; 2]);
+        let whole = f64::MAX / 4.0;
+        let flat = find(&scene(1e-300, [-whole, whole]), |_| 0.0).unwrap();
+        assert_eq!(flat.reaches, [true; 2]);
+        // Heights that overflow with this load, and a range of three numbers.
+        let steep = find(&scene(1e-300, [-1.0, 1.0]), |x| 1e10 * (x - 0.2).abs()).unwrap();
+        assert!(steep.intervals.len() == 1 && (steep.intervals[0].centre() - 0.2).abs() < 1e-9);
+        let next = 1.0 + f64::EPSILON;
+        assert!(find(&scene(0.1, [1.0, next]), |x| x).is_ok());
+        for range in [[1.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]] {
+            let refused = find(&scene(0.1, range), |x| x * x);
+            assert!(matches!(refused, Err(NotFound::Scene { .. })), "{range:?}");
+        }
+        for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let refused = find(&scene(load, [-1.0, 1.0]), |x| x * x);
+            assert!(matches!(refused, Err(NotFound::Scene { .. })), "{load}");
+        }
+        let hole = |x: f64| if x > 0.3 { f64::NAN } else { x * x };
+        let refused = find(&scene(0.1, [-1.0, 1.0]), hole);
+        assert!(matches!(refused, Err(NotFound::NotFinite { x, .. }) if x > 0.3), "{refused:?}");
+        let outside = ContactError::OutsideBodies { x: 0.0, range: [0.0, 1.0] };
+        let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut |_| Err(outside.clone()));
+        assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
+        // Noise, from cell to cell: whatever comes, it ends.
+        let noise = |x: f64| (x.to_bits().wrapping_mul(0x9e3779b97f4a7c15) >> 11) as f64 * 1e-16;
+        for load in [1e-6, 1e-2, 1.0] {
+            let known = heights(1000, [-1.0, 1.0], noise);
+            let found = find(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, noise);
+            assert!(found.is_ok_and(|found| found.count.cells <= MOST_CELLS), "{load}");
+        }
+    }
+}

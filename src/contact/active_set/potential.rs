@@ -1,0 +1,335 @@
+//! How far forces on cells press the surface in: the logarithm of the distance, averaged over the
+//! cell that bears the force and over the cell that is looked at.
+//!
+//! A few hundred cells take a full matrix. Of more, cells next to each other do; the forces of those far
+//! off act through their moments (Barnes and Hut, *Nature* 324, 1986, 446), and what they do is
+//! interpolated between a few places of a block of cells.
+
+use crate::Real;
+
+/// Cells up to which the matrix is full.
+const FULL: usize = 256;
+
+/// Cells of a block, where there are more.
+const BLOCK: usize = 32;
+
+/// Moments of the forces of a group, and places in a block: both leave errors of about 1e-5.
+const MOMENTS: usize = 10;
+const PLACES: usize = 8;
+
+/// Abscissae and weights of Gauss's rule with three points on [-1/2, 1/2].
+const GAUSS: [(f64, f64); 3] = [
+    (-0.387_298_334_620_741_7, 5.0 / 18.0),
+    (0.0, 4.0 / 9.0),
+    (0.387_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// A cell, in shares of a length that no two cells are further apart than.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<T> {
+    pub centre: T,
+    pub width: T,
+}
+
+/// The mean of `-ln|x - s|` for x in one cell and s in the other.
+pub(super) fn mean_log<T: Real>(one: Place<T>, other: Place<T>) -> T {
+    let distance = (one.centre - other.centre).abs();
+    let (v, w) = (one.width, other.width);
+    if distance > T::of(3.0) * v.max(w) {
+        let inverse = T::one() / (distance * distance);
+        let [v, w] = [v * v * inverse, w * w * inverse];
+        let second = (v + w) / T::of(24.0);
+        let fourth = (v * v + w * w) / T::of(320.0) + v * w / T::of(96.0);
+        return second + fourth - distance.ln();
+    }
+    // In shares of the wider one, the rest is exact.
+    let size = v.max(w);
+    let [distance, v, w] = [distance / size, v / size, w / size];
+    let twice = |y: T| {
+        let y = y.abs();
+        if y.is_zero() { y } else { y * y * (T::of(0.5) * y.ln() - T::of(0.75)) }
+    };
+    let [sum, difference] = [T::of(0.5) * (v + w), T::of(0.5) * (v - w)];
+    let outer = twice(distance + sum) + twice(distance - sum);
+    let inner = twice(distance + difference) + twice(distance - difference);
+    (inner - outer) / (v * w) - size.ln()
+}
+
+/// The potential of forces on given cells.
+pub(super) struct Potential<T> {
+    cells: Vec<Place<T>>,
+    groups: Vec<Group<T>>,
+    blocks: Vec<Block<T>>,
+}
+
+/// Cells in a row, and the powers of their places about the middle of the group.
+struct Group<T> {
+    cells: [usize; 2],
+    centre: T,
+    radius: T,
+    powers: Vec<[T; MOMENTS]>,
+    /// The two halves, by their numbers; none of a block.
+    halves: Option<[usize; 2]>,
+}
+
+/// A smallest group, and what acts on its cells.
+struct Block<T> {
+    cells: [usize; 2],
+    /// Ranges of cells near by, and a matrix for each, by rows of the cells of the block.
+    near: Vec<([usize; 2], Vec<T>)>,
+    /// Groups far off, and what their moments do at the places.
+    far: Vec<(usize, [[T; MOMENTS]; PLACES])>,
+    /// Shares of the values at the places in the mean over each cell.
+    shares: Vec<[T; PLACES]>,
+}
+
+impl<T: Real> Potential<T> {
+    pub fn new(cells: Vec<Place<T>>) -> Self {
+        let mut groups = Vec::new();
+        let block = if cells.len() <= FULL { FULL } else { BLOCK };
+        let root = group(&cells, [0, cells.len()], block, &mut groups);
+        let mut blocks = Vec::new();
+        for target in groups.iter().filter(|group| group.halves.is_none()) {
+            blocks.push(Block::new(&cells, &groups, target, root));
+        }
+        Self { cells, groups, blocks }
+    }
+
+    /// The share of the force on one cell in the potential of another.
+    pub fn entry(&self, i: usize, j: usize) -> T {
+        match self.blocks.as_slice() {
+            [Block { near, .. }] if near.len() == 1 => near[0].1[i * self.cells.len() + j],
+            _ => mean_log(self.cells[i], self.cells[j]),
+        }
+    }
+
+    /// The potential of the forces in every cell.
+    pub fn of(&self, forces: &[T], potential: &mut [T]) {
+        let moments: Vec<_> = if self.blocks.len() > 1 {
+            self.groups.iter().map(|group| group.moments(forces)).collect()
+        } else {
+            Vec::new()
+        };
+        for block in &self.blocks {
+            let mut at_places = [T::zero(); PLACES];
+            for (group, transfer) in &block.far {
+                for (value, row) in at_places.iter_mut().zip(transfer) {
+                    *value += dot(row, &moments[*group]);
+                }
+            }
+            let [from, to] = block.cells;
+            for (i, shares) in (from..to).zip(&block.shares) {
+                let mut sum = dot(shares, &at_places);
+                for ([first, end], matrix) in &block.near {
+                    let row = (i - from) * (end - first);
+                    sum += dot(&matrix[row..row + end - first], &forces[*first..*end]);
+                }
+                potential[i] = sum;
+            }
+        }
+    }
+}
+
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut sums = [T::zero(); 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest = a4.remainder().iter().zip(b4.remainder());
+    let mut total = rest.fold(T::zero(), |sum, (&a, &b)| sum + a * b);
+    for (a, b) in a4.zip(b4) {
+        for i in 0..4 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    for sum in sums {
+        total += sum;
+    }
+    total
+}
+
+/// Adds a group and all those within it; its number.
+fn group<T: Real>(
+    cells: &[Place<T>],
+    [from, to]: [usize; 2],
+    block: usize,
+    groups: &mut Vec<Group<T>>,
+) -> usize {
+    let half = T::of(0.5);
+    let halves = (to - from > block).then(|| {
+        let middle = usize::midpoint(from, to);
+        [[from, middle], [middle, to]].map(|part| group(cells, part, block, groups))
+    });
+    let (first, last) = (cells[from], cells[to - 1]);
+    let [left, right] = [first.centre - half * first.width, last.centre + half * last.width];
+    let (centre, radius) = (half * (left + right), half * (right - left));
+    let mut powers = Vec::new();
+    if cells.len() > block {
+        powers.extend(cells[from..to].iter().map(|cell| {
+            let mut mean = [T::zero(); MOMENTS];
+            for (at, weight) in GAUSS {
+                let t = (cell.centre - centre + T::of(at) * cell.width) / radius;
+                let mut power = T::of(weight);
+                for mean in &mut mean {
+                    *mean += power;
+                    power *= t;
+                }
+            }
+            mean
+        }));
+    }
+    groups.push(Group { cells: [from, to], centre, radius, powers, halves });
+    groups.len() - 1
+}
+
+impl<T: Real> Group<T> {
+    fn moments(&self, forces: &[T]) -> [T; MOMENTS] {
+        let mut moments = [T::zero(); MOMENTS];
+        let [from, to] = self.cells;
+        for (powers, &force) in self.powers.iter().zip(&forces[from..to]) {
+            if !force.is_zero() {
+                for (moment, &power) in moments.iter_mut().zip(powers) {
+                    *moment += force * power;
+                }
+            }
+        }
+        moments
+    }
+
+    /// What the moments do at x.
+    fn transfer(&self, x: T) -> [T; MOMENTS] {
+        let distance = x - self.centre;
+        let ratio = self.radius / distance;
+        let mut row = [-distance.abs().ln(); MOMENTS];
+        let mut power = T::one();
+        for (k, share) in row.iter_mut().enumerate().skip(1) {
+            power *= ratio;
+            *share = power / T::count(k);
+        }
+        row
+    }
+}
+
+impl<T: Real> Block<T> {
+    fn new(cells: &[Place<T>], groups: &[Group<T>], target: &Group<T>, root: usize) -> Self {
+        let [from, to] = target.cells;
+        let place = |m: usize| (T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES)).cos();
+        let places: [T; PLACES] = std::array::from_fn(place);
+        let (mut near, mut far) = (Vec::new(), Vec::new());
+        let mut waiting = vec![root];
+        while let Some(number) = waiting.pop() {
+            let source = &groups[number];
+            let apart = (source.centre - target.centre).abs();
+            if apart > T::of(2.5) * (source.radius + target.radius) {
+                let at = |t: T| source.transfer(target.centre + t * target.radius);
+                far.push((number, places.map(at)));
+            } else if let Some(halves) = source.halves {
+                waiting.extend(halves);
+            } else {
+                let [first, end] = source.cells;
+                let mut matrix = Vec::with_capacity((to - from) * (end - first));
+                for i in from..to {
+                    for j in first..end {
+                        // The matrix of a block on itself is symmetric.
+                        let known = first == from && j < i;
+                        matrix.push(if known {
+                            matrix[(j - first) * (end - first) + i - from]
+                        } else {
+                            mean_log(cells[i], cells[j])
+                        });
+                    }
+                }
+                near.push((source.cells, matrix));
+            }
+        }
+        let shares = cells[from..to].iter().map(|cell| {
+            let mut shares = [T::zero(); PLACES];
+            for (at, weight) in GAUSS {
+                let t = (cell.centre + T::of(at) * cell.width - target.centre) / target.radius;
+                for (share, value) in shares.iter_mut().zip(cardinals(t)) {
+                    *share += T::of(weight) * value;
+                }
+            }
+            shares
+        });
+        Self { cells: [from, to], near, shares: shares.collect(), far }
+    }
+}
+
+/// The polynomials that are one at one of the places and zero at the others, at t.
+fn cardinals<T: Real>(t: T) -> [T; PLACES] {
+    // By the discrete orthogonality of Chebyshev's polynomials at their own zeros.
+    std::array::from_fn(|m| {
+        let angle = T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES);
+        let (mut before, mut chebyshev) = (T::one(), t);
+        let mut sum = T::one();
+        for k in 1..PLACES {
+            sum += T::of(2.0) * (T::count(k) * angle).cos() * chebyshev;
+            (before, chebyshev) = (chebyshev, T::of(2.0) * t * chebyshev - before);
+        }
+        sum / T::count(PLACES)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of very different widths, side by side.
+    fn graded(n: usize) -> Vec<Place<f64>> {
+        let width = |i: usize| 1.0 + 80.0 * (0.5 + 0.5 * (i as f64 * 0.04).sin()).powi(6);
+        let total: f64 = (0..n).map(width).sum();
+        let mut left = 0.0;
+        let mut cell = |i| {
+            let width = width(i) / total;
+            left += width;
+            Place { centre: left - width / 2.0, width }
+        };
+        (0..n).map(&mut cell).collect()
+    }
+
+    #[test]
+    fn the_mean_logarithm_is_its_double_integral() {
+        let (points, weights) = gauss(40);
+        for (distance, v, w) in [(0.9f64, 0.3, 0.2), (0.35, 0.3, 0.4), (0.2, 0.1, 0.05)] {
+            let one = Place { centre: distance, width: v };
+            let mut sum = 0.0;
+            for (t, a) in points.iter().zip(&weights) {
+                for (u, b) in points.iter().zip(&weights) {
+                    sum -= a * b * (distance + 0.5 * v * t - 0.5 * w * u).abs().ln() / 4.0;
+                }
+            }
+            let found = mean_log(one, Place { centre: 0.0, width: w });
+            // The formula for cells far from each other leaves out the sixth power.
+            assert!((found / sum - 1.0).abs() < 2e-4, "{distance}: {found} {sum}");
+        }
+        // A cell on itself: 3/2 - ln w.
+        let cell = Place { centre: 0.4f64, width: 0.01 };
+        assert!((mean_log(cell, cell) - (1.5 - 0.01f64.ln())).abs() < 1e-13);
+    }
+
+    fn gauss(n: usize) -> (Vec<f64>, Vec<f64>) {
+        // The midpoint rule in the angle is enough away from the diagonal.
+        let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / n as f64;
+        let weight = |i: usize| {
+            let series =
+                |k: usize| 2.0 * (2.0 * k as f64 * angle(i)).cos() / (4.0 * (k * k) as f64 - 1.0);
+            2.0 / n as f64 * (1.0 - (1..=n / 2).map(series).sum::<f64>())
+        };
+        ((0..n).map(|i| angle(i).cos()).collect(), (0..n).map(weight).collect())
+    }
+
+    #[test]
+    fn groups_far_off_act_as_their_cells_do() {
+        let cells = graded(1500);
+        let force = |i: usize| ((i * 7919) % 101) as f64 / 101.0;
+        let forces: Vec<_> = (0..cells.len()).map(force).collect();
+        let total: f64 = forces.iter().sum();
+        let potential = Potential::new(cells.clone());
+        let mut found = vec![0.0; cells.len()];
+        potential.of(&forces, &mut found);
+        for (&cell, &found) in cells.iter().zip(&found) {
+            let each = cells.iter().zip(&forces);
+            let direct: f64 = each.map(|(&other, force)| force * mean_log(cell, other)).sum();
+            assert!((found - direct).abs() < 2e-5 * total, "{found} {direct}");
+        }
+    }
+}

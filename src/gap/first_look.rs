@@ -1,0 +1,512 @@
+//! A first look at two bodies: heights and slopes of both, without solving `X(k) = x`.
+//!
+//! Each body is sampled evenly in its parameter, and what lies between two samples is a cubic through
+//! both heights with the slopes there (Hermite's), which knows the height to the fourth power of their
+//! distance. So one look at the bodies serves every question of where the gap is low, at any x.
+
+use super::{Cost, Gap, Surface};
+use crate::profile::{Piece, turning_point};
+use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+
+/// Samples of a smooth body, its ends included.
+const OF_A_BODY: usize = 64;
+
+/// Samples of a piece of a joined body, its ends included.
+const OF_A_PIECE: usize = 4;
+
+/// Pieces from which on their ends, which are known, tell enough.
+const MANY_PIECES: usize = 64;
+
+/// Pieces up to which each is looked at; of more, as many of them evenly.
+const MOST_PIECES: usize = 1 << 16;
+
+/// Heights and slopes of two bodies.
+#[derive(Clone, Debug)]
+pub(crate) struct FirstLook<T> {
+    bodies: [Vec<Row<T>>; 2],
+    /// Where both bodies are.
+    range: [T; 2],
+}
+
+/// A sample. Where two pieces meet there is one for the slope on either side.
+#[derive(Clone, Copy, Debug)]
+struct Row<T> {
+    x: T,
+    y: T,
+    /// May be infinite, or NaN where `Y'/X'` is 0/0.
+    slope: T,
+}
+
+/// The gap at an abscissa, with its slope on the left and on the right.
+#[derive(Clone, Copy, Debug)]
+struct Knot<T> {
+    x: T,
+    height: T,
+    slopes: [T; 2],
+    /// How far off they may be by rounding.
+    doubt: T,
+}
+
+impl<T: Real> FirstLook<T> {
+    /// Looks at both bodies. Values that are not finite matter only inside the range of x that both
+    /// cover.
+    ///
+    /// # Errors
+    /// [`ContactError::Profile`] with [`ProfileError::NotFinite`], [`ProfileError::TurnsBack`] or
+    /// [`ProfileError::Pieces`].
+    pub fn take(gap: &Gap<'_, T>, cost: &mut Cost) -> Result<Self, ContactError<T>> {
+        let range = gap.range();
+        let look = |body: Body, cost: &mut Cost| {
+            let surface = &gap.bodies[body as usize];
+            let found = rows(surface, range, cost).and_then(|rows| match rows.len() {
+                0 => {
+                    let (k, value) = (surface.piece(0).k[0], T::of(f64::NAN));
+                    Err(ProfileError::NotFinite { quantity: "Y", k, value })
+                }
+                _ => Ok(rows),
+            });
+            found.map_err(|source| ContactError::Profile { body, source })
+        };
+        Ok(Self { bodies: [look(Body::Lower, cost)?, look(Body::Upper, cost)?], range })
+    }
+
+    /// The height of the gap `Y₂ - Y₁` at x, as it looks; beyond the bodies along their last tangents.
+    pub fn height(&self, x: T) -> T {
+        let [lower, upper] = self.bodies.each_ref().map(|rows| at(rows, x, true)[0]);
+        upper - lower
+    }
+
+    /// The slope of the gap at x, as it looks; at a joint that on its right.
+    pub fn slope(&self, x: T) -> T {
+        let [lower, upper] = self.bodies.each_ref().map(|rows| at(rows, x, true)[1]);
+        upper - lower
+    }
+
+    /// Where either body was sampled, in the range of both and with its ends: rising.
+    pub fn abscissae(&self) -> Vec<T> {
+        let [first, last] = self.range;
+        let mut all = vec![first];
+        let [mut lower, mut upper] = self.bodies.each_ref().map(|rows| {
+            rows.iter().map(|row| row.x).filter(move |&x| x > first && x < last).peekable()
+        });
+        loop {
+            let next = match (lower.peek(), upper.peek()) {
+                (Some(&one), Some(&other)) if other < one => upper.next(),
+                (Some(_), _) => lower.next(),
+                (None, _) => upper.next(),
+            };
+            match next {
+                Some(x) if all.last().is_some_and(|&last| x > last) => all.push(x),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        all.push(last);
+        all
+    }
+
+    /// The place of the lowest gap; the middle of it where that is a stretch.
+    pub fn lowest(&self) -> T {
+        let knots = self.knots();
+        let size = knots.iter().fold(T::zero(), |size, knot| size.max(knot.height.abs()));
+        let rounding = T::of(8.0) * T::epsilon() * size;
+        let mut lowest: Option<(T, [T; 2])> = None;
+        let mut consider = |x: T, height: T| match &mut lowest {
+            // Next to the last that was as low.
+            Some((least, on)) if height <= *least + rounding && height >= *least - rounding => {
+                on[1] = x;
+            }
+            Some((least, _)) if !(height < *least) => {}
+            lowest => *lowest = Some((height, [x, x])),
+        };
+        for (i, from) in knots.iter().enumerate() {
+            consider(from.x, from.height);
+            let Some(to) = knots.get(i + 1) else { break };
+            let segment = Segment::new(*from, *to);
+            if let Some(t) = segment.minimum() {
+                consider(from.x + t * segment.width, segment.at(t)[0]);
+            }
+        }
+        let [from, to] = lowest.map_or(self.range, |(_, on)| on);
+        let middle = T::of(0.5) * from + T::of(0.5) * to;
+        // As low at two places apart: the first of them.
+        if self.height(middle) <= self.height(from) + rounding { middle } else { from }
+    }
+
+    /// Whether the slope of the gap rises all along, as it looks and up to rounding: then nothing that
+    /// is seen speaks against a single contact.
+    pub fn bulges(&self) -> bool {
+        let mut before: Option<(T, T)> = None;
+        for (slope, doubt) in
+            self.knots().iter().flat_map(|knot| [0, 1].map(|i| (knot.slopes[i], knot.doubt)))
+        {
+            let rises = |(last, other): (T, T)| slope >= last - doubt - other;
+            if !before.is_none_or(rises) {
+                return false;
+            }
+            before = Some(match before {
+                Some((last, other)) if last > slope => (last, other),
+                _ => (slope, doubt),
+            });
+        }
+        true
+    }
+
+    fn knots(&self) -> Vec<Knot<T>> {
+        let knot = |x| {
+            let [lower, upper] =
+                self.bodies.each_ref().map(|rows| [false, true].map(|right| at(rows, x, right)));
+            let slopes = [0, 1].map(|side| upper[side][1] - lower[side][1]);
+            let doubt = [lower, upper].iter().flatten().fold(T::zero(), |sum, at| sum + at[2]);
+            Knot { x, height: upper[1][0] - lower[1][0], slopes, doubt }
+        };
+        self.abscissae().into_iter().map(knot).collect()
+    }
+}
+
+/// The samples of a body, by rising x.
+fn rows<T: Real>(
+    surface: &Surface<'_, T>,
+    range: [T; 2],
+    cost: &mut Cost,
+) -> Result<Vec<Row<T>>, ProfileError<T>> {
+    let mut samples = Samples { rows: Vec::new(), range, k: Vec::new(), points: Vec::new() };
+    let count = surface.len();
+    if let Surface::Smooth(piece) = surface {
+        samples.add(piece, OF_A_BODY, cost)?;
+        return Ok(samples.rows);
+    }
+    let first = surface.index_at(range[0], super::Side::Left);
+    let last = surface.index_at(range[1], super::Side::Right);
+    let stride = 1 + (last.max(first) - first) / MOST_PIECES;
+    let each = if last.max(first) - first < MANY_PIECES { OF_A_PIECE } else { 2 };
+    let mut before: Option<T> = None;
+    for index in (first..=last).step_by(stride) {
+        let piece = surface.piece(index);
+        let [from, to] = piece.x();
+        // As where it is sampled.
+        let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
+        let apart = |end: T| if stride == 1 { (from - end).abs() >= allowed } else { from < end };
+        if !(from < to) || before.is_some_and(apart) {
+            return Err(ProfileError::Pieces { count, index });
+        }
+        before = Some(to);
+        samples.add(&piece, each, cost)?;
+    }
+    Ok(samples.rows)
+}
+
+struct Samples<T> {
+    rows: Vec<Row<T>>,
+    range: [T; 2],
+    k: Vec<T>,
+    points: Vec<CurvePoint<T>>,
+}
+
+impl<T: Real> Samples<T> {
+    /// Looks at a piece, at so many parameters.
+    fn add(
+        &mut self,
+        piece: &Piece<'_, T>,
+        count: usize,
+        cost: &mut Cost,
+    ) -> Result<(), ProfileError<T>> {
+        let [from, to] = piece.x();
+        // Of a body without ends, such as a flat, all samples but one would lie far away.
+        let endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
+        let inside = if endless { 0 } else { count - 2 };
+        let span = piece.k[1] - piece.k[0];
+        self.k.clear();
+        self.k.push(piece.k[0]);
+        self.k
+            .extend((1..=inside).map(|i| piece.k[0] + span * (T::count(i) / T::count(inside + 1))));
+        self.k.push(piece.k[1]);
+        self.points.clear();
+        self.points.resize(inside + 2, piece.ends[0]);
+        self.points[inside + 1] = piece.ends[1];
+        piece.curve.at_many(&self.k[1..=inside], &mut self.points[1..=inside]);
+        cost.heights = cost.heights.saturating_add(inside);
+        let rounding = T::of(8.0) * T::epsilon() * from.abs().max(to.abs());
+        let mut reached = from;
+        for (i, &CurvePoint { x, y, dx, dy }) in self.points.iter().enumerate() {
+            let next = || self.points[i..].iter().map(|point| point.x).find(|x| x.is_finite());
+            let fault = |quantity, value| ProfileError::NotFinite { quantity, k: self.k[i], value };
+            if !x.is_finite() {
+                if reached < self.range[1] && next().is_none_or(|next| next > self.range[0]) {
+                    return Err(fault("X", x));
+                }
+                continue;
+            }
+            if x < reached - rounding || x > to + rounding {
+                // X turns where X' changes its sign, which may be far from where it first runs the wrong way.
+                let turns = |&j: &usize| self.points[j].dx * self.points[j + 1].dx < T::zero();
+                let j = (0..=inside).find(turns).unwrap_or(i.saturating_sub(1));
+                let [k, next] = [self.k[j], self.k[j + 1]];
+                let (k, x) = turning_point(piece.curve, k.min(next), k.max(next));
+                return Err(ProfileError::TurnsBack { k, x });
+            }
+            if !y.is_finite() {
+                if x > self.range[0] && x < self.range[1] {
+                    return Err(fault("Y", y));
+                }
+                continue;
+            }
+            // X may stand still for its rounding, where a body is all but upright.
+            if i == 0 || x > reached {
+                self.rows.push(Row { x, y, slope: dy / dx });
+                reached = x;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Height and slope of a body at x, and how far off the slope may be by rounding; at a joint those on its
+/// right or on its left.
+fn at<T: Real>(rows: &[Row<T>], x: T, right: bool) -> [T; 3] {
+    let (zero, Some(last)) = (T::zero(), rows.len().checked_sub(1)) else {
+        return [T::zero(); 3];
+    };
+    // The first row beyond x, and with it the segment.
+    let index = rows.partition_point(|row| if right { row.x <= x } else { row.x < x });
+    let index = index.clamp(1, last.max(1));
+    let [Some(from), Some(to)] = [index - 1, index].map(|i| rows.get(i)) else {
+        return [rows[0].y, zero, zero];
+    };
+    let knot = |row: &Row<T>| Knot { x: row.x, height: row.y, slopes: [row.slope; 2], doubt: zero };
+    let segment = Segment::new(knot(from), knot(to));
+    if !(segment.width > zero) {
+        return [from.y, zero, zero];
+    }
+    let t = (x - from.x) / segment.width;
+    let [height, slope] = segment.at(t.max(zero).min(T::one()));
+    let beyond = x - x.min(to.x).max(from.x);
+    let size = (from.y.abs() + to.y.abs()) / segment.width + segment.chord.abs() + slope.abs();
+    let doubt = T::of(32.0) * T::epsilon() * size;
+    [if beyond.is_zero() { height } else { height + beyond * slope }, slope, doubt]
+}
+
+/// A cubic between two knots, by the share t of the way.
+struct Segment<T> {
+    width: T,
+    height: T,
+    chord: T,
+    /// By how much the chord is steeper than the curve at its start, and the curve at its end than the
+    /// chord.
+    bends: [T; 2],
+}
+
+impl<T: Real> Segment<T> {
+    fn new(from: Knot<T>, to: Knot<T>) -> Self {
+        let width = to.x - from.x;
+        let chord = (to.height - from.height) / width;
+        let [first, second] = [chord - from.slopes[1], to.slopes[0] - chord];
+        // Beyond twice the other one the cubic would leave the triangle of the tangents, and an end that
+        // is all but upright, or a kink, would make it swing.
+        let within = |bend: T, other: T| {
+            let most = T::of(2.0) * other.abs();
+            // Not a number where the slope is not known: as on a parabola.
+            if bend == bend { bend.max(-most).min(most) } else { other }
+        };
+        let bends = [within(first, second), within(second, first)];
+        let usable = |bend: T| if bend.is_finite() { bend } else { T::zero() };
+        Self { width, height: from.height, chord, bends: bends.map(usable) }
+    }
+
+    /// Height and slope.
+    fn at(&self, t: T) -> [T; 2] {
+        let ([first, second], two) = (self.bends, T::of(2.0));
+        let u = T::one() - t;
+        // The chord, less a bulge that has the right slopes at both ends.
+        let bulge = t * u * (first * u + second * t);
+        let slope = first * u * (u - two * t) + second * t * (two * u - t);
+        [self.height + self.width * (t * self.chord - bulge), self.chord - slope]
+    }
+
+    /// Where between its ends it is lowest, if it is.
+    fn minimum(&self) -> Option<T> {
+        let ([first, second], two, three) = (self.bends, T::of(2.0), T::of(3.0));
+        // The slope is a + b t + c t².
+        let a = self.chord - first;
+        let b = two * (two * first - second);
+        let c = three * (second - first);
+        let root = (b * b - T::of(4.0) * a * c).sqrt();
+        // Of the two zeros that where the slope rises.
+        let t = if b > T::zero() { -two * a / (b + root) } else { (root - b) / (two * c) };
+        (t > T::zero() && t < T::one()).then_some(t)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::profile::{Ellipse, Parabola, Spline, rounded_punch, wedge};
+    use crate::search::Newton;
+    use crate::{Curve, Flat, ParametricProfile};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    const NEWTON: Newton = Newton { tolerance: crate::search::Tolerance::FULL };
+
+    fn look<T: Real>(
+        lower: &dyn ParametricProfile<T>,
+        upper: &dyn ParametricProfile<T>,
+    ) -> Result<(FirstLook<T>, Cost), ContactError<T>> {
+        let mut cost = Cost::default();
+        let look = FirstLook::take(&Gap::new(lower, upper, &NEWTON)?, &mut cost)?;
+        Ok((look, cost))
+    }
+
+    fn graph(y: impl Fn(f64) -> [f64; 2] + Send + Sync) -> impl ParametricProfile<f64> {
+        // The parameter is far from x.
+        Curve::new([-0.9, 0.8], move |k: f64| {
+            let (x, dx) = (k + 0.4 * k * k, 1.0 + 0.8 * k);
+            let [y, slope] = y(x);
+            CurvePoint { x, y, dx, dy: slope * dx }
+        })
+    }
+
+    #[test]
+    fn heights_slopes_and_the_lowest_gap() {
+        let body = graph(|x| [(x - 0.1234).cosh(), (x - 0.1234).sinh()]);
+        let (look, cost) = look(&Flat, &body).unwrap();
+        assert_eq!(cost, Cost { heights: 62, ..Cost::default() });
+        for i in 0..=100 {
+            let x = -0.576 + 0.016 * f64::from(i);
+            let shift = x - 0.1234;
+            assert!((look.height(x) - shift.cosh()).abs() < 1e-7, "{x}");
+            assert!((look.slope(x) - shift.sinh()).abs() < 2e-5, "{x}");
+        }
+        assert!((look.lowest() - 0.1234).abs() < 1e-5 && look.bulges());
+        let all = look.abscissae();
+        assert!(all.len() == 64 && all.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+
+    #[test]
+    fn what_bulges_and_what_does_not() {
+        let parabola = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+        let round = Ellipse::circle(1.0, [-FRAC_PI_2, FRAC_PI_2]).unwrap();
+        let v = wedge([-0.1, 0.2], 1.0).unwrap();
+        let punch = rounded_punch(0.3, 0.5, 1.0).unwrap();
+        let peak = wedge([0.1, -0.2], 1.0).unwrap();
+        let groove = graph(|x| [x * x, 2.0 * x]);
+        let wavy = graph(|x| [x * x / 2.0 + 1e-4 * (60.0 * x).cos(), x - 6e-3 * (60.0 * x).sin()]);
+        let points: Vec<_> =
+            (-200..=200).map(|i| 0.005 * f64::from(i)).map(|x| [x, x * x / 3.0 + 5.0]).collect();
+        let spline = Spline::through(&points).unwrap();
+        let cases: [(&dyn ParametricProfile<f64>, &dyn ParametricProfile<f64>, bool, f64); 9] = [
+            (&Flat, &parabola, true, 0.0),
+            (&Flat, &round, true, 0.0),
+            (&Flat, &v, true, 0.0),
+            (&Flat, &punch, true, 0.0),
+            (&Flat, &spline, true, 0.0),
+            (&Flat, &Flat, true, 0.0),
+            (&Flat, &peak, false, 1.0),
+            (&groove, &parabola, false, 1.0),
+            (&Flat, &wavy, false, 0.0506),
+        ];
+        for (i, (lower, upper, bulges, lowest)) in cases.into_iter().enumerate() {
+            let (look, _) = look(lower, upper).unwrap();
+            assert_eq!(look.bulges(), bulges, "case {i}");
+            let found = look.lowest();
+            // The wave has two that are as low.
+            assert!((found.abs() - lowest).abs() < 2e-3, "case {i}: {found}");
+        }
+        // Of a spline the ends of the pieces are known.
+        assert_eq!(look(&Flat, &spline).unwrap().1.heights, 0);
+        assert_eq!(look(&Flat, &punch).unwrap().1.heights, 6);
+    }
+
+    #[test]
+    fn steep_ends_and_kinks_do_not_swing() {
+        let bodies: [(&str, Box<dyn ParametricProfile<f64>>, fn(f64) -> f64); 3] = [
+            ("circle", Box::new(Ellipse::circle(1.0, [-1.5707963, 1.5707963]).unwrap()), |x| {
+                1.0 - (1.0 - x * x).sqrt()
+            }),
+            (
+                "root",
+                Box::new(Curve::new([0.0, 1.0], |k: f64| CurvePoint {
+                    x: k * k,
+                    y: k,
+                    dx: 2.0 * k,
+                    dy: 1.0,
+                })),
+                f64::sqrt,
+            ),
+            (
+                "kink",
+                Box::new(Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
+                    x: k,
+                    y: (k - 0.1).max(0.0) * 50.0,
+                    dx: 1.0,
+                    dy: if k > 0.1 { 50.0 } else { 0.0 },
+                })),
+                |x| (x - 0.1).max(0.0) * 50.0,
+            ),
+        ];
+        for (name, body, exact) in &bodies {
+            let (look, _) = look(&Flat, &**body).unwrap();
+            let all = look.abscissae();
+            for pair in all.windows(2) {
+                let [low, high] = [exact(pair[0]), exact(pair[1])];
+                for share in [0.1, 0.3, 0.5, 0.7, 0.9] {
+                    let height = look.height(pair[0] + share * (pair[1] - pair[0]));
+                    let [low, high] = [low.min(high), low.max(high)];
+                    assert!(height >= low - 0.5 * (high - low) - 5e-4, "{name} {pair:?} {height}");
+                    assert!(height <= high + 0.5 * (high - low) + 5e-4, "{name} {pair:?} {height}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn faults_of_curves() {
+        let fault = |body: &dyn ParametricProfile<f64>| match look(&Flat, body) {
+            Err(ContactError::Profile { body: Body::Upper, source }) => source,
+            other => panic!("{other:?}"),
+        };
+        let closed = Curve::new([0.0, 6.0], |k: f64| CurvePoint {
+            x: -k.cos(),
+            y: -k.sin(),
+            dx: k.sin(),
+            dy: -k.cos(),
+        });
+        assert!(
+            matches!(fault(&closed), ProfileError::TurnsBack { k, .. } if (k - PI).abs() < 1e-9)
+        );
+        let hole = |from: f64, to: f64| {
+            Curve::new([-1.0, 1.0], move |k: f64| {
+                let y = if k > from && k < to { f64::NAN } else { k * k };
+                CurvePoint { x: k, y, dx: 1.0, dy: 2.0 * k }
+            })
+        };
+        assert!(
+            matches!(fault(&hole(0.2, 0.3)), ProfileError::NotFinite { quantity: "Y", k, .. } if k > 0.2 && k < 0.3)
+        );
+        let lost = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
+            x: if k.abs() < 0.1 { f64::NAN } else { k },
+            y: 0.0,
+            dx: 1.0,
+            dy: 0.0,
+        });
+        assert!(matches!(fault(&lost), ProfileError::NotFinite { quantity: "X", .. }));
+        // Outside of the other body, and where X stands still, it does not matter.
+        let short = Parabola::new(1.0, [-0.1, 0.1]).unwrap();
+        assert!(look(&short, &hole(0.2, 0.3)).is_ok());
+        let saturated = Curve::new([-1.0, 1.0], |k: f64| {
+            let x = (20.0 * k).tanh();
+            let dx = 20.0 - 20.0 * x * x;
+            CurvePoint { x, y: x * x, dx, dy: 2.0 * x * dx }
+        });
+        assert!(look(&Flat, &saturated).unwrap().0.lowest().abs() < 1e-6);
+        let infinite_at_its_end = crate::profile::Crowning::new(1.0, 1.0, [-0.9, 0.9])
+            .map(|body| look(&Flat, &body).is_ok());
+        assert!(infinite_at_its_end.is_ok_and(|fine| fine));
+    }
+
+    #[test]
+    fn single_precision() {
+        let parabola = Parabola::new(2.0f32, [-1.0, 1.0]).unwrap();
+        let (look, _) = look(&Flat, &parabola).unwrap();
+        assert!(look.bulges() && look.lowest().abs() < 1e-4);
+    }
+}
