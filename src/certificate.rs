@@ -88,7 +88,9 @@ pub(crate) fn certify<T: Real>(
     for (i, x) in [on.left, on.right].into_iter().enumerate() {
         let lifts = at_corner[i] && strengths[i] < -share * pressed;
         if lifts {
-            return Err(ContactError::Tension { x, pressure: -T::one() / T::zero() });
+            let (interval, load) = (on, found.load);
+            let pressure = -T::one() / T::zero();
+            return Err(ContactError::Tension { x, pressure, interval, load });
         }
     }
     // Bodies without an end, which are given by x itself, are followed for a million half-widths.
@@ -131,7 +133,8 @@ pub(crate) fn certify<T: Real>(
         closest = nearer(closest, side.closest);
     }
     if let Some(Place { x, value: gap }) = worst {
-        return Err(ContactError::Overlap { x, gap });
+        let (interval, load) = (on, found.load);
+        return Err(ContactError::Overlap { x, gap, interval, load });
     }
     Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + more })
 }

@@ -31,10 +31,10 @@ use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{Report, Solution, Start, Verdict};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
-pub(crate) use topology::Workspace;
-use topology::Sought;
 use goal::Goal;
 use std::sync::Arc;
+use topology::Sought;
+pub(crate) use topology::Workspace;
 
 /// Two bodies to be pressed together, and the way to find their contact.
 ///

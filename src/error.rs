@@ -420,3 +420,18 @@ pub enum ContactError<T: Real> {
         error: T,
     },
 }
+
+impl<T: Real> ContactError<T> {
+    /// Whether a search for one contact may fail like this because the bodies touch in several places.
+    pub(crate) fn may_be_several(&self) -> bool {
+        matches!(
+            self,
+            Self::NoFirstContact { .. }
+                | Self::TooShort { .. }
+                | Self::NoBalance { .. }
+                | Self::OutsideBodies { .. }
+                | Self::Overflow { .. }
+                | Self::LiftsOff { .. }
+        )
+    }
+}

@@ -116,8 +116,10 @@ impl<'p, T: Real> Integrals<'p, T> {
         while let Some((contact, whole, known)) = pending.pop() {
             let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
-            let halves =
-                [panel(contact, [from, middle], known, 1)?, panel(contact, [middle, to], known, 2)?];
+            let halves = [
+                panel(contact, [from, middle], known, 1)?,
+                panel(contact, [middle, to], known, 2)?,
+            ];
             let (one, view, _) = &views[contact];
             let noise = one.noise(view.place(middle, one.free).0);
             let mut agreed = true;

@@ -152,8 +152,9 @@ impl<T: Real> Solution<'_, T> {
         let at_x = at_x[0] * interval.edge_root(x);
         // PV∫ ds/((x - s) w(s)) is zero.
         // In the contact with x only: the others are regular.
-        let difference =
-            |own, distance: T, strength: T| [(if own { strength - at_x } else { strength }) / distance];
+        let difference = |own, distance: T, strength: T| {
+            [(if own { strength - at_x } else { strength }) / distance]
+        };
         let size = at_x.abs() / interval.half_width();
         let [sum] = integrals.over_as_of(size, x, difference)?;
         let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;

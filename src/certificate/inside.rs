@@ -30,12 +30,6 @@ struct Cell<T> {
     series: [T; NODES],
 }
 
-impl<T: Real> Place<T> {
-    fn tension(self) -> ContactError<T> {
-        ContactError::Tension { x: self.x, pressure: self.value }
-    }
-}
-
 /// A contact whose engine has been prepared.
 pub(super) struct Inside<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
@@ -47,6 +41,10 @@ pub(super) struct Inside<'c, T: Real> {
 }
 
 impl<T: Real> Inside<'_, T> {
+    fn tension(&self, Place { x, value: pressure }: Place<T>) -> ContactError<T> {
+        ContactError::Tension { x, pressure, interval: self.on, load: self.pressing.load }
+    }
+
     /// The least pressure found, negative only if it is less than what is allowed for; and where
     /// the ratio of the pressure to that under a smooth body is least.
     pub fn least(&self, cost: &mut Cost) -> Result<Place<T>, ContactError<T>> {
@@ -76,7 +74,9 @@ impl<T: Real> Inside<'_, T> {
                 if cells > MOST_CELLS {
                     // One place with tension is enough.
                     let seen = worst.get();
-                    return Err(seen.map_or_else(|| undecided(from, *cost), Place::tension));
+                    return Err(
+                        seen.map_or_else(|| undecided(from, *cost), |place| self.tension(place))
+                    );
                 }
                 let middle = T::of(0.5) * from + T::of(0.5) * to;
                 let Some(cell) = self.cell([from, to], cost)? else { continue };
@@ -111,7 +111,7 @@ impl<T: Real> Inside<'_, T> {
             }
         }
         match (worst.get(), ratio) {
-            (Some(place), _) => Err(place.tension()),
+            (Some(place), _) => Err(self.tension(place)),
             (None, Some(ratio)) => Ok(ratio),
             (None, None) => Err(undecided(on.centre(), *cost)),
         }

@@ -11,6 +11,9 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Engine, Pressing};
 use crate::{ContactError, Interval, Real};
 
+/// Steps to a least pressure between those that were looked at.
+const MOST_STEPS: usize = 4;
+
 /// The contacts of a solution, ready to be checked.
 pub(super) struct Check<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
@@ -67,9 +70,47 @@ impl<T: Real> Check<'_, T> {
         for (i, field) in fields.iter().enumerate() {
             let on = field.interval();
             let mean = field.load().abs() / on.half_width();
-            let allowed = self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
-            for (x, pressure) in Field::places(on).into_iter().zip(field.pressures()) {
-                meet(x, *pressure, allowed);
+            let allowed =
+                self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+            let (at, known) = (Field::places(on), field.pressures());
+            for (&x, &pressure) in at.iter().zip(known) {
+                meet(x, pressure, allowed);
+            }
+            // Between them, at the vertex of the parabola through each least value and its neighbours.
+            for i in 1..POINTS - 1 {
+                let [before, least, after] = [known[i - 1], known[i], known[i + 1]];
+                if !(least <= before && least <= after) {
+                    continue;
+                }
+                let (mut x, mut p) = ([at[i + 1], at[i], at[i - 1]], [after, least, before]);
+                for _ in 0..MOST_STEPS {
+                    let [one, two] = [x[1] - x[0], x[2] - x[1]];
+                    let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
+                    let bend = (rise - fall) / (one + two);
+                    let slope = (fall * two + rise * one) / (one + two);
+                    let vertex = x[1] - T::of(0.5) * slope / bend;
+                    let below = p[1] - T::of(0.25) * slope * slope / bend;
+                    // A least value that is far above nothing needs no closer look.
+                    let is_near = below < T::of(0.5) * p[1];
+                    if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
+                        break;
+                    }
+                    let mut pressure = [T::zero()];
+                    let cost = &mut Cost::default();
+                    self.engine.pressures(
+                        self.gap,
+                        &self.pressing(),
+                        &[vertex],
+                        &mut pressure,
+                        cost,
+                    )?;
+                    meet(vertex, pressure[0], allowed);
+                    (x, p) = if vertex < x[1] {
+                        ([x[0], vertex, x[1]], [p[0], pressure[0], p[1]])
+                    } else {
+                        ([x[1], vertex, x[2]], [p[1], pressure[0], p[2]])
+                    };
+                }
             }
             let mut places = [T::zero(); POINTS];
             let mut count = 0;
@@ -133,9 +174,11 @@ impl<T: Real> Check<'_, T> {
                     *from.insert((next, height, total(edge)))
                 }
             };
-            let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
+            let doubt =
+                fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
             let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
-            let allowed = doubt + self.share() * (height - at_edge).abs()
+            let allowed = doubt
+                + self.share() * (height - at_edge).abs()
                 + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
             if gap(height) >= -allowed {
                 continue;

@@ -37,6 +37,7 @@ pub(super) enum Outcome {
 /// What cuts a step short: a contact (even) or a gap (odd), by twice its number.
 type Place = usize;
 
+#[derive(Clone)]
 pub(super) struct Newton<T> {
     /// The contacts, from left to right.
     pub on: Vec<Interval<T>>,

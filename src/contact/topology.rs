@@ -6,7 +6,7 @@
 //! Newton's method finds [all limits](super::several) at once. Without adhesion a contact problem has one
 //! solution: what passes the checks is it, whatever the way there.
 
-use super::active_set::{NotFound, Scene, active_set};
+use super::active_set::{FIRST_CELLS, NotFound, Scene, active_set};
 use super::check::Check;
 use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
@@ -30,8 +30,9 @@ pub(crate) struct Workspace<T> {
     look: Option<(u64, FirstLook<T>)>,
     newton: Newton<T>,
     fields: Vec<Field<T>>,
-    /// The contacts last found.
+    /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
+    before: Vec<Interval<T>>,
     pub report: Report,
 }
 
@@ -42,6 +43,7 @@ impl<T: Real> Workspace<T> {
             newton: Newton::new(),
             fields: Vec::new(),
             last: Vec::new(),
+            before: Vec::new(),
             report: Report::new(),
         }
     }
@@ -159,7 +161,9 @@ impl<T: Real> Search<'_, '_, T> {
         let mut contact = self.contact.clone();
         if start == Start::LowestGap {
             let load = match self.sought {
-                Sought::By(Conditions { given: Given::Load(load), .. }) => Some(load / contact.kappa),
+                Sought::By(Conditions { given: Given::Load(load), .. }) => {
+                    Some(load / contact.kappa)
+                }
                 _ => None,
             };
             let look = self.workspace.look(&contact.gap, self.cost)?;
@@ -169,9 +173,7 @@ impl<T: Real> Search<'_, '_, T> {
             Sought::By(conditions) => {
                 approach::find(&contact, conditions, self.engine, last, self.cost)
             }
-            Sought::Peak(pressure) => {
-                peak::find(&contact, pressure, self.engine, last, self.cost)
-            }
+            Sought::Peak(pressure) => peak::find(&contact, pressure, self.engine, last, self.cost),
         }
     }
 
@@ -252,7 +254,8 @@ impl<T: Real> Search<'_, '_, T> {
             if start == Start::ActiveSet {
                 self.active_set(&conditions, fault.as_ref())?;
             }
-            let on = &mut self.workspace.newton.on;
+            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
+            before.clone_from(on);
             let last = on.len() - 1;
             let corners = [
                 fixed[0] || at_corner[0] && on[0].left <= ends[0],
@@ -281,7 +284,9 @@ impl<T: Real> Search<'_, '_, T> {
                 },
                 Err(outcome) => outcome,
             };
-            let on = &mut self.workspace.newton.on;
+            // Where the search has led without an end says little.
+            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
+            on.clone_from(before);
             let verdict = match outcome {
                 Outcome::Closed(i) => {
                     on[i].right = on.remove(i + 1).right;
@@ -328,9 +333,12 @@ impl<T: Real> Search<'_, '_, T> {
                 _ => {}
             }
         }
-        let Some(several) = panels::several_mut(self.engine) else { return Ok(Err(Outcome::Failed)) };
+        let Some(several) = panels::several_mut(self.engine) else {
+            return Ok(Err(Outcome::Failed));
+        };
         let load = conditions.load();
-        let outcome = newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends)?;
+        let outcome =
+            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends)?;
         if outcome != Outcome::Found {
             return Ok(Err(outcome));
         }
@@ -339,7 +347,8 @@ impl<T: Real> Search<'_, '_, T> {
         for (side, edge) in conditions.edges.iter().enumerate() {
             if corners[side] && strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
                 let last = newton.on.len() - 1;
-                let inward = T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
+                let inward =
+                    T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
                 match side {
                     0 => newton.on[0].left += inward,
                     _ => newton.on[last].right -= inward,
@@ -403,7 +412,8 @@ impl<T: Real> Search<'_, '_, T> {
             }
             _ => seeds.clear(),
         }
-        let scene = Scene { kappa, load, range, known: look.heights(), start: &seeds };
+        let cells = FIRST_CELLS;
+        let scene = Scene { kappa, load, range, cells, known: look.heights(), start: &seeds };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;

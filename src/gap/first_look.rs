@@ -6,7 +6,7 @@
 
 use super::{Cost, Gap, Surface};
 use crate::profile::{Piece, turning_point};
-use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+use crate::{Body, ContactError, CurvePoint, Interval, ProfileError, Real};
 
 /// Samples of a smooth body, its ends included.
 const OF_A_BODY: usize = 64;
@@ -26,6 +26,10 @@ pub(crate) struct FirstLook<T> {
     bodies: [Vec<Row<T>>; 2],
     /// Where both bodies are.
     range: [T; 2],
+    /// The gap wherever either body was sampled, by rising x.
+    heights: Vec<[T; 2]>,
+    lowest: T,
+    bulges: bool,
 }
 
 /// A sample. Where two pieces meet there is one for the slope on either side.
@@ -67,7 +71,12 @@ impl<T: Real> FirstLook<T> {
             });
             found.map_err(|source| ContactError::Profile { body, source })
         };
-        Ok(Self { bodies: [look(Body::Lower, cost)?, look(Body::Upper, cost)?], range })
+        let bodies = [look(Body::Lower, cost)?, look(Body::Upper, cost)?];
+        let mut look = Self { bodies, range, heights: Vec::new(), lowest: range[0], bulges: false };
+        let knots = look.knots();
+        look.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
+        (look.lowest, look.bulges) = (look.find_lowest(&knots), Self::find_bulging(&knots));
+        Ok(look)
     }
 
     /// The height of the gap `Y₂ - Y₁` at x, as it looks; beyond the bodies along their last tangents.
@@ -105,9 +114,46 @@ impl<T: Real> FirstLook<T> {
         all
     }
 
+    /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
+    pub fn heights(&self) -> &[[T; 2]] {
+        &self.heights
+    }
+
     /// The place of the lowest gap; the middle of it where that is a stretch.
     pub fn lowest(&self) -> T {
-        let knots = self.knots();
+        self.lowest
+    }
+
+    /// Whether the slope of the gap rises all along, as it looks and up to rounding: then nothing that
+    /// is seen speaks against a single contact.
+    pub fn bulges(&self) -> bool {
+        self.bulges
+    }
+
+    /// An interval about the lowest gap in which the bodies might touch under a load, that is F/κ: twice as
+    /// wide as the contact of a parabola that bends as they do there.
+    pub fn around_lowest(&self, load: Option<T>) -> Interval<T> {
+        let (x, half, two) = (self.lowest, T::of(0.5), T::of(2.0));
+        let [from, to] = self.range;
+        let next = self.heights.partition_point(|&[at, _]| at <= x);
+        let last = self.heights.len() - 1;
+        let beside = [next.saturating_sub(1), next.min(last)].map(|i| self.heights[i][0]);
+        let step = half * (beside[1] - beside[0]).max(T::epsilon() * (to - from));
+        let [left, right] = [(x - step).max(from), (x + step).min(to)];
+        let bend = (self.slope(right) - self.slope(left)) / (right - left);
+        let widest = T::of(0.25) * (to - from);
+        let reach = load.map_or(widest, |load| two * (two * load / bend).sqrt());
+        let reach = if reach <= widest { reach } else { widest };
+        // No further than half the way to an end, where the slope may be infinite.
+        let room = [half * (x - from), half * (to - x)].map(|room| reach.min(room));
+        let least = T::of(64.0) * T::epsilon() * (from.abs() + to.abs());
+        Interval {
+            left: (x - room[0].max(least)).max(from),
+            right: (x + room[1].max(least)).min(to),
+        }
+    }
+
+    fn find_lowest(&self, knots: &[Knot<T>]) -> T {
         let size = knots.iter().fold(T::zero(), |size, knot| size.max(knot.height.abs()));
         let rounding = T::of(8.0) * T::epsilon() * size;
         let mut lowest: Option<(T, [T; 2])> = None;
@@ -133,12 +179,10 @@ impl<T: Real> FirstLook<T> {
         if self.height(middle) <= self.height(from) + rounding { middle } else { from }
     }
 
-    /// Whether the slope of the gap rises all along, as it looks and up to rounding: then nothing that
-    /// is seen speaks against a single contact.
-    pub fn bulges(&self) -> bool {
+    fn find_bulging(knots: &[Knot<T>]) -> bool {
         let mut before: Option<(T, T)> = None;
         for (slope, doubt) in
-            self.knots().iter().flat_map(|knot| [0, 1].map(|i| (knot.slopes[i], knot.doubt)))
+            knots.iter().flat_map(|knot| [0, 1].map(|i| (knot.slopes[i], knot.doubt)))
         {
             let rises = |(last, other): (T, T)| slope >= last - doubt - other;
             if !before.is_none_or(rises) {
@@ -172,8 +216,8 @@ fn rows<T: Real>(
 ) -> Result<Vec<Row<T>>, ProfileError<T>> {
     let mut samples = Samples { rows: Vec::new(), range, k: Vec::new(), points: Vec::new() };
     let count = surface.len();
-    if let Surface::Smooth(piece) = surface {
-        samples.add(piece, OF_A_BODY, cost)?;
+    if surface.joined.is_none() {
+        samples.add(&surface.piece(0), OF_A_BODY, cost)?;
         return Ok(samples.rows);
     }
     let first = surface.index_at(range[0], super::Side::Left);

@@ -4,6 +4,7 @@
 
 use crate::Real;
 
+#[derive(Clone)]
 pub(crate) struct LinearSystem<T> {
     n: usize,
     /// The factors, row by row: below the diagonal those of the elimination.

@@ -222,6 +222,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
+        self.is_several = false;
         let range = gap.range();
         let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());

@@ -56,6 +56,7 @@ pub(crate) struct Several<T> {
 }
 
 /// The conditions on the free limits, from left to right, linearised.
+#[derive(Clone)]
 pub(crate) struct System<T> {
     /// By how much each condition fails.
     pub residual: Vec<T>,
