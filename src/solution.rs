@@ -113,9 +113,10 @@ impl<'b, T: Real> Solution<'b, T> {
             return Err(ContactError::Singular { x });
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
-        for ((edge, strength), free) in [on.left, on.right].into_iter().zip(strengths).zip(free) {
-            if !free && strength > rounding {
-                return Err(ContactError::Singular { x: edge });
+        // Where both edges are at fault it is the right one that is named.
+        for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
+            if !free[i] && strengths[i] > rounding {
+                return Err(ContactError::Singular { x });
             }
         }
         Ok(Peak { x, pressure })
