@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
 /// overlap outside: [`certify`](Self::certify) proves that they do not.
 ///
-/// It lives as long as the bodies, not the [`Contact`](crate::Contact) or the
+/// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
 /// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
 /// cheap.
 #[derive(Clone)]
