@@ -85,7 +85,8 @@ pub(crate) fn certify<T: Real>(
     let at_corner = [0, 1].map(|i| !free[i] && !adhesive[i] && at_end[i]);
     // With adhesion there may be no load.
     let pressed = strengths.iter().fold(mean, |max, strength| max.max(strength.abs()));
-    for (i, x) in [on.left, on.right].into_iter().enumerate() {
+    // Where both edges are at fault it is the right one that is named.
+    for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
         let lifts = at_corner[i] && strengths[i] < -share * pressed;
         if lifts {
             let (interval, load) = (on, found.load);

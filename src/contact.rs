@@ -231,17 +231,19 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { start: Some(interval), ..self }
     }
 
-    /// The strategy that inverts `X(k) = x`. Default [`Newton`].
+    /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`].
     pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
-    /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both.
+    /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both:
+    /// `&Brent::DEFAULT`, say.
     pub fn search(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { search: Some(strategy), ..self }
     }
 
-    /// The quadrature. Default [`Panels`].
+    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
+    /// that has solved with another takes up this one.
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }

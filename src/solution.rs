@@ -18,7 +18,7 @@ pub use report::{Report, Start, Trial, Verdict};
 /// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
 /// overlap outside: [`certify`](Self::certify) proves that they do not.
 ///
-/// It lives as long as the bodies, not the [`Contact`](crate::Contact) or the
+/// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
 /// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
 /// cheap.
 #[derive(Clone)]
@@ -132,9 +132,10 @@ impl<'b, T: Real> Solution<'b, T> {
             return Err(ContactError::Singular { x });
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
-        for ((edge, strength), free) in [on.left, on.right].into_iter().zip(strengths).zip(free) {
-            if !free && strength > rounding {
-                return Err(ContactError::Singular { x: edge });
+        // Where both edges are at fault it is the right one that is named.
+        for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
+            if !free[i] && strengths[i] > rounding {
+                return Err(ContactError::Singular { x });
             }
         }
         Ok(Peak { x, pressure })

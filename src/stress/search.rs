@@ -51,7 +51,8 @@ impl<T: Real> Subsurface<'_, T> {
     fn check_edges(&self) -> Result<(), ContactError<T>> {
         let (found, Interval { left, right }) = (self.solution.found(), self.interval());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
-        for (i, x) in [left, right].into_iter().enumerate() {
+        // Where both are it is the right one that is named.
+        for (i, x) in [left, right].into_iter().enumerate().rev() {
             if !found.free[i] && found.strengths[i].abs() > least {
                 return Err(ContactError::Singular { x });
             }

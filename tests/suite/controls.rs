@@ -171,7 +171,7 @@ fn a_width_by_a_search_takes_the_load_of_its_edges() {
     }
 }
 
-const SEARCH: Brent = Brent { tolerance: Tolerance::FULL };
+const SEARCH: Brent = Brent::DEFAULT;
 
 #[test]
 fn values_that_are_none() {

@@ -5,6 +5,7 @@ use crate::common;
 
 use common::{graph, join};
 use linecontact::quadrature::Quadrature;
+use linecontact::search::{Bisection, Brent, Newton, Secant};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Midpoint, Panels, ParametricProfile,
     Solution, Solver,
@@ -53,6 +54,25 @@ fn a_function_returns_the_solution_of_bodies_of_its_own() {
     let x = owned.a() + 0.1;
     assert_eq!(owned.gap_at(x).unwrap().to_bits(), lent.gap_at(x).unwrap().to_bits());
     assert_eq!(owned.certify().unwrap(), lent.certify().unwrap());
+}
+
+#[test]
+fn settings_outlive_the_function_that_sets_them() {
+    let scene = || -> Result<Contact<'static, f64>, ContactError<f64>> {
+        let contact = Contact::owned(Arc::new(Flat), Arc::new(arc(1.0)))?;
+        Ok(contact
+            .inversion(&Newton::DEFAULT)
+            .search(&Brent::DEFAULT)
+            .quadrature(&Midpoint::DEFAULT))
+    };
+    let plain = Contact::owned(Arc::new(Flat), Arc::new(arc(1.0))).unwrap();
+    let [set, plain] = [scene().unwrap(), plain].map(|of| of.solve(Control::Load(0.02)).unwrap());
+    assert!((set.a() / plain.a() - 1.0).abs() < 1e-13, "{set:?}");
+    assert!(set.cost().evaluations > plain.cost().evaluations, "{set:?}");
+    // All digits is what each does of itself, too.
+    assert_eq!((Brent::DEFAULT, Newton::DEFAULT), Default::default());
+    assert_eq!((Bisection::DEFAULT, Secant::DEFAULT), Default::default());
+    assert_eq!((Midpoint::DEFAULT, Panels::FULL), Default::default());
 }
 
 #[test]

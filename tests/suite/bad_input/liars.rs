@@ -225,7 +225,7 @@ fn quadratures_that_lie() {
         let contact = Contact::new(&Flat, &*upper).unwrap().quadrature(&lie);
         let fixed = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.2));
         let corner = contact.clone().edges(Edge::UpTo(-0.1), Edge::UpTo(0.2));
-        let by_brent = contact.clone().search(&Brent { tolerance: Tolerance::FULL });
+        let by_brent = contact.clone().search(&Brent::DEFAULT);
         for (how, contact) in
             [("free", &contact), ("corners", &corner), ("searched", &by_brent), ("fixed", &fixed)]
         {
