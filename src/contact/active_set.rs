@@ -272,7 +272,7 @@ impl<T: Real> ActiveSet<T> {
     fn take_up(&mut self, start: &[Interval<T>], height: Height<'_, T>) -> Result<(), NotFound<T>> {
         let start: Vec<_> = start.iter().map(Interval::plain).collect();
         let touched = |cell: &Cell<T>| {
-            let first = start.partition_point(|on| !(on.right > cell.left));
+            let first = start.partition_point(|on| on.right <= cell.left);
             start.get(first).copied().filter(|on| on.left < cell.right)
         };
         for _ in 0..MOST_CUTS {
@@ -404,7 +404,7 @@ impl<T: Real> ActiveSet<T> {
         for _ in 0..MOST_STEPS {
             let allowed = T::of(1e-4);
             // What is missed in a cell changes its force by as much.
-            if !(size > allowed * allowed * dot(&forces, &forces)) {
+            if size <= allowed * allowed * dot(&forces, &forces) {
                 break;
             }
             times(&way, &mut product);
@@ -640,12 +640,16 @@ mod tests {
         fn waves(&mut self, one: bool) -> Vec<[f64; 3]> {
             if one {
                 let (steep, length) = (10f64.powf(self.within(-1.7, 0.5)), self.within(0.15, 0.8));
-                return vec![[steep * length * length, 2.0 * PI / length, self.within(0.0, 6.28)]];
+                return vec![[
+                    steep * length * length,
+                    2.0 * PI / length,
+                    self.within(0.0, 2.0 * PI),
+                ]];
             }
             let size = 0.8 * 10f64.powf(self.within(-0.3, 1.2));
             let mut wave = |_| {
                 let k = self.within(3.0, 25.0);
-                [size * self.normal() / k / k, k, self.within(0.0, 6.28)]
+                [size * self.normal() / k / k, k, self.within(0.0, 2.0 * PI)]
             };
             (0..12).map(&mut wave).collect()
         }

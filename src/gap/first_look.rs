@@ -14,6 +14,9 @@ const OF_A_BODY: usize = 64;
 /// Samples of a piece of a joined body, its ends included.
 const OF_A_PIECE: usize = 4;
 
+/// Looks at a fifth of the way each, to come from a long body to where the other one is.
+const MOST_ZOOMS: usize = 5;
+
 /// Pieces from which on their ends, which are known, tell enough.
 const MANY_PIECES: usize = 64;
 
@@ -162,7 +165,7 @@ impl<T: Real> FirstLook<T> {
             Some((least, on)) if height <= *least + rounding && height >= *least - rounding => {
                 on[1] = x;
             }
-            Some((least, _)) if !(height < *least) => {}
+            Some((least, _)) if height > *least => {}
             lowest => *lowest = Some((height, [x, x])),
         };
         for (i, from) in knots.iter().enumerate() {
@@ -231,7 +234,7 @@ fn rows<T: Real>(
         // As where it is sampled.
         let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
         let apart = |end: T| if stride == 1 { (from - end).abs() >= allowed } else { from < end };
-        if !(from < to) || before.is_some_and(apart) {
+        if from >= to || before.is_some_and(apart) {
             return Err(ProfileError::Pieces { count, index });
         }
         before = Some(to);
@@ -256,20 +259,69 @@ impl<T: Real> Samples<T> {
         cost: &mut Cost,
     ) -> Result<(), ProfileError<T>> {
         let [from, to] = piece.x();
-        // Of a body without ends, such as a flat, all samples but one would lie far away.
-        let endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
-        let inside = if endless { 0 } else { count - 2 };
-        let span = piece.k[1] - piece.k[0];
         self.k.clear();
         self.k.push(piece.k[0]);
-        self.k
-            .extend((1..=inside).map(|i| piece.k[0] + span * (T::count(i) / T::count(inside + 1))));
-        self.k.push(piece.k[1]);
         self.points.clear();
-        self.points.resize(inside + 2, piece.ends[0]);
-        self.points[inside + 1] = piece.ends[1];
-        piece.curve.at_many(&self.k[1..=inside], &mut self.points[1..=inside]);
+        self.points.push(piece.ends[0]);
+        // Of a body without ends, such as a flat, all samples but one would lie far away.
+        let endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
+        let mut inside = if endless { 0 } else { count - 2 };
+        let long = count == OF_A_BODY
+            && !endless
+            && to - from > T::of(4.0) * (self.range[1] - self.range[0]);
+        let mut right = Vec::new();
+        if long {
+            for _ in 0..MOST_ZOOMS {
+                inside -= 4;
+                cost.heights = cost.heights.saturating_add(4);
+                if !self.zoom(piece, &mut right) {
+                    break;
+                }
+            }
+        }
+        let start = self.k.len() - 1;
+        let first = self.k[start];
+        let span = right.last().map_or(piece.k[1], |&(k, _)| k) - first;
+        self.k.extend((1..=inside).map(|i| first + span * (T::count(i) / T::count(inside + 1))));
+        self.points.resize(self.k.len(), piece.ends[0]);
+        piece.curve.at_many(&self.k[start + 1..], &mut self.points[start + 1..]);
         cost.heights = cost.heights.saturating_add(inside);
+        for (k, point) in right.into_iter().rev() {
+            self.k.push(k);
+            self.points.push(point);
+        }
+        self.k.push(piece.k[1]);
+        self.points.push(piece.ends[1]);
+        self.keep(piece)
+    }
+
+    /// Looks at four places between the last on the left and the last on the right, and moves on to
+    /// those closest around the range; whether that has brought them closer together by half.
+    fn zoom(&mut self, piece: &Piece<'_, T>, right: &mut Vec<(T, CurvePoint<T>)>) -> bool {
+        let first = self.k[self.k.len() - 1];
+        let span = right.last().map_or(piece.k[1], |&(k, _)| k) - first;
+        let (mut on_left, mut on_right) = (0, 5);
+        let probes = [1, 2, 3, 4].map(|i| {
+            let k = first + span * (T::count(i) / T::of(5.0));
+            let point = piece.curve.at(k);
+            if point.x <= self.range[0] {
+                on_left = i;
+            } else if point.x >= self.range[1] {
+                on_right = on_right.min(i);
+            }
+            (k, point)
+        });
+        for (k, point) in &probes[..on_left] {
+            self.k.push(*k);
+            self.points.push(*point);
+        }
+        right.extend(probes[on_left.max(on_right - 1)..].iter().rev());
+        on_right.saturating_sub(on_left) <= 2
+    }
+
+    /// Keeps what is seen of a piece.
+    fn keep(&mut self, piece: &Piece<'_, T>) -> Result<(), ProfileError<T>> {
+        let [from, to] = piece.x();
         let rounding = T::of(8.0) * T::epsilon() * from.abs().max(to.abs());
         let mut reached = from;
         for (i, &CurvePoint { x, y, dx, dy }) in self.points.iter().enumerate() {
@@ -284,7 +336,7 @@ impl<T: Real> Samples<T> {
             if x < reached - rounding || x > to + rounding {
                 // X turns where X' changes its sign, which may be far from where it first runs the wrong way.
                 let turns = |&j: &usize| self.points[j].dx * self.points[j + 1].dx < T::zero();
-                let j = (0..=inside).find(turns).unwrap_or(i.saturating_sub(1));
+                let j = (0..self.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
                 let [k, next] = [self.k[j], self.k[j + 1]];
                 let (k, x) = turning_point(piece.curve, k.min(next), k.max(next));
                 return Err(ProfileError::TurnsBack { k, x });
@@ -319,7 +371,7 @@ fn at<T: Real>(rows: &[Row<T>], x: T, right: bool) -> [T; 3] {
     };
     let knot = |row: &Row<T>| Knot { x: row.x, height: row.y, slopes: [row.slope; 2], doubt: zero };
     let segment = Segment::new(knot(from), knot(to));
-    if !(segment.width > zero) {
+    if segment.width <= zero {
         return [from.y, zero, zero];
     }
     let t = (x - from.x) / segment.width;
@@ -350,7 +402,7 @@ impl<T: Real> Segment<T> {
         let within = |bend: T, other: T| {
             let most = T::of(2.0) * other.abs();
             // Not a number where the slope is not known: as on a parabola.
-            if bend == bend { bend.max(-most).min(most) } else { other }
+            if bend.partial_cmp(&bend).is_some() { bend.max(-most).min(most) } else { other }
         };
         let bends = [within(first, second), within(second, first)];
         let usable = |bend: T| if bend.is_finite() { bend } else { T::zero() };
@@ -433,11 +485,13 @@ mod tests {
         let punch = rounded_punch(0.3, 0.5, 1.0).unwrap();
         let peak = wedge([0.1, -0.2], 1.0).unwrap();
         let groove = graph(|x| [x * x, 2.0 * x]);
-        let wavy = graph(|x| [x * x / 2.0 + 1e-4 * (60.0 * x).cos(), x - 6e-3 * (60.0 * x).sin()]);
+        let wavy =
+            graph(|x| [x * x / 2.0 + 6e-4 * (60.0 * x).cos(), x - 3.6e-2 * (60.0 * x).sin()]);
         let points: Vec<_> =
             (-200..=200).map(|i| 0.005 * f64::from(i)).map(|x| [x, x * x / 3.0 + 5.0]).collect();
         let spline = Spline::through(&points).unwrap();
-        let cases: [(&dyn ParametricProfile<f64>, &dyn ParametricProfile<f64>, bool, f64); 9] = [
+        type Body<'a> = &'a dyn ParametricProfile<f64>;
+        let cases: [(Body, Body, bool, f64); 9] = [
             (&Flat, &parabola, true, 0.0),
             (&Flat, &round, true, 0.0),
             (&Flat, &v, true, 0.0),
@@ -446,7 +500,7 @@ mod tests {
             (&Flat, &Flat, true, 0.0),
             (&Flat, &peak, false, 1.0),
             (&groove, &parabola, false, 1.0),
-            (&Flat, &wavy, false, 0.0506),
+            (&Flat, &wavy, false, 0.033),
         ];
         for (i, (lower, upper, bulges, lowest)) in cases.into_iter().enumerate() {
             let (look, _) = look(lower, upper).unwrap();
@@ -462,8 +516,9 @@ mod tests {
 
     #[test]
     fn steep_ends_and_kinks_do_not_swing() {
-        let bodies: [(&str, Box<dyn ParametricProfile<f64>>, fn(f64) -> f64); 3] = [
-            ("circle", Box::new(Ellipse::circle(1.0, [-1.5707963, 1.5707963]).unwrap()), |x| {
+        type Body = (&'static str, Box<dyn ParametricProfile<f64>>, fn(f64) -> f64);
+        let bodies: [Body; 3] = [
+            ("circle", Box::new(Ellipse::circle(1.0, [-1e-8 - 1.57, 1e-8 + 1.57]).unwrap()), |x| {
                 1.0 - (1.0 - x * x).sqrt()
             }),
             (
@@ -498,6 +553,31 @@ mod tests {
                     assert!(height >= low - 0.5 * (high - low) - 5e-4, "{name} {pair:?} {height}");
                     assert!(height <= high + 0.5 * (high - low) + 5e-4, "{name} {pair:?} {height}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_body_is_sampled_where_the_other_one_is() {
+        for reach in [3.0f64, 100.0, 1000.0] {
+            let long = Curve::new([-reach, 2.0 * reach], |k: f64| CurvePoint {
+                x: k,
+                y: 1e-2 * (20.0 * k).cos(),
+                dx: 1.0,
+                dy: -0.2 * (20.0 * k).sin(),
+            });
+            let short = Parabola::new(1.0, [-0.5, 0.5]).unwrap();
+            for centre in [0.0, 2.5] {
+                let placement = crate::profile::Placement::default().shifted(centre, 0.0);
+                let short = crate::profile::Placed::new(short, placement).unwrap();
+                let (look, cost) = look(&long, &short).unwrap();
+                assert!(cost.heights <= 124, "{cost:?}");
+                for i in 0..=20 {
+                    let x = centre - 0.5 + 0.05 * f64::from(i);
+                    let height = (x - centre).powi(2) / 2.0 - 1e-2 * (20.0 * x).cos();
+                    assert!((look.height(x) - height).abs() < 1e-3, "{reach} {centre} {x}");
+                }
+                assert!(!look.bulges());
             }
         }
     }
