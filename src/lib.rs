@@ -84,12 +84,12 @@ pub use contact::{Contact, Control, Edge, EdgePressure};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
+pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
-pub use profile::{Piece, ProfileError, check_derivatives};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use quantities::LoadRates;
 pub use real::Real;
-pub use solution::{Peak, Pressure, Solution};
+pub use solution::{Peak, Pressure, Report, Solution, Start, Trial, Verdict};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;

@@ -133,7 +133,12 @@ impl<T: Real> Check<'_, T> {
             })?;
             look(&places[..count])?;
         }
-        Ok(worst)
+        // Beside a kink that nobody declared a value may be all doubt.
+        let Some([x, pressure]) = worst.filter(|[_, pressure]| pressure.is_finite()) else {
+            return Ok(worst);
+        };
+        let estimate = self.engine.estimate(self.gap, &self.pressing(), x, &mut Cost::default())?;
+        Ok((!(pressure + estimate.error >= T::zero())).then_some([x, pressure]))
     }
 
     /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of

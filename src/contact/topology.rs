@@ -27,7 +27,8 @@ const CLOSER: f64 = 0.01;
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, with the number of the gap that they are of.
-    look: Option<(u64, FirstLook<T>)>,
+    look: FirstLook<T>,
+    of: Option<u64>,
     newton: Newton<T>,
     fields: Vec<Field<T>>,
     /// The contacts last found, and those that Newton's method started from.
@@ -39,7 +40,8 @@ pub(crate) struct Workspace<T> {
 impl<T: Real> Workspace<T> {
     pub fn new() -> Self {
         Self {
-            look: None,
+            look: FirstLook::new(),
+            of: None,
             newton: Newton::new(),
             fields: Vec::new(),
             last: Vec::new(),
@@ -65,13 +67,12 @@ impl<T: Real> Workspace<T> {
         gap: &Gap<'_, T>,
         cost: &mut Cost,
     ) -> Result<&FirstLook<T>, ContactError<T>> {
-        if self.look.as_ref().is_none_or(|(of, _)| *of != gap.number()) {
-            self.look = Some((gap.number(), FirstLook::take(gap, cost)?));
+        if self.of != Some(gap.number()) {
+            self.of = None;
+            self.look.take(gap, cost)?;
+            self.of = Some(gap.number());
         }
-        match &self.look {
-            Some((_, look)) => Ok(look),
-            None => unreachable!("it has just been taken"),
-        }
+        Ok(&self.look)
     }
 }
 
@@ -93,7 +94,7 @@ pub(super) fn find<T: Real>(
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     let gap = &contact.gap;
-    let edges = contact.edges;
+    let edges = contact.checked_edges()?;
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let convex = gap.is_convex();
     let mut search = Search { contact, sought, engine, workspace, cost };
@@ -118,6 +119,7 @@ pub(super) fn find<T: Real>(
                 }
             },
             Err(error) if convex || !error.may_be_several() => return Err(error),
+            Err(error) if search.workspace.look(gap, search.cost)?.bulges() => return Err(error),
             Err(error) => {
                 search.workspace.report.add(start.0, Verdict::NotFound);
                 fault = Some(error);
@@ -202,9 +204,7 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let engine = own.as_deref().unwrap_or(&*self.engine);
         self.workspace.look(gap, self.cost)?;
-        let Workspace { look: Some((_, look)), fields, .. } = &mut *self.workspace else {
-            return Ok(None);
-        };
+        let Workspace { look, fields, .. } = &mut *self.workspace;
         let check = Check { gap, engine, kappa, found };
         let (interval, load) = (found.interval, found.load);
         fields.clear();
@@ -381,9 +381,7 @@ impl<T: Real> Search<'_, '_, T> {
     ) -> Result<(), ContactError<T>> {
         let (gap, range) = (&self.contact.gap, self.contact.ends());
         self.workspace.look(gap, self.cost)?;
-        let Workspace { look: Some((_, look)), newton, .. } = &mut *self.workspace else {
-            return Ok(());
-        };
+        let Workspace { look, newton, .. } = &mut *self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let share = T::of(CLOSER);
         let mut seeds = std::mem::take(&mut newton.on);

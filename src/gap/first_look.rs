@@ -30,9 +30,20 @@ pub(crate) struct FirstLook<T> {
     /// Where both bodies are.
     range: [T; 2],
     /// The gap wherever either body was sampled, by rising x.
+    knots: Vec<Knot<T>>,
     heights: Vec<[T; 2]>,
     lowest: T,
     bulges: bool,
+    scratch: Scratch<T>,
+}
+
+/// Where a piece is looked at: parameters, the points there, and those found beside a short range on the
+/// right, from right to left.
+#[derive(Clone, Debug)]
+struct Scratch<T> {
+    k: Vec<T>,
+    points: Vec<CurvePoint<T>>,
+    right: Vec<(T, CurvePoint<T>)>,
 }
 
 /// A sample. Where two pieces meet there is one for the slope on either side.
@@ -61,25 +72,43 @@ impl<T: Real> FirstLook<T> {
     /// # Errors
     /// [`ContactError::Profile`] with [`ProfileError::NotFinite`], [`ProfileError::TurnsBack`] or
     /// [`ProfileError::Pieces`].
-    pub fn take(gap: &Gap<'_, T>, cost: &mut Cost) -> Result<Self, ContactError<T>> {
-        let range = gap.range();
-        let look = |body: Body, cost: &mut Cost| {
+    pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        self.range = gap.range();
+        for body in [Body::Lower, Body::Upper] {
             let surface = &gap.bodies[body as usize];
-            let found = rows(surface, range, cost).and_then(|rows| match rows.len() {
+            let rows = &mut self.bodies[body as usize];
+            rows.clear();
+            let mut samples = Samples { rows, range: self.range, scratch: &mut self.scratch };
+            let found = samples.look_at(surface, cost).and_then(|()| match samples.rows.len() {
                 0 => {
                     let (k, value) = (surface.piece(0).k[0], T::of(f64::NAN));
                     Err(ProfileError::NotFinite { quantity: "Y", k, value })
                 }
-                _ => Ok(rows),
+                _ => Ok(()),
             });
-            found.map_err(|source| ContactError::Profile { body, source })
-        };
-        let bodies = [look(Body::Lower, cost)?, look(Body::Upper, cost)?];
-        let mut look = Self { bodies, range, heights: Vec::new(), lowest: range[0], bulges: false };
-        let knots = look.knots();
-        look.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
-        (look.lowest, look.bulges) = (look.find_lowest(&knots), Self::find_bulging(&knots));
-        Ok(look)
+            found.map_err(|source| ContactError::Profile { body, source })?;
+        }
+        let mut knots = std::mem::take(&mut self.knots);
+        self.find_knots(&mut knots);
+        self.heights.clear();
+        self.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
+        (self.lowest, self.bulges) = (self.find_lowest(&knots), Self::find_bulging(&knots));
+        self.knots = knots;
+        Ok(())
+    }
+
+    /// Not taken yet.
+    pub fn new() -> Self {
+        let zero = T::zero();
+        Self {
+            bodies: [Vec::new(), Vec::new()],
+            range: [zero; 2],
+            knots: Vec::new(),
+            heights: Vec::new(),
+            lowest: zero,
+            bulges: false,
+            scratch: Scratch { k: Vec::new(), points: Vec::new(), right: Vec::new() },
+        }
     }
 
     /// The height of the gap `Y₂ - Y₁` at x, as it looks; beyond the bodies along their last tangents.
@@ -92,29 +121,6 @@ impl<T: Real> FirstLook<T> {
     pub fn slope(&self, x: T) -> T {
         let [lower, upper] = self.bodies.each_ref().map(|rows| at(rows, x, true)[1]);
         upper - lower
-    }
-
-    /// Where either body was sampled, in the range of both and with its ends: rising.
-    pub fn abscissae(&self) -> Vec<T> {
-        let [first, last] = self.range;
-        let mut all = vec![first];
-        let [mut lower, mut upper] = self.bodies.each_ref().map(|rows| {
-            rows.iter().map(|row| row.x).filter(move |&x| x > first && x < last).peekable()
-        });
-        loop {
-            let next = match (lower.peek(), upper.peek()) {
-                (Some(&one), Some(&other)) if other < one => upper.next(),
-                (Some(_), _) => lower.next(),
-                (None, _) => upper.next(),
-            };
-            match next {
-                Some(x) if all.last().is_some_and(|&last| x > last) => all.push(x),
-                Some(_) => {}
-                None => break,
-            }
-        }
-        all.push(last);
-        all
     }
 
     /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
@@ -199,58 +205,77 @@ impl<T: Real> FirstLook<T> {
         true
     }
 
-    fn knots(&self) -> Vec<Knot<T>> {
-        let knot = |x| {
+    /// The gap where either body was sampled, in the range of both and with its ends.
+    fn find_knots(&self, knots: &mut Vec<Knot<T>>) {
+        knots.clear();
+        let [first, last] = self.range;
+        let mut add = |x: T| {
+            if knots.last().is_some_and(|knot| x <= knot.x) {
+                return;
+            }
             let [lower, upper] =
                 self.bodies.each_ref().map(|rows| [false, true].map(|right| at(rows, x, right)));
             let slopes = [0, 1].map(|side| upper[side][1] - lower[side][1]);
             let doubt = [lower, upper].iter().flatten().fold(T::zero(), |sum, at| sum + at[2]);
-            Knot { x, height: upper[1][0] - lower[1][0], slopes, doubt }
+            knots.push(Knot { x, height: upper[1][0] - lower[1][0], slopes, doubt });
         };
-        self.abscissae().into_iter().map(knot).collect()
+        add(first);
+        let [mut lower, mut upper] = self.bodies.each_ref().map(|rows| {
+            rows.iter().map(|row| row.x).filter(move |&x| x > first && x < last).peekable()
+        });
+        loop {
+            let next = match (lower.peek(), upper.peek()) {
+                (Some(&one), Some(&other)) if other < one => upper.next(),
+                (Some(_), _) => lower.next(),
+                (None, _) => upper.next(),
+            };
+            match next {
+                Some(x) => add(x),
+                None => break,
+            }
+        }
+        add(last);
     }
 }
 
 /// The samples of a body, by rising x.
-fn rows<T: Real>(
-    surface: &Surface<'_, T>,
+struct Samples<'s, T> {
+    rows: &'s mut Vec<Row<T>>,
     range: [T; 2],
-    cost: &mut Cost,
-) -> Result<Vec<Row<T>>, ProfileError<T>> {
-    let mut samples = Samples { rows: Vec::new(), range, k: Vec::new(), points: Vec::new() };
-    let count = surface.len();
-    if surface.joined.is_none() {
-        samples.add(&surface.piece(0), OF_A_BODY, cost)?;
-        return Ok(samples.rows);
-    }
-    let first = surface.index_at(range[0], super::Side::Left);
-    let last = surface.index_at(range[1], super::Side::Right);
-    let stride = 1 + (last.max(first) - first) / MOST_PIECES;
-    let each = if last.max(first) - first < MANY_PIECES { OF_A_PIECE } else { 2 };
-    let mut before: Option<T> = None;
-    for index in (first..=last).step_by(stride) {
-        let piece = surface.piece(index);
-        let [from, to] = piece.x();
-        // As where it is sampled.
-        let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
-        let apart = |end: T| if stride == 1 { (from - end).abs() >= allowed } else { from < end };
-        if from >= to || before.is_some_and(apart) {
-            return Err(ProfileError::Pieces { count, index });
+    scratch: &'s mut Scratch<T>,
+}
+
+impl<T: Real> Samples<'_, T> {
+    fn look_at(
+        &mut self,
+        surface: &Surface<'_, T>,
+        cost: &mut Cost,
+    ) -> Result<(), ProfileError<T>> {
+        let (count, range) = (surface.len(), self.range);
+        if surface.joined.is_none() {
+            return self.add(&surface.piece(0), OF_A_BODY, cost);
         }
-        before = Some(to);
-        samples.add(&piece, each, cost)?;
+        let first = surface.index_at(range[0], super::Side::Left);
+        let last = surface.index_at(range[1], super::Side::Right);
+        let stride = 1 + (last.max(first) - first) / MOST_PIECES;
+        let each = if last.max(first) - first < MANY_PIECES { OF_A_PIECE } else { 2 };
+        let mut before: Option<T> = None;
+        for index in (first..=last).step_by(stride) {
+            let piece = surface.piece(index);
+            let [from, to] = piece.x();
+            // As where it is sampled.
+            let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
+            let apart =
+                |end: T| if stride == 1 { (from - end).abs() >= allowed } else { from < end };
+            if from >= to || before.is_some_and(apart) {
+                return Err(ProfileError::Pieces { count, index });
+            }
+            before = Some(to);
+            self.add(&piece, each, cost)?;
+        }
+        Ok(())
     }
-    Ok(samples.rows)
-}
 
-struct Samples<T> {
-    rows: Vec<Row<T>>,
-    range: [T; 2],
-    k: Vec<T>,
-    points: Vec<CurvePoint<T>>,
-}
-
-impl<T: Real> Samples<T> {
     /// Looks at a piece, at so many parameters.
     fn add(
         &mut self,
@@ -259,47 +284,49 @@ impl<T: Real> Samples<T> {
         cost: &mut Cost,
     ) -> Result<(), ProfileError<T>> {
         let [from, to] = piece.x();
-        self.k.clear();
-        self.k.push(piece.k[0]);
-        self.points.clear();
-        self.points.push(piece.ends[0]);
+        self.scratch.k.clear();
+        self.scratch.k.push(piece.k[0]);
+        self.scratch.points.clear();
+        self.scratch.points.push(piece.ends[0]);
         // Of a body without ends, such as a flat, all samples but one would lie far away.
         let endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
         let mut inside = if endless { 0 } else { count - 2 };
         let long = count == OF_A_BODY
             && !endless
             && to - from > T::of(4.0) * (self.range[1] - self.range[0]);
-        let mut right = Vec::new();
+        self.scratch.right.clear();
         if long {
             for _ in 0..MOST_ZOOMS {
                 inside -= 4;
                 cost.heights = cost.heights.saturating_add(4);
-                if !self.zoom(piece, &mut right) {
+                if !self.zoom(piece) {
                     break;
                 }
             }
         }
-        let start = self.k.len() - 1;
-        let first = self.k[start];
-        let span = right.last().map_or(piece.k[1], |&(k, _)| k) - first;
-        self.k.extend((1..=inside).map(|i| first + span * (T::count(i) / T::count(inside + 1))));
-        self.points.resize(self.k.len(), piece.ends[0]);
-        piece.curve.at_many(&self.k[start + 1..], &mut self.points[start + 1..]);
+        let start = self.scratch.k.len() - 1;
+        let first = self.scratch.k[start];
+        let span = self.scratch.right.last().map_or(piece.k[1], |&(k, _)| k) - first;
+        self.scratch
+            .k
+            .extend((1..=inside).map(|i| first + span * (T::count(i) / T::count(inside + 1))));
+        self.scratch.points.resize(self.scratch.k.len(), piece.ends[0]);
+        piece.curve.at_many(&self.scratch.k[start + 1..], &mut self.scratch.points[start + 1..]);
         cost.heights = cost.heights.saturating_add(inside);
-        for (k, point) in right.into_iter().rev() {
-            self.k.push(k);
-            self.points.push(point);
+        while let Some((k, point)) = self.scratch.right.pop() {
+            self.scratch.k.push(k);
+            self.scratch.points.push(point);
         }
-        self.k.push(piece.k[1]);
-        self.points.push(piece.ends[1]);
+        self.scratch.k.push(piece.k[1]);
+        self.scratch.points.push(piece.ends[1]);
         self.keep(piece)
     }
 
     /// Looks at four places between the last on the left and the last on the right, and moves on to
     /// those closest around the range; whether that has brought them closer together by half.
-    fn zoom(&mut self, piece: &Piece<'_, T>, right: &mut Vec<(T, CurvePoint<T>)>) -> bool {
-        let first = self.k[self.k.len() - 1];
-        let span = right.last().map_or(piece.k[1], |&(k, _)| k) - first;
+    fn zoom(&mut self, piece: &Piece<'_, T>) -> bool {
+        let first = self.scratch.k[self.scratch.k.len() - 1];
+        let span = self.scratch.right.last().map_or(piece.k[1], |&(k, _)| k) - first;
         let (mut on_left, mut on_right) = (0, 5);
         let probes = [1, 2, 3, 4].map(|i| {
             let k = first + span * (T::count(i) / T::of(5.0));
@@ -312,10 +339,10 @@ impl<T: Real> Samples<T> {
             (k, point)
         });
         for (k, point) in &probes[..on_left] {
-            self.k.push(*k);
-            self.points.push(*point);
+            self.scratch.k.push(*k);
+            self.scratch.points.push(*point);
         }
-        right.extend(probes[on_left.max(on_right - 1)..].iter().rev());
+        self.scratch.right.extend(probes[on_left.max(on_right - 1)..].iter().rev());
         on_right.saturating_sub(on_left) <= 2
     }
 
@@ -324,9 +351,11 @@ impl<T: Real> Samples<T> {
         let [from, to] = piece.x();
         let rounding = T::of(8.0) * T::epsilon() * from.abs().max(to.abs());
         let mut reached = from;
-        for (i, &CurvePoint { x, y, dx, dy }) in self.points.iter().enumerate() {
-            let next = || self.points[i..].iter().map(|point| point.x).find(|x| x.is_finite());
-            let fault = |quantity, value| ProfileError::NotFinite { quantity, k: self.k[i], value };
+        for (i, &CurvePoint { x, y, dx, dy }) in self.scratch.points.iter().enumerate() {
+            let next =
+                || self.scratch.points[i..].iter().map(|point| point.x).find(|x| x.is_finite());
+            let fault =
+                |quantity, value| ProfileError::NotFinite { quantity, k: self.scratch.k[i], value };
             if !x.is_finite() {
                 if reached < self.range[1] && next().is_none_or(|next| next > self.range[0]) {
                     return Err(fault("X", x));
@@ -335,9 +364,11 @@ impl<T: Real> Samples<T> {
             }
             if x < reached - rounding || x > to + rounding {
                 // X turns where X' changes its sign, which may be far from where it first runs the wrong way.
-                let turns = |&j: &usize| self.points[j].dx * self.points[j + 1].dx < T::zero();
-                let j = (0..self.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
-                let [k, next] = [self.k[j], self.k[j + 1]];
+                let turns = |&j: &usize| {
+                    self.scratch.points[j].dx * self.scratch.points[j + 1].dx < T::zero()
+                };
+                let j = (0..self.scratch.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
+                let [k, next] = [self.scratch.k[j], self.scratch.k[j + 1]];
                 let (k, x) = turning_point(piece.curve, k.min(next), k.max(next));
                 return Err(ProfileError::TurnsBack { k, x });
             }
@@ -436,6 +467,7 @@ impl<T: Real> Segment<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::Shape;
     use crate::profile::{Ellipse, Parabola, Spline, rounded_punch, wedge};
     use crate::search::Newton;
     use crate::{Curve, Flat, ParametricProfile};
@@ -448,7 +480,8 @@ mod tests {
         upper: &dyn ParametricProfile<T>,
     ) -> Result<(FirstLook<T>, Cost), ContactError<T>> {
         let mut cost = Cost::default();
-        let look = FirstLook::take(&Gap::new(lower, upper, &NEWTON)?, &mut cost)?;
+        let mut look = FirstLook::new();
+        look.take(&Gap::new(Shape::Lent(lower), Shape::Lent(upper), &NEWTON)?, &mut cost)?;
         Ok((look, cost))
     }
 
@@ -473,7 +506,7 @@ mod tests {
             assert!((look.slope(x) - shift.sinh()).abs() < 2e-5, "{x}");
         }
         assert!((look.lowest() - 0.1234).abs() < 1e-5 && look.bulges());
-        let all = look.abscissae();
+        let all: Vec<_> = look.heights().iter().map(|&[x, _]| x).collect();
         assert!(all.len() == 64 && all.windows(2).all(|pair| pair[0] < pair[1]));
     }
 
@@ -544,7 +577,7 @@ mod tests {
         ];
         for (name, body, exact) in &bodies {
             let (look, _) = look(&Flat, &**body).unwrap();
-            let all = look.abscissae();
+            let all: Vec<_> = look.heights().iter().map(|&[x, _]| x).collect();
             for pair in all.windows(2) {
                 let [low, high] = [exact(pair[0]), exact(pair[1])];
                 for share in [0.1, 0.3, 0.5, 0.7, 0.9] {

@@ -151,9 +151,10 @@ fn the_papers_example_3_takes_few_calls() {
     let want = reference("paper_example_3_scale_one");
     assert_relative_eq!(solution.a(), want.a, epsilon = 0.0, max_relative = 2e-11);
     assert_relative_eq!(solution.b(), want.b, epsilon = 0.0, max_relative = 2e-11);
-    let calls = calls.load(Ordering::Relaxed);
-    println!("{calls} calls, {} of them by solve", solution.cost().evaluations);
-    assert!(calls <= 32, "{calls}");
+    let (calls, cost) = (calls.load(Ordering::Relaxed), solution.cost());
+    println!("{calls} calls, {cost:?} of them by solve");
+    assert_eq!(calls, cost.evaluations + cost.heights);
+    assert!(cost.evaluations <= 32 && cost.heights <= 2 * 64, "{cost:?}");
 }
 
 #[test]

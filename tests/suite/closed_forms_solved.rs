@@ -18,6 +18,8 @@ fn the_solver_agrees_with_them() {
         let body = body(&*form, -reach, reach).unwrap_or_else(|e| panic!("{name}: {e}"));
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).expect(&name).kappa(KAPPA).edges(left, right);
+        // Its body ends where the wave has its trough, and would touch there as well.
+        let contact = contact.single_interval(name == "cosine 0.7");
         let solution = contact.solve(Control::Load(load)).expect(&name);
         let (got, l) = (solution.interval(), want.half_width());
         let limits = [got.right - want.right, got.left - want.left].map(|d| d.abs() / l);

@@ -143,6 +143,8 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
 fn on_parabola(load: f64, radius: f64, left: Edge<f64>, right: Edge<f64>) -> [f64; 4] {
     let body = Quadratic([0.0, 1.0 / radius, 0.0]).body(-4.0, 4.0);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
+    // The conditions at the edges, whatever their signs.
+    let contact = contact.single_interval(true);
     let solution = contact.solve(Control::Load(load)).unwrap();
     let on = solution.interval();
     let x = on.left + 0.3 * (on.right - on.left);
@@ -314,7 +316,7 @@ fn a_corner_and_an_adhesive_edge() {
 #[test]
 fn adhesion_of_no_work_is_none() {
     let body = Quadratic([-0.02, 1.0, 0.4]).body(-0.8, 0.8);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
     let none = Edge::Adhesive(0.0);
     for other in [Edge::Free, none, Edge::Fixed(0.3)] {
         let without =

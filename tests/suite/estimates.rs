@@ -261,7 +261,7 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
 #[test]
 fn a_load_next_to_nothing_leaves_no_doubt() {
     let (body, brent) = (parabola(2.0), Brent::default());
-    let scene = Contact::new(&Flat, &*body).unwrap();
+    let scene = Contact::new(&Flat, &*body).unwrap().single_interval(true);
     for contact in
         [scene.clone().search(&brent), scene.clone().quadrature(&Midpoint::DEFAULT), scene]
     {

@@ -42,6 +42,7 @@ fn a_width_beside_a_fixed_edge() {
 fn a_width_beside_a_fixed_edge_is_exact() {
     let tip = wedge([-0.25, 1.75], 1.0).unwrap();
     let contact = Contact::new(&Flat, &tip).unwrap().edges(Edge::Fixed(-0.5), Edge::Free);
+    let contact = contact.single_interval(true);
     let solution = contact.solve(Control::HalfWidth(0.25)).unwrap();
     assert_eq!(solution.interval(), Interval { left: -0.5, right: 0.0 });
     assert_relative_eq!(solution.load(), -0.0625, epsilon = 0.0, max_relative = 1e-14);

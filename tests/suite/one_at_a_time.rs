@@ -73,7 +73,7 @@ fn every_pair_of_edges() {
     for (pair, counts) in pairs.into_iter().zip(&mut found) {
         for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
-            let contact = contact.edges(pair[0], pair[1]).search(&**strategy);
+            let contact = contact.edges(pair[0], pair[1]).search(&**strategy).single_interval(true);
             let started = contact.clone().start(Interval { left: -0.2, right: 0.5 });
             for (contact, load) in [
                 (&contact, Control::Load(0.2)),
@@ -167,6 +167,7 @@ fn up_to_the_most_that_a_gap_bears() {
             for half_width in [0.25, 1e-3, 0.15] {
                 let start = Interval { left: place - 1.01 * half_width, right: place + half_width };
                 let contact = Contact::new(&Flat, &*body).unwrap().search(&**strategy).start(start);
+                let contact = contact.single_interval(true);
                 let by_rule = contact.clone().quadrature(&RULE);
                 let other = by_rule.solve(Control::Load(load));
                 match contact.solve(Control::Load(load)) {

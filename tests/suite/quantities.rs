@@ -45,6 +45,7 @@ fn moments_of_closed_forms() {
         let body = body(&*form, -reach, reach).unwrap();
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
+        let contact = contact.single_interval(name == "cosine 0.7");
         let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
         let (got, want) = (solution.moment().unwrap(), moment(&*form));
         let force = solution.load().abs().max(KAPPA * on.half_width() * 1e-3);
