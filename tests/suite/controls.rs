@@ -5,7 +5,7 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{Profile, graph, paper, parabola, power, reference};
-use linecontact::search::{Brent, Tolerance};
+use linecontact::search::Brent;
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
 use std::f64::consts::PI;
 
