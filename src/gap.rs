@@ -120,6 +120,7 @@ impl<'b, T: Real> Surface<'b, T> {
 
     /// The first joint to the right of `x`.
     fn joint_after(&self, x: T) -> Option<T> {
+        self.joined?;
         let index = self.index_at(x, Side::Right);
         let end = self.piece(index).ends[1].x;
         (index + 1 < self.len() && end > x).then_some(end)
@@ -127,6 +128,7 @@ impl<'b, T: Real> Surface<'b, T> {
 
     /// The last joint to the left of `x`.
     fn joint_before(&self, x: T) -> Option<T> {
+        self.joined?;
         let index = self.index_at(x, Side::Left);
         let start = index.checked_sub(1).map(|before| self.piece(before).ends[1].x);
         start.filter(|&start| start < x)
