@@ -1,18 +1,23 @@
-use linecontact::reference::*;
 use linecontact::*;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 fn main() {
-    let form = Cosine::new(0.1f64, 2.0, 0.7).unwrap();
-    let b = body(&form, -1.0, 1.0).unwrap();
-    let contact = Contact::new(&Flat, &b).unwrap().kappa(1.0).single_interval(true);
-    let s = contact.solve(Control::Load(form.load(1.0))).unwrap();
-    for x in [0.71, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0] {
-        println!(
-            "{x} gap {:?} slope {:?} h {} g {}",
-            s.gap_at(x),
-            s.gap_slope(x),
-            form.height(x),
-            form.slope(x)
-        );
+    let calls = AtomicUsize::new(0);
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        calls.fetch_add(1, Relaxed);
+        CurvePoint { x: k + k * k * k, y: k * k / 2.0, dx: 1.0 + 3.0 * k * k, dy: k }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let rule = Midpoint { segments: 32, ..Midpoint::DEFAULT };
+    for contact in [
+        contact.clone(),
+        contact.clone().quadrature(&rule),
+        contact.clone().single_interval(true),
+        contact.clone().quadrature(&rule).single_interval(true),
+    ] {
+        for c in [Control::PeakPressure(0.05), Control::Load(0.05)] {
+            let before = calls.load(Relaxed);
+            let cost = contact.solve(c).unwrap().cost();
+            println!("{c:?} {cost:?} {}", calls.load(Relaxed) - before);
+        }
     }
-    println!("{:?}", s.certify());
 }

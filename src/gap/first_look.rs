@@ -91,6 +91,7 @@ impl<T: Real> FirstLook<T> {
         let mut knots = std::mem::take(&mut self.knots);
         self.find_knots(&mut knots);
         self.heights.clear();
+        self.heights.reserve(knots.capacity());
         self.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
         (self.lowest, self.bulges) = (self.find_lowest(&knots), Self::find_bulging(&knots));
         self.knots = knots;
@@ -208,6 +209,8 @@ impl<T: Real> FirstLook<T> {
     /// The gap where either body was sampled, in the range of both and with its ends.
     fn find_knots(&self, knots: &mut Vec<Knot<T>>) {
         knots.clear();
+        // As many as there may be for these bodies, wherever they are moved.
+        knots.reserve(self.bodies[0].len() + self.bodies[1].len() + 2);
         let [first, last] = self.range;
         let mut add = |x: T| {
             if knots.last().is_some_and(|knot| x <= knot.x) {

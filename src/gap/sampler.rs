@@ -5,7 +5,7 @@
 //! two or three evaluations each.
 
 use super::{Cost, Gap, Side};
-use crate::profile::Piece;
+use crate::profile::{Convexity, Piece};
 use crate::search::{Bracket, Root, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
@@ -67,6 +67,13 @@ impl<T: Real> Sampler<T> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
+            // A level body is as high everywhere.
+            if piece.curve.convexity() == Convexity::Straight
+                && piece.curve.slope_at(x) == Some(T::zero())
+            {
+                *height = piece.ends[0].y;
+                continue;
+            }
             let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
             // What the inversion has left, and what it may have left at an end.
             let missed = x - point.x;
