@@ -149,8 +149,11 @@ impl<T: Real> Search<'_, '_, T> {
         if self.contact.start.is_some() {
             return Ok((Start::Given, None));
         }
-        if !convex && !self.workspace.look(&self.contact.gap, self.cost)?.bulges() {
-            return Ok((Start::LowestGap, None));
+        if !convex {
+            let look = self.workspace.look(&self.contact.gap, self.cost)?;
+            if !look.bulges() && !look.is_one_valley() {
+                return Ok((Start::LowestGap, None));
+            }
         }
         Ok((Start::Middle, None))
     }

@@ -23,6 +23,12 @@ const MANY_PIECES: usize = 64;
 /// Pieces up to which each is looked at; of more, as many of them evenly.
 const MOST_PIECES: usize = 1 << 16;
 
+/// Angles at which a slope is looked at for what a contact would bear.
+const ANGLES: usize = 8;
+
+/// How often an interval is halved until it bears less than a load.
+const MOST_HALVES: usize = 200;
+
 /// Heights and slopes of two bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct FirstLook<T> {
@@ -140,20 +146,41 @@ impl<T: Real> FirstLook<T> {
         self.bulges
     }
 
-    /// An interval about the lowest gap in which the bodies might touch under a load, that is F/κ: twice as
-    /// wide as the contact of a parabola that bends as they do there.
+    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks.
+    pub fn is_one_valley(&self) -> bool {
+        self.knots.windows(2).all(|pair| {
+            let [one, other] = [&pair[0], &pair[1]];
+            let rise = other.height - one.height;
+            let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
+            if other.x <= self.lowest {
+                rise <= rounding
+            } else {
+                one.x < self.lowest || rise >= -rounding
+            }
+        })
+    }
+
+    /// An interval about the lowest gap, somewhat wider than what would bear a load, that is F/κ, as it looks.
     pub fn around_lowest(&self, load: Option<T>) -> Interval<T> {
-        let (x, half, two) = (self.lowest, T::of(0.5), T::of(2.0));
+        let (x, half) = (self.lowest, T::of(0.5));
         let [from, to] = self.range;
-        let next = self.heights.partition_point(|&[at, _]| at <= x);
-        let last = self.heights.len() - 1;
-        let beside = [next.saturating_sub(1), next.min(last)].map(|i| self.heights[i][0]);
-        let step = half * (beside[1] - beside[0]).max(T::epsilon() * (to - from));
-        let [left, right] = [(x - step).max(from), (x + step).min(to)];
-        let bend = (self.slope(right) - self.slope(left)) / (right - left);
-        let widest = T::of(0.25) * (to - from);
-        let reach = load.map_or(widest, |load| two * (two * load / bend).sqrt());
-        let reach = if reach <= widest { reach } else { widest };
+        // F = (L/π) ∫ g cos θ dθ
+        let borne = |reach: T| {
+            let term = |sum: T, i: usize| {
+                let cosine = (T::pi() * (T::count(i) + half) / T::count(ANGLES)).cos();
+                sum + cosine * self.slope(x + reach * cosine)
+            };
+            reach * (0..ANGLES).fold(T::zero(), term) / T::count(ANGLES)
+        };
+        let mut reach = half * half * (to - from);
+        if let Some(load) = load {
+            for _ in 0..MOST_HALVES {
+                if borne(half * reach) < load {
+                    break;
+                }
+                reach *= half;
+            }
+        }
         // No further than half the way to an end, where the slope may be infinite.
         let room = [half * (x - from), half * (to - x)].map(|room| reach.min(room));
         let least = T::of(64.0) * T::epsilon() * (from.abs() + to.abs());

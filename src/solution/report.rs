@@ -26,7 +26,8 @@ pub struct Trial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Start {
-    /// In the middle of the bodies: they bulge towards each other, or look so.
+    /// From the middle of the bodies towards their lowest gap: they bulge towards each other, or look so, or
+    /// have but one low place.
     Middle,
     /// At the lowest gap between the bodies.
     LowestGap,
