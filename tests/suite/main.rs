@@ -38,6 +38,7 @@ mod references_f32;
 mod reuse;
 mod search_counts;
 mod searches;
+mod several_closed_forms;
 mod shapes;
 mod solver;
 mod spline;
