@@ -1,6 +1,8 @@
 //! All that is tested without features, as one program: the solver is compiled but once.
 #![allow(missing_docs)]
 
+#[path = "../common/boundary_elements.rs"]
+mod boundary_elements;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/forms.rs"]
@@ -28,6 +30,7 @@ mod held_widths;
 mod invariants;
 mod limits;
 mod one_at_a_time;
+mod oracle;
 mod peak;
 mod pieces;
 mod profiles;

@@ -3,6 +3,7 @@
 #![allow(missing_docs)]
 
 use crate::closed_forms::integral;
+use crate::common::several;
 use crate::forms::KAPPA;
 
 use approx::assert_relative_eq;
@@ -278,6 +279,34 @@ fn the_quartic() {
         }
     }
     assert_relative_eq!(at(20.0).load(kappa), 20.0, epsilon = 0.0, max_relative = 1e-15);
+}
+
+/// Solutions that were computed apart from this, in `tests/data/several`.
+#[test]
+fn they_agree_with_files() {
+    let kappa = PI / 2.0;
+    let hertz = Hertz::under_load(1.0, 0.05, kappa).unwrap();
+    let wedge = Wedge::under_load(0.1, 0.1, 0.03, kappa).unwrap();
+    let quartic = |load| Box::new(Quartic::under_load(1.0, 1.0, load, kappa).unwrap());
+    let forms: [(&str, Box<dyn ClosedForm<f64>>); 4] = [
+        ("map_T5_hertz", Box::new(PolynomialMap::new(hertz, 5, 2.0, 1.0).unwrap())),
+        ("map_T4_wedge", Box::new(PolynomialMap::new(wedge, 4, 1.0, 1.0).unwrap())),
+        ("quartic_F0_1", quartic(0.1)),
+        ("quartic_F3_0", quartic(3.0)),
+    ];
+    for (name, form) in forms {
+        let want = several(name);
+        assert_eq!(form.contacts().len(), want.contacts.len(), "{name}");
+        for (got, want) in form.contacts().iter().zip(&want.contacts) {
+            let off = (got.left - want.left).abs().max((got.right - want.right).abs());
+            assert!(off < 1e-14 * want.half_width().max(0.1), "{name}: {off:e}");
+        }
+        let largest = want.points.iter().fold(0.0f64, |most, point| most.max(point[1]));
+        for [x, pressure] in want.points {
+            let off = (form.pressure(x, kappa) - pressure).abs() / largest;
+            assert!(off < 1e-12, "{name}: P({x}) off by {off:e}");
+        }
+    }
 }
 
 #[test]
