@@ -37,6 +37,7 @@ mod profiles;
 mod pull_off;
 mod quadrature;
 mod quantities;
+mod random_scenes;
 mod references_f32;
 mod reuse;
 mod search_counts;

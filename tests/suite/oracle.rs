@@ -2,12 +2,12 @@
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{Oracle, height, solve};
-use crate::common::{graph, join, paper, parabola};
+use crate::common::{graph, join, paper, parabola, several};
 
-use linecontact::ParametricProfile;
 use linecontact::reference::{
     ClosedForm, Cosine, FlatPunch, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge,
 };
+use linecontact::{Interval, ParametricProfile};
 use std::f64::consts::PI;
 
 const KAPPA: f64 = 1.7;
@@ -80,6 +80,44 @@ fn it_agrees_with_closed_forms() {
         assert!(pressure < 2e-3, "{name}: {pressure}");
         assert!((oracle.load() / load - 1.0).abs() < 1e-9, "{name}: {}", oracle.load());
         assert!(oracle.gap.iter().all(|&gap| gap >= 0.0), "{name}");
+    }
+}
+
+/// Contacts without a closed form, found by other means: `tests/data/several`.
+#[test]
+fn it_agrees_with_files() {
+    type Height = fn(f64) -> f64;
+    let scenes: [(&str, f64, f64, Height); 3] = [
+        ("rough_parabola", 0.02, 2.0, |x| {
+            x * x / 2.0 + 0.01 * (9.0 * x + 0.4).cos() - 0.006 * (17.3 * x + 1.9).cos()
+                + 0.003 * (31.0 * x + 4.0).cos()
+        }),
+        ("wavy_parabola_5", 0.03, 2.0, |x| x * x / 2.0 + 0.012 * (20.0 * x + 0.3).cos()),
+        ("wavy_punch_one_corner", 0.05, 1.0, |x| -0.02 * (7.0 * x + 0.4).cos() + 0.02 * x),
+    ];
+    for (name, load, reach, height) in scenes {
+        let oracle = solve(&height, PI / 2.0, load, [-reach, reach], &[]).expect(name);
+        let want = several(name);
+        assert_eq!(oracle.contacts.len(), want.contacts.len(), "{name}");
+        assert_eq!(oracle.disagreement(&want.contacts), None, "{name}");
+        // And it does not agree with what is beside the contact, too large or incomplete.
+        for wrong in 0..want.contacts.len() {
+            let mut contacts = want.contacts.clone();
+            contacts[wrong].right += 2e-3 * contacts[wrong].half_width();
+            assert!(oracle.disagreement(&contacts).is_some(), "{name}");
+            contacts.remove(wrong);
+            assert!(oracle.disagreement(&contacts).is_some(), "{name}");
+        }
+        let hull = Interval {
+            left: want.contacts[0].left,
+            right: want.contacts[want.contacts.len() - 1].right,
+        };
+        assert!(oracle.disagreement(&[hull]).is_some(), "{name}");
+        for [x, pressure] in want.points {
+            let corner = (x.abs() - 1.0).abs() < 0.02;
+            let off = (oracle.at(x) - pressure).abs() / 0.2;
+            assert!(off < 2e-3 || corner, "{name}: P({x}) off by {off:e}");
+        }
     }
 }
 
