@@ -50,3 +50,4 @@ mod starts;
 mod stress;
 mod threads;
 mod undeclared;
+mod wrong_answers;
