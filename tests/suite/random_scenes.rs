@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// How far a limit may be off is the oracle's word; a pressure, in terms of the peak; an overlap, times
 /// κ, in terms of the load, to which the logarithms of the pressures add up.
-const PRESSURE: f64 = 0.02;
+const PRESSURE: f64 = 0.01;
 const OVERLAP: f64 = 3e-4;
 const TENSION: f64 = 1e-9;
 
@@ -121,7 +121,7 @@ fn scene(number: u64) -> Scene {
     let wave = |dice: &mut Dice, a, k| Wave { a, k, phase: dice.within(0.0, 2.0 * PI) };
     match kind {
         Kind::Rough => {
-            let rough = dice.power_of_ten(-0.3, 1.2);
+            let rough = dice.power_of_ten(0.0, 1.4);
             for _ in 0..12 {
                 let k = dice.within(3.0, 25.0);
                 let a = 0.8 * dice.normal() / (k * k) * rough;
@@ -130,12 +130,12 @@ fn scene(number: u64) -> Scene {
         }
         Kind::Wavy => {
             let length = dice.within(0.15, 0.8);
-            let a = dice.power_of_ten(-1.7, 0.5) * length * length;
+            let a = dice.power_of_ten(-1.4, 0.5) * length * length;
             gap.waves.push(wave(dice, a, 2.0 * PI / length));
         }
         Kind::Kinked | Kind::KinkedUndeclared => {
             let k = dice.within(3.0, 15.0);
-            let a = dice.power_of_ten(-0.7, 1.0) / (k * k);
+            let a = dice.power_of_ten(-0.3, 1.0) / (k * k);
             gap.waves.push(wave(dice, a, k));
             for _ in 0..1 + (dice.uniform() * 4.0) as usize {
                 // Two of three convex.
