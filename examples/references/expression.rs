@@ -50,7 +50,7 @@ fn without_exponents(text: &str) -> String {
     let (mut plain, mut rest) = (String::new(), text);
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
         let is_part = |(i, c): (usize, char)| {
-            let after_e = i > 0 && matches!(rest[start..].as_bytes()[i - 1], b'e' | b'E');
+            let after_e = i > 0 && matches!(rest.as_bytes()[start + i - 1], b'e' | b'E');
             c.is_ascii_digit() || c == '.' || matches!(c, 'e' | 'E') || after_e && "+-".contains(c)
         };
         let end = rest[start..].char_indices().find(|&at| !is_part(at)).map(|(i, _)| start + i);

@@ -102,7 +102,7 @@ impl Oracle {
                 let corner = ends.iter().any(|&end| (end - x).abs() < margin);
                 if inside.contains(x) && !kinks.iter().any(kink) && !corner {
                     let off = (at(x) - pressure).abs() / peak;
-                    if !(off <= worst[0]) {
+                    if off.is_nan() || off > worst[0] {
                         worst = [off, x];
                     }
                 }
@@ -270,7 +270,7 @@ fn gauss(system: &mut [f64], n: usize) -> Option<Vec<f64>> {
     for column in 0..n {
         let size = |row: &usize| system[row * width + column].abs();
         let pivot = (column..n).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        if !(size(&pivot) > 0.0) {
+        if size(&pivot) == 0.0 {
             return None;
         }
         if pivot != column {

@@ -5,7 +5,7 @@
 pub mod paper;
 
 use linecontact::{
-    Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise, Solution,
+    Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise, Real, Solution,
 };
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -52,7 +52,7 @@ pub fn reference(name: &str) -> Reference {
 }
 
 /// The contacts of a solution, from left to right.
-pub fn intervals(solution: &Solution<f64>) -> Vec<Interval<f64>> {
+pub fn intervals<T: Real>(solution: &Solution<T>) -> Vec<Interval<T>> {
     vec![solution.interval()]
 }
 

@@ -43,6 +43,7 @@ mod reuse;
 mod search_counts;
 mod searches;
 mod several_closed_forms;
+mod several_solved;
 mod shapes;
 mod solver;
 mod spline;

@@ -308,14 +308,16 @@ fn fault(
     for on in &contacts {
         for [x, weight] in quadrature(*on, &kinks) {
             let p = at(x)?;
-            if p.is_finite() && p != 0.0 {
+            if p.is_finite() {
                 places.push([x, p, weight]);
+            } else if !kinks.iter().any(|kink| (kink - x).abs() < 1e-6) {
+                return Ok(Some(format!("the pressure is {p} at {x:?}, where there is no kink")));
             }
         }
     }
     let finite = places.iter().map(|place| place[1]);
     let peak = finite.clone().fold(0.0, f64::max).min(10.0 * oracle.peak());
-    if let Some(least) = finite.reduce(f64::min).filter(|&least| !(least >= -TENSION * peak)) {
+    if let Some(least) = finite.reduce(f64::min).filter(|&least| least < -TENSION * peak) {
         return Ok(Some(format!("a pressure of {least:.2e}, the peak being {peak:.2e}")));
     }
     let load: f64 = places.iter().map(|[_, p, weight]| p * weight).sum();
@@ -327,12 +329,12 @@ fn fault(
     let values: Vec<f64> = oracle.x.iter().map(value).collect::<Result<_, _>>()?;
     let node = |x: f64| values[oracle.x.partition_point(|&node| node < x)];
     let [off, x] = oracle.pressure_off(&kinks, node);
-    if !(off <= PRESSURE) {
+    if off.is_nan() || off > PRESSURE {
         return Ok(Some(format!("P({x:?}) off by {off:.1e} of the peak")));
     }
     // κ times the gap and a constant, from these pressures alone.
     let gap = |x: f64| {
-        let others = places.iter().filter(|place| place[0] != x);
+        let others = places.iter().filter(|place| place[0] != x && place[1] != 0.0);
         let pressed = others.map(|[s, p, weight]| p * weight * (x - s).abs().ln());
         scene.kappa * scene.gap.at(x)[0] - pressed.sum::<f64>()
     };
@@ -341,7 +343,7 @@ fn fault(
     let outside = |x: &&f64| !contacts.iter().any(|on| (on.left..=on.right).contains(*x));
     for &x in oracle.x.iter().filter(outside) {
         let open = gap(x) - approach;
-        if !(open >= -OVERLAP * scene.load) {
+        if open.is_nan() || open < -OVERLAP * scene.load {
             let share = open / scene.load;
             return Ok(Some(format!("an overlap of {share:.1e} F/κ at {x:?}")));
         }
