@@ -15,10 +15,12 @@
 //! | [`Hyperbola`] | wedge with a rounded tip | limits to load |
 //! | [`Exponential`] | `eˣ - 1 - x` | limits to load |
 //! | [`Cosine`] | `1 - cos x`, one crest alone | limits to load |
-//! | [`Westergaard`] | `1 - cos x`, all crests at once: not one contact, apart from the others | both ways |
+//! | [`Quartic`] | `D ((x/r)² - 1)²`: two contacts, which merge | load to limits |
+//! | [`PolynomialMap`] | N contacts in a row, made of any form above but JKR | as that form |
+//! | [`Westergaard`] | `1 - cos x`, all crests at once, without end | both ways |
 //!
-//! Each but the last is one contact: a struct made from the body's parameters and the half-width of the contact
-//! (`new`) or the load on it (`under_load`). It answers through [`ClosedForm`]. What was published
+//! Each is a struct made from the body's parameters and the half-width of the contact (`new`) or the load on
+//! it (`under_load`). All but the last answer through [`ClosedForm`]. What was published
 //! elsewhere names its source; the rest follows from the two representations below, both of which
 //! are classical (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and
 //! Sackfield, *Mechanics of Elastic Contacts*, 1993; Barber, *Contact Mechanics*, 2018).
@@ -74,7 +76,9 @@ mod flat_punch;
 mod graph;
 mod hertz;
 mod jkr;
+mod polynomial_map;
 mod power_law;
+mod quartic;
 mod rounded_punch;
 pub(crate) mod special;
 mod unequal_radii;
@@ -90,7 +94,9 @@ pub use flat_punch::FlatPunch;
 pub use graph::{Graph, body};
 pub use hertz::Hertz;
 pub use jkr::Jkr;
+pub use polynomial_map::PolynomialMap;
 pub use power_law::PowerLaw;
+pub use quartic::Quartic;
 pub use rounded_punch::RoundedPunch;
 pub use unequal_radii::UnequalRadii;
 pub use wedge::Wedge;
@@ -100,18 +106,23 @@ use crate::{Edge, Interval, Real};
 use std::fmt::Debug;
 use thiserror::Error;
 
-/// A contact of a body on a flat that is known in closed form.
+/// A contact of a body on a flat, in one place or several, that is known in closed form.
 ///
 /// `x` and heights are lengths in one unit. `kappa` is κ = π E\*/2, a pressure; where the contact
 /// was made for a load, it is the κ that was given with it.
 pub trait ClosedForm<T: Real>: Debug + Send + Sync {
-    /// The contact `[-b, a]`.
+    /// The contact `[-b, a]`; where there are several, from the first limit to the last.
     fn limits(&self) -> Interval<T>;
 
-    /// Load per unit length F.
+    /// The contacts, from left to right: one, if nothing else is said.
+    fn contacts(&self) -> Vec<Interval<T>> {
+        vec![self.limits()]
+    }
+
+    /// Load per unit length F, of all contacts.
     fn load(&self, kappa: T) -> T;
 
-    /// The pressure `P(x)`: zero outside the contact, infinite at a sharp edge.
+    /// The pressure `P(x)`: zero outside the contact and between contacts, infinite at a sharp edge.
     fn pressure(&self, x: T, kappa: T) -> T;
 
     /// The height of the body above the flat before it is loaded, up to a constant.

@@ -26,7 +26,8 @@ impl<T: Number> Expression<T> {
         // exmex binds a sign closer than `**`. So there is none: at the very start of a formula or of
         // a parenthesis 0 in front makes it a difference, and after an operator it is a factor. One
         // in an exponent is a syntax error, as `-` is no unary operator below.
-        let mut text = format!("({})", text.replace(' ', "")).replace("(-", "(0-");
+        let text = without_exponents(&text.replace(' ', ""));
+        let mut text = format!("({text})").replace("(-", "(0-");
         for (sign, factor) in [("+-", "+(0-1)*"), ("--", "-(0-1)*"), ("/-", "/(0-1)/")] {
             text = text.replace(sign, factor);
         }
@@ -42,6 +43,27 @@ impl<T: Number> Expression<T> {
     pub fn at(&self, k: T) -> T {
         self.0.eval_relaxed(&[k]).expect("checked: k is the only variable")
     }
+}
+
+/// The same with `0.00001` for `1e-05`, which exmex does not read.
+fn without_exponents(text: &str) -> String {
+    let (mut plain, mut rest) = (String::new(), text);
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let is_part = |(i, c): (usize, char)| {
+            let after_e = i > 0 && matches!(rest.as_bytes()[start + i - 1], b'e' | b'E');
+            c.is_ascii_digit() || c == '.' || matches!(c, 'e' | 'E') || after_e && "+-".contains(c)
+        };
+        let end = rest[start..].char_indices().find(|&at| !is_part(at)).map(|(i, _)| start + i);
+        let (number, behind) = rest.split_at(end.unwrap_or(rest.len()));
+        let (before, digits) = number.split_at(start);
+        plain += before;
+        match digits.parse::<f64>() {
+            Ok(value) if digits.contains(['e', 'E']) => plain += &value.to_string(),
+            _ => plain += digits,
+        }
+        rest = behind;
+    }
+    plain + rest
 }
 
 /// The operators and functions that occur in the files.
@@ -72,6 +94,9 @@ impl<T: Number> MakeOperators<T> for Operators {
             unary("cosh", |a| a.cosh()),
             unary("tanh", |a| a.tanh()),
             unary("asin", |a| a.asin()),
+            unary("acos", |a| a.acos()),
+            unary("atan", |a| a.atan()),
+            unary("abs", |a| a.abs()),
         ]
     }
 }
@@ -98,6 +123,8 @@ mod tests {
         assert_eq!(value("2*-k", 3.0), -6.0);
         assert_eq!(value("k - -3/4 + -k**2", 3.0), -5.25);
         assert_eq!(value("8/-k*2", 4.0), -4.0);
+        assert_eq!(value("1e-05*k+2.5E+3-1e3/k", 4.0), 1e-5 * 4.0 + 2.5e3 - 1e3 / 4.0);
+        assert_eq!(value("exp(k)+3.25*2", 0.0), 7.5);
     }
 
     #[test]

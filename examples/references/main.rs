@@ -9,59 +9,100 @@
 //! of `a` and `b` as shares of the half-width; the largest relative error of the pressure and the
 //! highest floor, that is, what rounding and the noise of the formulas leave open; the cost.
 //! A file passes if every error is at most 1e-12 or, where that is more, 20 times the floor at
-//! that very point. The program fails if a file does.
+//! that very point; one with several contacts (`contact-reference-2`), by the tolerances that it gives, of
+//! the limits as shares of the width and of the pressure as one of the largest; one of which only a
+//! contact in several places is known, if boundary elements agree. Where an error is due, it
+//! must be of the variant that the file names, if it names one. The program fails if a file does.
+
+#[path = "../../tests/common/boundary_elements.rs"]
+mod boundary_elements;
 
 mod bodies;
 mod noise;
 mod reference;
 mod report;
+mod several;
 
 use bodies::{Body, BodyError};
+use boundary_elements::Oracle;
 use linecontact::{Contact, ContactError, Control, Cost, Edge};
-use reference::{Kind, Reference};
+use reference::{Kind, Reference, Several};
 use report::{Answer, Report};
 use std::error::Error;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The solver at work: all that depends on how it is called.
-fn solve(bodies: &[Body<f64>; 2], wanted: &Reference) -> Result<Answer, ContactError<f64>> {
+/// The solver at work: all that depends on how it is called. The pressures are asked for at some places.
+fn solve(
+    bodies: &[Body<f64>; 2],
+    wanted: &Reference,
+    places: &[f64],
+) -> Result<Answer, ContactError<f64>> {
     let mut contact = Contact::new(&*bodies[0], &*bodies[1])?.kappa(wanted.kappa);
     if let (Kind::Fixed, Some(on)) = (wanted.kind, wanted.limits) {
         contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
+    }
+    if let Some(Several { corners, .. }) = wanted.several {
+        let edge = |corner, x| if corner { Edge::Fixed(x) } else { Edge::Free };
+        let [left, right] = several::range(&*bodies[1]);
+        contact = contact.edges(edge(corners[0], left), edge(corners[1], right));
     }
     let solution = contact.solve(Control::Load(wanted.c / PI))?;
     if wanted.kind != Kind::Fixed {
         solution.certify()?;
     }
-    let (limits, cost) = (solution.interval(), solution.cost());
+    let (contacts, cost) = (several::contacts(&solution), solution.cost());
     let pressure = solution.pressure()?;
     let at = |x| pressure.estimate(x, &mut Cost::default()).map_err(|error| error.to_string());
-    let pressures = wanted.points.iter().map(|point| Ok(at(point.x)?.value)).collect();
-    Ok(Answer { limits, pressures, cost: cost + pressure.cost() })
+    let pressures = places.iter().map(|&x| Ok(at(x)?.value)).collect();
+    Ok(Answer { contacts, pressures, cost: cost + pressure.cost() })
 }
 
 /// What comes of a file. An error is one that the file itself is to blame for.
 fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let file = serde_json::from_str(&std::fs::read_to_string(path)?)?;
-    let reference = Reference::read(&file).ok_or("not a reference file")?;
-    let failed = |error: String| {
-        let expected = reference.kind == Kind::Error;
-        Ok(Report::of_error(&name, reference.kind_name.clone(), expected, error))
+    let reference =
+        Reference::read(&file).ok_or("not a reference file, or of a kind unknown here")?;
+    let failed = |error: String, variant: String| {
+        let expected = match reference.kind {
+            Kind::Error => reference.error.as_ref().is_none_or(|name| is_in(name, &variant)),
+            Kind::Unphysical => !several::SOLVED,
+            _ => false,
+        };
+        let unlike = reference.error.as_ref().filter(|_| !expected);
+        let said = unlike.map_or(String::new(), |name| format!(" (expected: {name})"));
+        let kind = reference.kind_name.clone();
+        Ok(Report::of_error(&name, kind, expected, error + &said))
     };
     let bodies = match bodies::bodies(&file) {
         Ok(bodies) => bodies,
-        Err(BodyError::Pieces(error)) => return failed(error.to_string()),
+        Err(BodyError::Pieces(error)) => return failed(error.to_string(), format!("{error:?}")),
         Err(error) => return Err(error.into()),
     };
-    let answer = match solve(&bodies, &reference) {
+    let mut places: Vec<_> = reference.points.iter().map(|point| point.x).collect();
+    let mut oracle = None;
+    if reference.kind == Kind::Unphysical {
+        let found = elements(&bodies, &reference).ok_or("the boundary elements do not settle")?;
+        places.clone_from(&found.x);
+        oracle = Some(found);
+    }
+    let answer = match solve(&bodies, &reference, &places) {
         Ok(answer) => answer,
-        Err(error) => return failed(error.to_string()),
+        Err(error) => return failed(error.to_string(), format!("{error:?}")),
     };
-    let on = reference.limits.unwrap_or(answer.limits);
-    let places: Vec<_> = reference.points.iter().map(|point| point.x).collect();
+    if let Some(oracle) = oracle {
+        return Ok(Report::of_elements(&name, &reference, &answer, &oracle, &reference.joints));
+    }
+    if let Some(several) = &reference.several {
+        return Ok(Report::of_several(&name, &reference, several, &answer));
+    }
+    if reference.kind == Kind::Error {
+        let said = "solved, but an error is expected".to_owned();
+        return Ok(Report::of_error(&name, reference.kind_name, false, said));
+    }
+    let on = reference.limits.ok_or("no limits")?;
     // Given edges enter the integral for the pressure with the root of both distances, and G with it.
     let weight =
         if reference.kind == Kind::Fixed { |angle: f64| angle.sin().powi(2) } else { |_| 1.0 };
@@ -70,15 +111,36 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
 }
 
+/// Whether a word is in what an error shows of itself: `Profile { body: Upper, source: TurnsBack { .. } }`.
+fn is_in(word: &str, shown: &str) -> bool {
+    shown.split(|c: char| !c.is_alphanumeric()).any(|part| part == word)
+}
+
+/// The contact by boundary elements.
+fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
+    let [lower, upper] = [&*bodies[0], &*bodies[1]];
+    let gap = |x| boundary_elements::height(upper, x) - boundary_elements::height(lower, x);
+    let [one, two] = [several::range(lower), several::range(upper)];
+    let range = [one[0].max(two[0]), one[1].min(two[1])];
+    boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.joints)
+}
+
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let given = std::env::args_os().nth(1).map(PathBuf::from);
-    let folder = given.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data"));
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let folders = match given {
+        Some(folder) => vec![folder],
+        None if several::SOLVED => vec![data.clone(), data.join("several")],
+        None => vec![data],
+    };
     let mut paths = Vec::new();
-    let named = |error| format!("{}: {error}", folder.display());
-    for entry in std::fs::read_dir(&folder).map_err(named)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "json") {
-            paths.push(path);
+    for folder in folders {
+        let named = |error| format!("{}: {error}", folder.display());
+        for entry in std::fs::read_dir(&folder).map_err(named)? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|extension| extension == "json") {
+                paths.push(path);
+            }
         }
     }
     paths.sort();

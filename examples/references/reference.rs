@@ -2,7 +2,7 @@
 
 use linecontact::Interval;
 use serde_json::Value;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What a solver should make of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,8 +11,24 @@ pub enum Kind {
     Contact,
     /// The pressure between limits that are given.
     Fixed,
-    /// An error: there is no solution, or none that is physical.
+    /// The limits of all contacts, and the pressure.
+    Several,
+    /// A contact in several places, of which the file says only that one interval is not enough.
+    Unphysical,
+    /// An error: there is no solution.
     Error,
+}
+
+/// What a file says of contacts in several places.
+pub struct Several {
+    /// From left to right.
+    pub contacts: Vec<Interval<f64>>,
+    /// Whether the outermost limit, on the left and on the right, is a corner that ends the upper body.
+    pub corners: [bool; 2],
+    /// The error of a limit that passes, as a share of the width of its contact.
+    pub of_width: f64,
+    /// The error of a pressure that passes, as a share of the largest.
+    pub of_largest: f64,
 }
 
 /// A solution of some 30 digits.
@@ -27,6 +43,12 @@ pub struct Reference {
     pub c: f64,
     /// `[-b, a]`, where there is a solution.
     pub limits: Option<Interval<f64>>,
+    /// What is known of several contacts.
+    pub several: Option<Several>,
+    /// The variant of the error that must come, where the file names it.
+    pub error: Option<String>,
+    /// The joints of both bodies.
+    pub joints: Vec<f64>,
     /// Joints that are no numbers of 64 bits, such as 1/3, rounded.
     pub rounded_joints: Vec<f64>,
     /// Points with a finite pressure that is not zero.
@@ -50,15 +72,31 @@ impl Reference {
         let kind = match &*kind_name {
             "contact" => Kind::Contact,
             "fixed_interval_unbounded_ends" => Kind::Fixed,
-            "single_interval_solution_is_unphysical" | "must_report_error" => Kind::Error,
+            "several_contacts" => Kind::Several,
+            "single_interval_solution_is_unphysical" => Kind::Unphysical,
+            "must_report_error" => Kind::Error,
             _ => return None,
         };
         let limits = match (number(&file["a"]), number(&file["b"])) {
             (Some(a), Some(b)) => Some(Interval { left: -b, right: a }),
-            _ if kind == Kind::Error => None,
-            _ => return None,
+            _ if matches!(kind, Kind::Contact | Kind::Fixed) => return None,
+            _ => None,
         };
         let list = |key: &str| file[key].as_array().map_or(&[][..], Vec::as_slice);
+        let several = if kind == Kind::Several {
+            let contact =
+                |on: &Value| Some(Interval { left: number(&on[0])?, right: number(&on[1])? });
+            let contacts: Vec<_> = list("limits").iter().map(contact).collect::<Option<_>>()?;
+            let corner = |i: usize| file["edges"][i] == "fixed";
+            let of_width = number(&file["tolerance_limits_per_width"])?;
+            let of_largest = number(&file["tolerance_pressure_per_max"])?;
+            if contacts.is_empty() {
+                return None;
+            }
+            Some(Several { contacts, corners: [corner(0), corner(1)], of_width, of_largest })
+        } else {
+            None
+        };
         let mut points = Vec::new();
         for (i, point) in list("points").iter().enumerate() {
             let amplification = list("points_amplification").get(i).and_then(number);
@@ -67,15 +105,19 @@ impl Reference {
                 points.push(Point { x, pressure, amplification });
             }
         }
-        let joints = list("breakpoints_x").iter().filter(|joint| !is_exact(joint));
-        let rounded_joints = joints.filter_map(number).collect();
+        let joints = list("breakpoints_x").iter().filter_map(number).collect();
+        let rounded = list("breakpoints_x").iter().filter(|joint| !is_exact(joint));
+        let rounded_joints = rounded.filter_map(number).collect();
         let kappa = number(&file["scale_value"]).or_else(|| scale(file["scale"].as_str()?))?;
         Some(Self {
             kind_name,
             kind,
             kappa,
-            c: number(&file["C"])?,
+            c: number(&file["C"]).or_else(|| Some(PI * number(&file["F"])?))?,
             limits,
+            several,
+            error: file["expected_error"].as_str().map(str::to_owned),
+            joints,
             rounded_joints,
             points,
         })
@@ -102,9 +144,9 @@ fn is_exact(value: &Value) -> bool {
     exact == value.as_str().map(trimmed)
 }
 
-/// A decimal in a string, correctly rounded.
+/// A decimal in a string, correctly rounded, or a number as it is.
 fn number(value: &Value) -> Option<f64> {
-    value.as_str()?.parse().ok()
+    value.as_f64().or_else(|| value.as_str()?.parse().ok())
 }
 
 #[cfg(test)]

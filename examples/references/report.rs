@@ -1,7 +1,8 @@
 //! Compares what the solver returns with the reference, and says it in a line.
 
+use crate::boundary_elements::Oracle;
 use crate::noise::Noise;
-use crate::reference::{Kind, Point, Reference};
+use crate::reference::{Kind, Point, Reference, Several};
 use linecontact::{Cost, Interval};
 use std::f64::consts::PI;
 
@@ -11,11 +12,13 @@ const WANTED: f64 = 1e-12;
 const MARGIN: f64 = 20.0;
 /// The unit of rounding.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
+/// How far a pressure may be off that of the boundary elements, as a share of the peak.
+const ELEMENTS: f64 = 0.01;
 
 /// What the solver returns for a file.
 pub struct Answer {
-    /// `[-b, a]`.
-    pub limits: Interval<f64>,
+    /// The contacts, from left to right.
+    pub contacts: Vec<Interval<f64>>,
     /// The pressures at the points of the file, or why there is none.
     pub pressures: Vec<Result<f64, String>>,
     /// What it took.
@@ -30,7 +33,8 @@ pub struct Report {
     pub kind: String,
     /// Whether it is as it must be.
     pub ok: bool,
-    /// Errors of `a` and `b`, each as a share of the half-width.
+    /// Errors of `a` and `b`, each as a share of the half-width; of several contacts the largest of all
+    /// limits, on the right and on the left, as shares of the width of each.
     limits: Option<[f64; 2]>,
     /// The largest relative error of a pressure, and the highest floor.
     pressure: Option<[f64; 2]>,
@@ -51,21 +55,98 @@ impl Report {
         let mut report = Self {
             name: name.to_owned(),
             kind: reference.kind_name.clone(),
-            ok: reference.kind != Kind::Error,
+            ok: true,
             limits: None,
             pressure: None,
             cost: Some(answer.cost),
             remarks: Vec::new(),
         };
-        if reference.kind == Kind::Error {
-            report.remarks.push("solved, but an error is expected".to_owned());
-        }
+        let [got] = answer.contacts[..] else {
+            report.fail(format!("{} contacts, but one is expected", answer.contacts.len()));
+            return report;
+        };
         let Some(on) = reference.limits else { return report };
         if reference.kind != Kind::Fixed {
-            report.compare_limits(on, answer.limits, noise);
+            report.compare_limits(on, got, noise);
         }
         report.compare_pressures(reference, on, &answer.pressures, noise);
         report
+    }
+
+    /// A file with several contacts that has been solved: within the tolerances that it gives.
+    pub fn of_several(name: &str, reference: &Reference, want: &Several, answer: &Answer) -> Self {
+        let mut report = Self::of_error(name, reference.kind_name.clone(), true, String::new());
+        report.remarks.clear();
+        report.cost = Some(answer.cost);
+        if want.contacts.len() == answer.contacts.len() {
+            let off = |i: usize, side: fn(Interval<f64>) -> f64| {
+                let (want, got) = (want.contacts[i], answer.contacts[i]);
+                (side(got) - side(want)).abs() / (want.right - want.left)
+            };
+            let largest = |side| {
+                let all = (0..want.contacts.len()).map(|i| off(i, side));
+                all.fold(0.0f64, |most, off| if off <= most { most } else { off })
+            };
+            let errors = [largest(|on| on.right), largest(|on| on.left)];
+            report.limits = Some(errors);
+            if !errors.iter().all(|&error| error <= want.of_width) {
+                report.fail(format!("limits: allowed {:.1e}", want.of_width));
+            }
+        } else {
+            let [want, got] = [&want.contacts, &answer.contacts].map(Vec::len);
+            report.fail(format!("contacts: {got}, but {want} are expected"));
+        }
+        let largest = reference.points.iter().fold(0.0f64, |most, p| most.max(p.pressure.abs()));
+        let mut worst = 0.0;
+        for (point, got) in reference.points.iter().zip(&answer.pressures) {
+            let off = got.as_ref().map_or(f64::NAN, |p| (p - point.pressure).abs() / largest);
+            if off <= worst {
+                continue;
+            }
+            worst = if off.is_nan() { f64::INFINITY } else { off };
+            if off.is_nan() || off > want.of_largest {
+                let why = got.as_ref().err().map_or(String::new(), |why| format!("; {why}"));
+                let allowed = want.of_largest;
+                report.fail(format!("P({:?}): off {off:.1e}, allowed {allowed:.1e}{why}", point.x));
+            }
+        }
+        report.pressure = Some([worst, want.of_largest]);
+        report
+    }
+
+    /// A file that says only that one interval is not enough, against boundary elements; `pressures` are at
+    /// the oracle's nodes.
+    pub fn of_elements(
+        name: &str,
+        reference: &Reference,
+        answer: &Answer,
+        oracle: &Oracle,
+        kinks: &[f64],
+    ) -> Self {
+        let mut report = Self::of_error(name, reference.kind_name.clone(), true, String::new());
+        report.remarks.clear();
+        report.cost = Some(answer.cost);
+        if let Some([x, error]) = oracle.disagreement(&answer.contacts) {
+            let known = &oracle.contacts;
+            report
+                .fail(format!("limit {x:?}: not within {error:.1e}; boundary elements: {known:?}"));
+        }
+        let at = |x: f64| {
+            let node = oracle.x.partition_point(|&node| node < x);
+            answer.pressures.get(node).and_then(|p| p.as_ref().ok()).map_or(f64::NAN, |&p| p)
+        };
+        let [off, x] = oracle.pressure_off(kinks, at);
+        report.pressure = Some([off, ELEMENTS]);
+        if off.is_nan() || off > ELEMENTS {
+            report.fail(format!("P({x:?}): off {off:.1e} of the peak of the boundary elements"));
+        }
+        report
+    }
+
+    /// Not as it must be, and why.
+    fn fail(&mut self, remark: String) {
+        self.ok = false;
+        self.remarks.push(remark);
     }
 
     fn compare_limits(&mut self, want: Interval<f64>, got: Interval<f64>, noise: &Noise) {
@@ -95,7 +176,7 @@ impl Report {
             let floor = floor(reference, i, on, noise);
             (largest, highest) = (largest.max(error), highest.max(floor));
             let (allowed, x) = (allowed(floor), point.x);
-            if error / allowed > worst && reference.kind != Kind::Error {
+            if error / allowed > worst {
                 worst = error / allowed;
                 self.ok = false;
                 let why = got.as_ref().err().map_or(String::new(), |why| format!("; {why}"));

@@ -4,7 +4,9 @@
 #[path = "../../examples/paper/curves.rs"]
 pub mod paper;
 
-use linecontact::{Contact, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
+use linecontact::{
+    Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise, Real, Solution,
+};
 use serde_json::Value;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -47,6 +49,31 @@ pub fn reference(name: &str) -> Reference {
         points: list("points").iter().map(|p| [number(&p[0]), number(&p[1])]).collect(),
         amplification: list("points_amplification").iter().map(number).collect(),
     }
+}
+
+/// The contacts of a solution, from left to right.
+pub fn intervals<T: Real>(solution: &Solution<T>) -> Vec<Interval<T>> {
+    solution.intervals().to_vec()
+}
+
+/// Contacts in several places, from `tests/data/several`.
+pub struct Several {
+    pub contacts: Vec<Interval<f64>>,
+    /// x and P(x).
+    pub points: Vec<[f64; 2]>,
+}
+
+pub fn several(name: &str) -> Several {
+    let path = format!("{}/tests/data/several/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let json: Value = serde_json::from_str(&text).expect("valid JSON");
+    let number = |v: &Value| v.as_str().expect("a decimal in a string").parse().expect("a number");
+    let pairs = |key: &str| -> Vec<[f64; 2]> {
+        let list = json[key].as_array().expect("a list");
+        list.iter().map(|pair| [number(&pair[0]), number(&pair[1])]).collect()
+    };
+    let contacts = pairs("limits").into_iter().map(|[left, right]| Interval { left, right });
+    Several { contacts: contacts.collect(), points: pairs("points") }
 }
 
 /// A scene with a reference solution: its name, its bodies, and the relative accuracy of the

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 
 /// An integral over the contact in θ, from panels that end at the edges, the joints and the pole:
 /// by the rule of Takahasi and Mori (tanh-sinh) on each.
-fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
+pub fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
     let angle = |x: f64| 2.0 * (limits.right - x).sqrt().atan2((x - limits.left).sqrt());
     let mut angles: Vec<f64> = ends.iter().map(|&x| angle(x)).collect();
     angles.extend([0.0, PI]);

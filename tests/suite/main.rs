@@ -1,6 +1,8 @@
 //! All that is tested without features, as one program: the solver is compiled but once.
 #![allow(missing_docs)]
 
+#[path = "../common/boundary_elements.rs"]
+mod boundary_elements;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/forms.rs"]
@@ -28,6 +30,7 @@ mod held_widths;
 mod invariants;
 mod limits;
 mod one_at_a_time;
+mod oracle;
 mod owned;
 mod peak;
 mod pieces;
@@ -35,10 +38,13 @@ mod profiles;
 mod pull_off;
 mod quadrature;
 mod quantities;
+mod random_scenes;
 mod references_f32;
 mod reuse;
 mod search_counts;
 mod searches;
+mod several_closed_forms;
+mod several_solved;
 mod shapes;
 mod solver;
 mod spline;
@@ -46,3 +52,4 @@ mod starts;
 mod stress;
 mod threads;
 mod undeclared;
+mod wrong_answers;

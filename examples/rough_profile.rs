@@ -1,0 +1,177 @@
+//! A rough roller on a flat, from light to heavy: how many places touch, and where.
+//!
+//! Run with `cargo run --release --example rough_profile`. The profile is measured points, made up
+//! here of a circle with four waves and the noise of the machine, smoothed by a `Spline`. Sixteen loads
+//! are solved by one `Solver`, each from the contact before. The pressures over the profile, and the
+//! number of contacts against the load, are drawn to `target/figures/rough_profile.svg`. Lengths in mm,
+//! pressures in MPa, loads in N/mm.
+//!
+//! As the load grows contacts are born and merge, and limits only move outwards (Buyarov and Rakhmanov,
+//! 1999): checked from each load to the next.
+
+use kuva::prelude::*;
+use linecontact::profile::{Fit, Spline};
+use linecontact::{Contact, Control, Cost, Flat, Interval, ParametricProfile, Solution, Solver};
+use std::error::Error;
+use std::f64::consts::PI;
+use std::fs;
+
+const RADIUS: f64 = 60.0;
+const MODULUS: f64 = 115e3;
+/// Length and height of each wave, and its phase.
+const WAVES: [[f64; 3]; 4] =
+    [[0.81, 0.6e-3, 0.4], [0.37, 0.3e-3, 1.9], [0.23, 0.17e-3, 4.0], [0.11, 0.06e-3, 2.2]];
+const NOISE: f64 = 0.02e-3; // standard deviation of the heights
+const POINTS: i32 = 600; // on either side, 5 micrometres apart
+const LOADS: [f64; 2] = [1.0, 4000.0];
+const COUNT: usize = 16;
+
+/// Whether the solver finds several contacts.
+const SEVERAL: bool = true;
+
+/// The contacts, from left to right.
+fn intervals(solution: &Solution<f64>) -> Vec<Interval<f64>> {
+    solution.intervals().to_vec()
+}
+
+/// What is kept of a solution.
+struct Pressed {
+    load: f64,
+    contacts: Vec<Interval<f64>>,
+    /// x and P(x) from the first limit to the last.
+    pressures: Vec<(f64, f64)>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    if !SEVERAL {
+        println!("several contacts are not solved yet");
+        return Ok(());
+    }
+    let body = Spline::fitted(&measurement(), Fit { noise: NOISE, ..Fit::default() })?;
+    let contact = Contact::new(&Flat, &body)?.contact_modulus(MODULUS);
+    let mut solver = Solver::new();
+    let mut all = Vec::with_capacity(COUNT);
+    println!("    F, N/mm  contacts  touching, mm  peak, MPa  evaluations");
+    for i in 0..COUNT {
+        let share = i as f64 / (COUNT - 1) as f64;
+        let load = LOADS[0] * (LOADS[1] / LOADS[0]).powf(share);
+        let solution = solver.solve(&contact, Control::Load(load))?;
+        let cost = solution.cost();
+        let pressed = pressed(load, &solution)?;
+        let touching: f64 = pressed.contacts.iter().map(|on| on.right - on.left).sum();
+        let peak = pressed.pressures.iter().fold(0.0, |peak, &(_, p)| p.max(peak));
+        let (count, evaluations) = (pressed.contacts.len(), cost.evaluations);
+        println!("{load:11.2} {count:9} {touching:13.4} {peak:10.1} {evaluations:12}");
+        all.push(pressed);
+    }
+    println!("{}", draw(&body, &all)?);
+    check(&body, &all);
+    Ok(())
+}
+
+/// The pressures of a solution, at places close to one another where a contact ends.
+fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error>> {
+    const PLACES: u32 = 200;
+    let (contacts, pressure) = (intervals(solution), solution.pressure()?);
+    let mut pressures = Vec::new();
+    for on in &contacts {
+        for i in (0..=PLACES).rev() {
+            let x = on.at_angle(PI * f64::from(i) / f64::from(PLACES));
+            pressures.push((x, pressure.estimate(x, &mut Cost::default())?.value));
+        }
+    }
+    Ok(Pressed { load, contacts, pressures })
+}
+
+/// What must be so, whatever the profile is.
+fn check(body: &Spline<f64>, all: &[Pressed]) {
+    let [from, to] = body.domain();
+    let heights = (0..=4000).map(|i| from + (to - from) * f64::from(i) / 4000.0);
+    let lowest = heights.min_by(|&a, &b| body.at(a).y.total_cmp(&body.at(b).y)).unwrap_or(f64::NAN);
+    let touches = |on: &Interval<f64>| on.left < lowest + 0.001 && lowest - 0.001 < on.right;
+    assert!(all[0].contacts.iter().any(touches), "the lowest point, {lowest}, does not touch");
+    for pair in all.windows(2) {
+        for light in &pair[0].contacts {
+            let rounding = 1e-9;
+            let within = |heavy: &Interval<f64>| {
+                heavy.left <= light.left + rounding && light.right <= heavy.right + rounding
+            };
+            assert!(pair[1].contacts.iter().any(within), "{light:?} at {} is lost", pair[0].load);
+        }
+    }
+    for Pressed { load, contacts, pressures } in all {
+        let peak = pressures.iter().fold(0.0, |peak: f64, &(_, p)| p.max(peak));
+        assert!(pressures.iter().all(|&(_, p)| p >= -1e-9 * peak), "a pull under {load}");
+        // The trapezoidal rule; between two contacts the pressure is zero.
+        let strip = |two: &[(f64, f64)]| 0.5 * (two[1].0 - two[0].0) * (two[0].1 + two[1].1);
+        let sum: f64 = pressures.windows(2).map(strip).sum();
+        assert!((sum / load - 1.0).abs() < 1e-3, "{sum} is not {load}");
+        assert!(contacts.windows(2).all(|two| two[0].right < two[1].left));
+    }
+    assert!(all.iter().any(|pressed| pressed.contacts.len() > 2), "not that rough, is it");
+    assert_eq!(all[COUNT - 1].contacts.len(), 1, "all pressed flat");
+}
+
+/// What a machine measures: x and y.
+fn measurement() -> Vec<[f64; 2]> {
+    let mut state = 1u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut point = |i: i32| {
+        let x = 0.005 * f64::from(i);
+        let wave =
+            |[length, height, phase]: [f64; 3]| height * (2.0 * PI * x / length + phase).cos();
+        let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let circle = RADIUS - (RADIUS * RADIUS - x * x).sqrt();
+        [x, circle + WAVES.into_iter().map(wave).sum::<f64>() + NOISE * normal]
+    };
+    (-POINTS..=POINTS).map(&mut point).collect()
+}
+
+/// Draws the pressures over the profile, and says where.
+fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<&'static str, Box<dyn Error>> {
+    let line = |points: Vec<(f64, f64)>, color: String| {
+        LinePlot::new().with_data(points).with_color(color).with_stroke_width(1.5)
+    };
+    let hull = |pressed: &Pressed| {
+        let last = pressed.contacts.len() - 1;
+        [pressed.contacts[0].left, pressed.contacts[last].right]
+    };
+    let [left, right] = hull(&all[all.len() - 1]);
+    let [left, right] = [left - 0.1, right + 0.1];
+    // From light blue to red.
+    let color = |i: usize| {
+        let mix = |from: usize, to: usize| (from * (COUNT - 1 - i) + to * i) / (COUNT - 1);
+        format!("#{:02x}{:02x}{:02x}", mix(130, 181), mix(180, 64), mix(230, 26))
+    };
+    let pressures: Vec<Plot> =
+        (0..all.len()).map(|i| line(all[i].pressures.clone(), color(i)).into()).collect();
+    let x = (0..=2000).map(|i| left + (right - left) * f64::from(i) / 2000.0);
+    let heights = x.map(|x| (x, 1e3 * body.at(x).y)).collect();
+    let profile: Vec<Plot> = vec![line(heights, "#333333".to_owned()).into()];
+    let counts = all.iter().map(|one| (one.load.log10(), one.contacts.len() as f64)).collect();
+    let counts: Vec<Plot> = vec![line(counts, color(0)).with_step().into()];
+
+    let over_x = |plots: &[Plot], title: &str, y: &str| {
+        let layout = Layout::auto_from_plots(plots).with_title(title).with_y_label(y);
+        layout.with_x_axis_min(left).with_x_axis_max(right).with_box_axes()
+    };
+    let layouts = vec![
+        over_x(&pressures, "Pressures under 1 to 4000 N/mm", "P / MPa").with_y_axis_min(0.0),
+        over_x(&profile, "The profile, over a flat below", "y / µm").with_x_label("x / mm"),
+        Layout::auto_from_plots(&counts)
+            .with_title("Places of contact")
+            .with_x_label("log₁₀ F, F in N/mm")
+            .with_y_label("number")
+            .with_y_axis_min(0.0)
+            .with_box_axes(),
+    ];
+    let figure = Figure::new(3, 1).with_plots(vec![pressures, profile, counts]);
+    let figure =
+        figure.with_layouts(layouts).with_cell_size(640.0, 260.0).with_row_height(0, 420.0);
+    fs::create_dir_all("target/figures")?;
+    fs::write("target/figures/rough_profile.svg", SvgBackend.render_scene(&figure.render()))?;
+    Ok("target/figures/rough_profile.svg")
+}

@@ -1,0 +1,548 @@
+//! What users and an independent oracle have found wrong: wrong answers without an error, errors that
+//! mislead, searches without end.
+//!
+//! Values that are said to be exact follow from the closed forms in the comments, or from the two
+//! conditions at the edges with mpmath in 30 digits.
+#![allow(missing_docs)]
+
+use crate::boundary_elements::{height, solve};
+use crate::common::{Counting, Profile, graph, intervals};
+
+use approx::assert_relative_eq;
+use linecontact::profile::{
+    Ellipse, Fit, Involute, Parabola, Placed, Placement, Spline, rounded_punch, wedge,
+};
+use linecontact::reference::{ClosedForm, RoundedPunch};
+use linecontact::{
+    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Flat, Interval, Panels,
+    ParametricProfile, ProfileError, Solution, Solver,
+};
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Asserts that a solution is what boundary elements make of the bodies.
+fn assert_contact(
+    name: &str,
+    bodies: [&dyn ParametricProfile<f64>; 2],
+    kappa: f64,
+    range: [f64; 2],
+    kinks: &[f64],
+    solution: &Solution<f64>,
+) {
+    let gap = |x: f64| height(bodies[1], x) - height(bodies[0], x);
+    let oracle = solve(&gap, kappa, solution.load(), range, kinks).expect("boundary elements");
+    let contacts = intervals(solution);
+    let differs = oracle.disagreement(&contacts);
+    assert_eq!(differs, None, "{name}: {contacts:?}, but {:?}", oracle.contacts);
+    let pressure = solution.pressure().expect(name);
+    let at = |x: f64| match contacts.iter().any(|on| on.contains(x)) {
+        true => pressure.estimate(x, &mut Cost::default()).map_or(f64::NAN, |p| p.value),
+        false => 0.0,
+    };
+    let [off, x] = oracle.pressure_off(kinks, at);
+    assert!(off < 0.01, "{name}: P({x}) off by {off:e} of the peak");
+}
+
+/// `|x/A|ⁿ + |1 - y/B|ⁿ = 1` by the polar angle from its lowest point.
+fn superellipse(along: f64, across: f64, n: f64) -> Profile {
+    Box::new(Curve::new([-0.6, 0.6], move |k: f64| {
+        let (sin, cos) = k.sin_cos();
+        let [one, two] = [(sin / along).abs(), cos / across];
+        let sum = one.powf(n) + two.powf(n);
+        let dsum =
+            one.powf(n - 1.0) * cos * sin.signum() / along - two.powf(n - 1.0) * sin / across;
+        let r = sum.powf(-1.0 / n);
+        let dr = -r * dsum / sum;
+        let (dx, dy) = (dr * sin + r * cos, r * sin - dr * cos);
+        CurvePoint { x: r * sin, y: across - r * cos, dx, dy }
+    }))
+}
+
+/// `first_hour`, A: a flat-bottomed body in a groove touches in two places; it was solved as one, with
+/// -157 MPa in its middle.
+#[test]
+#[ignore = "several contacts are not solved yet"]
+fn a_superellipse_in_a_groove() {
+    let modulus = 115e3;
+    let body = superellipse(10.0, 8.0, 2.5);
+    // The lower body is hollow.
+    let groove = graph(-5.0, 5.0, |x| {
+        let root = (1600.0 - x * x).sqrt();
+        [40.0 - root, x / root]
+    });
+    let contact = Contact::new(&*groove, &*body).unwrap().contact_modulus(modulus);
+    for (load, count) in [(20.0, 2), (500.0, 2), (1500.0, 1), (3000.0, 1)] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(intervals(&solution).len(), count, "{load}");
+        let on = solution.interval();
+        assert!((on.left + on.right).abs() < 1e-9, "{on:?}");
+        let name = format!("{load} N/mm");
+        let kappa = PI / 2.0 * modulus;
+        assert_contact(&name, [&*groove, &*body], kappa, [-4.9, 4.9], &[], &solution);
+        solution.certify().unwrap();
+    }
+}
+
+/// `first_hour`, A: `Fixed` corners that the load does not reach. K = (F/L - κ L/2)/π is negative there.
+#[test]
+#[ignore = "a fixed edge that would pull is returned as it is"]
+fn corners_that_the_load_does_not_reach() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
+    let error = contact.solve(Control::Load(0.01)).map(|s| s.interval()).unwrap_err();
+    assert!(error.to_string().contains("UpTo"), "{error}");
+    let enough = contact.solve(Control::Load(0.2)).unwrap();
+    assert_eq!(enough.interval(), Interval { left: -0.5, right: 0.5 });
+    let up_to = contact.clone().edges(Edge::UpTo(-0.5), Edge::UpTo(0.5));
+    let solution = up_to.solve(Control::Load(0.01)).unwrap();
+    assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
+}
+
+/// Measured points of a roller of radius 20 with a wave, and noise of 0.05 µm.
+fn measured(wave: f64) -> Vec<[f64; 2]> {
+    let mut state = 1u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let point = |i: i32| {
+        let x = 0.005 * f64::from(i);
+        let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let y = x * x / 40.0 + wave * (2.0 * PI / 0.7 * x + 1.0).cos() + 0.05e-3 * normal;
+        [x, y]
+    };
+    (-600..=600).map(point).collect()
+}
+
+/// `first_hour`, B: of 16 solves 9 were `Ok` at the wrong bump. 0.5 µm leave the body bulging, 3 µm do not.
+#[test]
+#[ignore = "the search starts in the middle of the bodies, not at the lowest gap; several contacts are not solved yet"]
+fn measured_rollers_with_waves() {
+    let modulus = 115e3;
+    for wave in [0.5e-3, 3e-3] {
+        let points = measured(wave);
+        for noise in [0.05e-3, 0.1e-3] {
+            let fit = Fit { noise, ..Fit::default() };
+            let body = Spline::fitted(&points, fit).unwrap();
+            let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(modulus);
+            for load in [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0] {
+                let name = format!("wave {wave}, noise {noise}, {load} N/mm");
+                let solution = contact.solve(Control::Load(load));
+                let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
+                let kappa = PI / 2.0 * modulus;
+                assert_contact(&name, [&Flat, &body], kappa, [-3.0, 3.0], &[], &solution);
+            }
+        }
+    }
+}
+
+/// x²/2 and a smooth rise of its slope: `s (1 - tanh²((x - x₀)/w))`, and its integral.
+fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
+    graph(-1.0, 1.0, move |x| {
+        let t = ((x - x0) / w).tanh();
+        [x * x / 2.0 + s * w * t, x + s * (1.0 - t * t)]
+    })
+}
+
+/// 1a: what the solve's own panels have missed is an error where the contact is certified, not `Ok`.
+#[test]
+#[ignore = "certify compares panels of its own, not those of the solve"]
+fn a_bump_of_the_slope_that_the_panels_miss() {
+    let cases = [
+        (
+            0.152304969,
+            0.001317286,
+            0.001118924,
+            0.0,
+            [0.199_987_243_451_778, 0.200_001_726_064_144],
+        ),
+        (0.138, 0.0194, 0.014, 1e-6, [0.197_838_024_568_720_8, 0.200_364_503_261_907]),
+    ];
+    for (x0, w, s, tolerance, [a, b]) in cases {
+        let body = with_a_bump(x0, w, s);
+        let panels = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels).certified(true);
+        match contact.solve(Control::Load(0.02)) {
+            Err(ContactError::Missed { x, .. }) => {
+                assert!((x - x0).abs() < 4.0 * w, "missed at {x}, but the bump is at {x0}");
+            }
+            Err(error) => panic!("{error}"),
+            Ok(solution) => {
+                let off = (solution.a() - a).abs().max((solution.b() - b).abs()) / 0.2;
+                let said = solution.limits_error().unwrap();
+                assert!(off < 10.0 * said + 1e-13, "{off:e}, but {said:e} is said: {solution:?}");
+            }
+        }
+    }
+}
+
+/// x²/2 or x²/8, whichever it is now.
+struct Turncoat(AtomicBool);
+
+impl ParametricProfile<f64> for Turncoat {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        let curvature = if self.0.load(Ordering::Relaxed) { 0.25 } else { 1.0 };
+        CurvePoint { x: k, y: curvature * k * k / 2.0, dx: 1.0, dy: curvature * k }
+    }
+}
+
+/// 1b: a body that is not the same any more: what a warm solver remembers is not what `certify` sees.
+#[test]
+#[ignore = "certify does not look at what is left at free edges"]
+fn a_body_that_changes_behind_the_solver() {
+    let body = Turncoat(AtomicBool::new(false));
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let mut solver = Solver::new();
+    let a = solver.solve(&contact, Control::Load(0.02)).unwrap().a();
+    assert_relative_eq!(a, 0.2, epsilon = 0.0, max_relative = 1e-14);
+    body.0.store(true, Ordering::Relaxed);
+    let solution = solver.solve(&contact, Control::Load(0.02)).unwrap();
+    let right = (solution.a() - 0.4).abs() < 1e-13;
+    assert!(right || solution.certify().is_err(), "certified: {solution:?}");
+}
+
+/// `Yⁿ⁺¹ - m x` from its own edge, x ≥ 0: the slope `(p + 1) x^p - m`.
+fn one_sided(p: f64, m: f64, reach: f64) -> Profile {
+    graph(0.0, reach, move |k| [k.powf(p + 1.0) - m * k, (p + 1.0) * k.powf(p) - m])
+}
+
+/// What it bears, and the half-width. The contact reaches the edge at x = 0 where the mean of
+/// `cos^2p(θ/2)` over θ, μ = Γ(p + 1/2)/(√π Γ(p + 1)), makes `(p + 1) (2L)^p μ = m`; then
+/// `F = κ L m p/(p + 1)`.
+fn one_sided_most(p: f64, m: f64, mu: f64) -> [f64; 2] {
+    let half_width = 0.5 * (m / ((p + 1.0) * mu)).powf(1.0 / p);
+    [half_width * m * p / (p + 1.0), half_width]
+}
+
+/// Asserts that more than the bodies bear is an error that says what they bear.
+fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, end: f64, rel: f64) {
+    match contact.solve(Control::Load(load)) {
+        Err(ContactError::TooShort { end: at, carried, .. }) => {
+            let off = carried / most - 1.0;
+            assert!(
+                off.abs() < rel,
+                "{name}, F = {load}: carried {carried:e}, but {most:e} is true"
+            );
+            assert!(
+                (at - end).abs() <= 1e-6 * end.abs(),
+                "{name}, F = {load}: end {at:e}, not {end:e}"
+            );
+        }
+        Err(error) => panic!("{name}, F = {load}: {error:?}"),
+        Ok(solution) => panic!("{name}, F = {load}: {solution:?}"),
+    }
+}
+
+/// 2: `x^1.5 - m x` bears π² m³/54, with L = π² m²/18; all above came back certified.
+#[test]
+#[ignore = "a search that balances nothing approves itself"]
+fn an_overloaded_body_is_an_error() {
+    for m in [1.0, 0.3, 0.1] {
+        let body = one_sided(0.5, m, 4.0);
+        let [most, half_width] = one_sided_most(0.5, m, 2.0 / PI);
+        assert_relative_eq!(most, PI * PI * m.powi(3) / 54.0, max_relative = 1e-14);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for load in [0.1832 / 0.182_77, 2.7, 5.5, 28.0, 1e3, 1e5] {
+            assert_too_short(&format!("m = {m}"), &contact, load * most, most, 0.0, 1e-9);
+        }
+        for step in 0..60 {
+            let load = 1.002 * most * 1e5f64.powf(f64::from(step) / 59.0);
+            assert_too_short(&format!("m = {m}"), &contact, load, most, 0.0, 1e-9);
+        }
+        for wide in [1.0 + 0.05 * m, 1.8, 2.7] {
+            let answer = contact.solve(Control::HalfWidth(wide * half_width));
+            assert!(answer.is_err(), "L = {wide} times the widest: {answer:?}");
+        }
+        // And what it does bear.
+        let solution = contact.solve(Control::Load(0.9 * most)).unwrap();
+        assert!(solution.limits_error().unwrap() < 1e-9, "{solution:?}");
+    }
+}
+
+/// 2: `y = k ln(k/p) - k` touches from 0 on with L = 2p, and bears 2p.
+#[test]
+#[ignore = "a search that balances nothing approves itself"]
+fn an_overloaded_logarithm_is_an_error() {
+    let p = 1e-3;
+    let body = graph(0.0, 2.0, move |k: f64| {
+        [if k == 0.0 { 0.0 } else { k * (k / p).ln() - k }, (k / p).ln()]
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for load in [2.1e-3, 0.01, 0.1, 1.0] {
+        assert_too_short("k ln k", &contact, load, 2.0 * p, 0.0, 1e-6);
+    }
+}
+
+/// 2: a gear's flank begins at the base circle.
+#[test]
+#[ignore = "a half-width that does not balance is returned as it is"]
+fn a_flank_is_not_pressed_beyond_its_beginning() {
+    for (origin, modulus, half_width) in [(1e-3, 2.0 / PI, 0.266), (1e-6, 115e3, 0.2)] {
+        let flank = Involute::new(50.0, origin, [0.0, 0.8]).unwrap();
+        let contact = Contact::new(&Flat, &flank).unwrap().contact_modulus(modulus);
+        let answer = contact.solve(Control::HalfWidth(half_width));
+        assert!(answer.is_err(), "{answer:?}");
+    }
+}
+
+/// 3a: what the bodies bear, and which end is reached, is the same whatever is asked. The wedge with slopes
+/// -m₁ and m₂ has its tip at φ = π m₁/(m₁ + m₂): a = L (1 - cos φ), F = L (m₁ + m₂) sin φ/π.
+#[test]
+#[ignore = "what a body bears depends on the load asked for"]
+fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
+    for (left, right) in [(1.0, 0.1), (0.1, 1e-6)] {
+        let body = wedge([-left, right], 1.0).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let phi = PI * right / (left + right);
+        let most = (left + right) * phi.sin() / (PI * (1.0 + phi.cos()));
+        for load in [1.3 * most, 20.0 * most, 1.0, 91.0, 1e3, 1e6] {
+            assert_too_short(&format!("wedge {left}, {right}"), &contact, load, most, 1.0, 1e-6);
+        }
+    }
+    for short in [0.1, 1e-9] {
+        let body = Parabola::new(1.0, [-short, 1.0]).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let most = short * short / 2.0;
+        for load in [1.3 * most, 1e3 * most, 1e-3, 0.1, 1.0, 255.0, 1e4] {
+            if load > 1.1 * most {
+                let name = format!("parabola from -{short}");
+                assert_too_short(&name, &contact, load, most, -short, 1e-6);
+            }
+        }
+    }
+}
+
+/// 3a: two gears, of 50 and 75 mm, whose flanks begin next to where they touch: at r t₀²/2.
+#[test]
+#[ignore = "what a body bears depends on the load asked for"]
+fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
+    for origin in [0.01f64, 1e-4] {
+        let flank = |radius| Involute::new(radius, origin, [0.0, 0.8]).unwrap();
+        let turned = Placement::default().mirrored().flipped();
+        let mate = Placed::new(flank(75.0), turned).unwrap();
+        let body = flank(50.0);
+        let contact = Contact::new(&mate, &body).unwrap();
+        let mut carried: Vec<f64> = Vec::new();
+        for load in [1e-4, 1e-2, 1.0, 100.0, 1e3] {
+            match contact.solve(Control::Load(load)) {
+                Err(ContactError::TooShort { carried: most, end, .. }) => {
+                    let first = -25.0 * origin * origin;
+                    assert!((end / first - 1.0).abs() < 1e-3, "{origin}, {load}: {end}, {first}");
+                    carried.push(most);
+                }
+                other => panic!("{origin}, {load}: {other:?}"),
+            }
+        }
+        for most in &carried {
+            assert!((most / carried[0] - 1.0).abs() < 1e-6, "{origin}: {carried:?}");
+        }
+        // What it does bear is a contact, and a little more is not.
+        assert!(contact.solve(Control::Load(0.99 * carried[0])).is_ok());
+        assert!(contact.solve(Control::Load(1.01 * carried[0])).is_err());
+    }
+}
+
+/// 3b: 1e-19 of the load; it was called an overflow.
+#[test]
+#[ignore = "an overload is called an overflow"]
+fn a_body_that_bears_next_to_nothing() {
+    // Γ(0.7)/(√π Γ(1.2))
+    let mu = 0.797_619_504_704_847_6;
+    let [most, _] = one_sided_most(0.2, 1e-3, mu);
+    let body = one_sided(0.2, 1e-3, 2.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for load in [0.3, 1e-6] {
+        assert_too_short("k^1.2", &contact, load, most, 0.0, 1e-6);
+    }
+}
+
+/// 3b: a rounded punch in a groove stands on its two edges; "they carry -0.140 of the load" was said.
+#[test]
+#[ignore = "several contacts are not solved yet"]
+fn a_rounded_punch_in_a_groove() {
+    let punch = rounded_punch(1.0, 0.1, 1.3).unwrap();
+    let groove = Parabola::new(3.0, [-1.3, 1.3]).unwrap();
+    let contact = Contact::new(&groove, &punch).unwrap();
+    for load in [1e-3, 1e-2] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(intervals(&solution).len(), 2, "{load}");
+        let name = format!("F = {load}");
+        assert_contact(&name, [&groove, &punch], 1.0, [-1.3, 1.3], &[], &solution);
+    }
+}
+
+/// The evaluations of a solve, and its error.
+fn evaluations(body: Profile, load: Control<f64>) -> (usize, Result<f64, ContactError<f64>>) {
+    let calls = AtomicUsize::new(0);
+    let counted = Counting(body, &calls);
+    let contact = Contact::new(&Flat, &counted).unwrap();
+    let answer = contact.solve(load).map(|solution| solution.load());
+    (calls.load(Ordering::Relaxed), answer)
+}
+
+/// 3c: a peak above what the body bears: the same largest peak whatever was asked, and not 850 000
+/// evaluations. `x = k²`, `y = k³ - m k²`, that is `x^1.5 - m x`.
+#[test]
+#[ignore = "takes up to 850 000 evaluations, and the largest peak depends on what was asked"]
+fn a_peak_that_the_body_does_not_bear() {
+    let m = 1e-6;
+    let body = || -> Profile {
+        Box::new(Curve::new([0.0, 0.5], move |k: f64| {
+            let (dx, dy) = (2.0 * k, 3.0 * k * k - 2.0 * m * k);
+            CurvePoint { x: k * k, y: k * k * k - m * k * k, dx, dy }
+        }))
+    };
+    let [_, most] = one_sided_most(0.5, m, 2.0 / PI);
+    let mut peaks = Vec::new();
+    for wanted in [1e-6, 1e-3, 0.03, 0.3, 3.0] {
+        let (calls, answer) = evaluations(body(), Control::PeakPressure(wanted));
+        match answer {
+            Err(ContactError::PeakTooHigh { half_width, found, .. }) => {
+                assert!((half_width / most - 1.0).abs() < 1e-6, "{wanted}: L = {half_width:e}");
+                peaks.push(found);
+            }
+            other => panic!("{wanted}: {other:?}"),
+        }
+        let (half, answer) = evaluations(body(), Control::PeakPressure(0.5 * peaks[0]));
+        assert!(answer.is_ok(), "{answer:?}");
+        assert!(calls <= 20 * half, "{wanted}: {calls} evaluations, and {half} for half the peak");
+    }
+    for peak in &peaks {
+        assert!(
+            (peak / peaks[0] - 1.0).abs() < 1e-6 && (peak / 2.1e-7 - 1.0).abs() < 0.03,
+            "{peaks:?}"
+        );
+    }
+}
+
+/// 3c: and a flank that begins where it touches.
+#[test]
+#[ignore = "takes 680 000 evaluations"]
+fn a_peak_that_a_flank_does_not_bear() {
+    let flank = || -> Profile { Box::new(Involute::new(50.0, 1e-6, [0.0, 0.8]).unwrap()) };
+    let (calls, answer) = evaluations(flank(), Control::PeakPressure(0.3));
+    let Err(ContactError::PeakTooHigh { half_width, found, .. }) = answer else {
+        panic!("{answer:?}")
+    };
+    // The flank begins 25e-12 from where it touches, with a radius of 5e-5.
+    assert!(half_width < 1e-10 && found < 1e-6, "{half_width:e}, {found:e}");
+    let (half, answer) = evaluations(flank(), Control::PeakPressure(0.5 * found));
+    assert!(answer.is_ok() && calls <= 20 * half, "{calls}, {half}: {answer:?}");
+}
+
+/// 4: the peak of a contact leads back to it, also where the contact hardly reaches beyond a flat.
+#[test]
+#[ignore = "no contact is found for peaks of bodies with a flat"]
+fn peaks_of_a_punch_with_a_flat() {
+    let body = rounded_punch(1.0, 1.0, 1.5).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for beyond in [1e-5f64, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.1, 0.3] {
+        let form = RoundedPunch::new(1.0, 1.0, 1.0 + beyond).unwrap();
+        let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
+        let peak = solution.peak().unwrap().pressure;
+        let again = contact.solve(Control::PeakPressure(peak));
+        let again = again.unwrap_or_else(|error| panic!("L = 1 + {beyond}: {error}"));
+        let off = (again.a() - 1.0 - beyond).abs() / beyond;
+        assert!(off < 1e-9, "L = 1 + {beyond}: off by {off:e}");
+    }
+}
+
+/// 5: nearly all of a circle turns back in X, which both ends show.
+#[test]
+#[ignore = "X' has the wrong sign at both ends, and nothing is said"]
+fn a_circle_that_closes() {
+    let circle = |end: f64| {
+        Curve::new([-end, end], |k: f64| {
+            let (sin, cos) = k.sin_cos();
+            CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
+        })
+    };
+    for end in [PI - 2.65e-6, 3.0, 2.0] {
+        let body = circle(end);
+        let error = Contact::new(&Flat, &body).map(|_| ()).unwrap_err();
+        let turns = matches!(
+            error,
+            ContactError::Profile { source: ProfileError::TurnsBack { k, .. }, .. }
+                if (k.abs() - PI / 2.0).abs() < 1e-6
+        );
+        assert!(turns, "±{end}: {error}");
+    }
+    assert!(Contact::new(&Flat, &circle(1.5)).is_ok());
+}
+
+/// 6: X that has saturated far from the contact has no slope there, and needs none.
+#[test]
+#[ignore = "a slope of 0/0 outside the contact stops the solve"]
+fn a_parameter_that_saturates() {
+    type Curves = (&'static str, f64, fn(f64) -> [f64; 2]);
+    let curves: [Curves; 4] = [
+        ("tanh(400 k)", 1.0, |k| {
+            let t = (400.0 * k).tanh();
+            [t, 400.0 * (1.0 - t * t)]
+        }),
+        ("tanh(20 k)", 1.0, |k| {
+            let t = (20.0 * k).tanh();
+            [t, 20.0 - 20.0 * t * t]
+        }),
+        ("logistic", 100.0, |k| {
+            let e = (-k.abs()).exp();
+            [k.signum() * (0.5 - e / (1.0 + e)), e / (1.0 + e).powi(2)]
+        }),
+        ("tanh(30 k)", 1.0, |k| {
+            let t = (30.0 * k).tanh();
+            [t, 30.0 * (1.0 - t * t)]
+        }),
+    ];
+    for (name, reach, at) in curves {
+        let body = Curve::new([-reach, reach], move |k: f64| {
+            let [x, dx] = at(k);
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let solution = contact.solve(Control::Load(0.02));
+        let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let off = (solution.a() - 0.2).abs().max((solution.b() - 0.2).abs()) / 0.2;
+        assert!(off < 1e-12, "{name}: {off:e}");
+    }
+}
+
+/// 6: the flat of a punch on a circle centred at 0.13: warm or cold, within what the estimate says. The
+/// circle bears F = L²/2 and a little more, about its centre.
+#[test]
+fn the_flat_of_a_punch_on_a_circle() {
+    let up = Placement::default().flipped().shifted(0.13, 0.0);
+    let circle = Placed::new(Ellipse::circle(1.0, [-1.2, 1.2]).unwrap(), up).unwrap();
+    let punch = rounded_punch(0.6, 1.0, 0.9).unwrap();
+    let contact = Contact::new(&circle, &punch).unwrap();
+    let mut solver = Solver::new();
+    for step in 0..400 {
+        // Up and down.
+        let wave = (f64::from(step) * 0.37).sin();
+        let load = 1e-3 * 50f64.powf(0.5 + 0.5 * wave);
+        let warm = solver.solve(&contact, Control::Load(load)).unwrap();
+        let (on, said) = (warm.interval(), warm.limits_error().unwrap());
+        let off = (on.centre() - 0.13).abs() / on.half_width();
+        let cold = contact.solve(Control::Load(load)).unwrap();
+        assert!(off < 10.0 * said + 1e-15, "F = {load}: {off:e}, but {said:e} is said");
+        let off = (cold.interval().centre() - 0.13).abs() / on.half_width();
+        assert!(off < 10.0 * cold.limits_error().unwrap(), "F = {load}: {off:e} cold");
+    }
+}
+
+/// 6: F = L I₁(L) of cosh: a contact of 1.4e-3 on bodies with slopes of e^300.
+#[test]
+#[ignore = "the forces far from the contact overflow"]
+fn a_small_contact_on_steep_bodies() {
+    let body = graph(-300.0, 300.0, |x| [(x - 3.7).cosh(), (x - 3.7).sinh()]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let half_width = 1.4e-3;
+    let load = half_width * half_width / 2.0 * (1.0 + half_width * half_width / 8.0);
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    let on = solution.interval();
+    // To the rounding of x = 3.7.
+    assert!((on.centre() - 3.7).abs() < 1e-12 * half_width + 2e-15, "{on:?}");
+    assert_relative_eq!(on.half_width(), half_width, epsilon = 0.0, max_relative = 3e-12);
+}
