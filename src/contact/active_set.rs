@@ -560,7 +560,14 @@ impl<T: Real> ActiveSet<T> {
             };
             Interval { left, right }
         };
-        let intervals = runs.iter().map(interval).collect();
+        let mut intervals: Vec<_> = runs.iter().map(interval).collect();
+        // An edge is not further into the open cells than a third of the way to the next.
+        for (i, pair) in runs.windows(2).enumerate() {
+            let [from, to] = [self.cells[pair[0][1]].right, self.cells[pair[1][0]].left];
+            let third = (to - from) / T::of(3.0);
+            intervals[i].right = intervals[i].right.min(from + third);
+            intervals[i + 1].left = intervals[i + 1].left.max(to - third);
+        }
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         let reaches = [
             runs.first().is_some_and(|run| run[0] == 0),

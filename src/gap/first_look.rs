@@ -97,8 +97,16 @@ impl<T: Real> FirstLook<T> {
         let mut knots = std::mem::take(&mut self.knots);
         self.find_knots(&mut knots);
         self.heights.clear();
-        self.heights.reserve(knots.capacity());
-        self.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
+        self.heights.reserve(2 * knots.capacity());
+        for (i, knot) in knots.iter().enumerate() {
+            self.heights.push([knot.x, knot.height]);
+            // Between two samples a low place shows in their slopes.
+            let Some(next) = knots.get(i + 1) else { break };
+            let segment = Segment::new(*knot, *next);
+            if let Some(t) = segment.minimum() {
+                self.heights.push([knot.x + t * segment.width, segment.at(t)[0]]);
+            }
+        }
         (self.lowest, self.bulges) = (self.find_lowest(&knots), Self::find_bulging(&knots));
         self.knots = knots;
         Ok(())
@@ -288,7 +296,10 @@ impl<T: Real> Samples<'_, T> {
         let first = surface.index_at(range[0], super::Side::Left);
         let last = surface.index_at(range[1], super::Side::Right);
         let stride = 1 + (last.max(first) - first) / MOST_PIECES;
-        let each = if last.max(first) - first < MANY_PIECES { OF_A_PIECE } else { 2 };
+        let count_here = last.max(first) - first + 1;
+        // Of a body in a few pieces as many as of a smooth one.
+        let each =
+            if count_here < MANY_PIECES { (OF_A_BODY / count_here).max(OF_A_PIECE) } else { 2 };
         let mut before: Option<T> = None;
         for index in (first..=last).step_by(stride) {
             let piece = surface.piece(index);

@@ -15,6 +15,9 @@ use crate::{ContactError, Interval, Real};
 /// lets it be.
 const MOST_HALVES: usize = 60;
 
+/// Panels of one contact, after which none is halved any more.
+const MOST_PANELS: usize = 1 << 12;
+
 /// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
 const ROOM: f64 = 0.02;
 
@@ -146,7 +149,8 @@ impl<T: Real> Part<T> {
                 let (product, resolved) = multiply(panel, x, &weight, tolerance);
                 let [from, to] = x;
                 let middle = T::of(0.5) * (from + to);
-                if !resolved && halved < MOST_HALVES && middle > from && middle < to {
+                let may = halved < MOST_HALVES && self.panels.len() < MOST_PANELS;
+                if !resolved && may && middle > from && middle < to {
                     self.waiting.push(([middle, to], halved + 1));
                     self.waiting.push(([from, middle], halved + 1));
                     continue;
@@ -237,7 +241,8 @@ fn multiply<T: Real>(
         let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
         let noise = panel.tail * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
         product.tail = noise + last;
-        resolved = last <= half * tolerance * all + noise;
+        // What is not finite, no halving mends.
+        resolved = last <= half * tolerance * all + noise || !all.is_finite();
         if resolved {
             break;
         }
