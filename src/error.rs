@@ -236,6 +236,22 @@ pub enum ContactError<T: Real> {
         /// What it was taken for.
         assumed: T,
     },
+    /// The samples of the certificate leave a pressure at a free edge that is not that of the contact:
+    /// what the limits were found from was not the whole of the curves.
+    #[error(
+        "the limits do not balance the bodies: at the free edge x = {x:?} the pressure would have a \
+         singularity of strength {strength:?}, where the limits were found to within {allowed:?}; declare \
+         joints, give a start nearer to the contact, or correct the curves, which must be the same at \
+         each call"
+    )]
+    Unbalanced {
+        /// The limit.
+        x: T,
+        /// The strength K of the inverse-square-root singularity there, a pressure.
+        strength: T,
+        /// How large it may be by the estimated error of the limits, and by that of the samples.
+        allowed: T,
+    },
     /// The certificate has spent its budget.
     #[error(
         "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
