@@ -1,6 +1,7 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod approach;
+mod capacity;
 mod edge_pressure;
 mod edges;
 mod first_contact;
@@ -13,7 +14,6 @@ mod pull;
 mod sketch;
 mod stretch;
 mod stride;
-mod widest;
 
 pub use edge_pressure::EdgePressure;
 pub use edges::Edge;

@@ -208,9 +208,12 @@ fn the_error_says_that_the_bodies_are_too_short() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     for value in [1.01, 2.0, 1e6, 1e300] {
         let error = contact.solve(Load::ToHalfWidth(value)).unwrap_err();
-        let outside =
-            matches!(error, ContactError::OutsideBodies { x, range: [-1.0, 1.0] } if x.abs() > 1.0);
-        assert!(outside, "{value}: {error}");
+        let ContactError::TooWide { wanted, half_width, end, load, peak } = error else {
+            panic!("{value}: {error}")
+        };
+        assert_eq!((wanted, half_width, end.abs()), (value, 1.0, 1.0));
+        assert_relative_eq!(load, 0.5, epsilon = 0.0, max_relative = 1e-14);
+        assert_relative_eq!(peak, 1.0 / PI, epsilon = 0.0, max_relative = 1e-14);
         too_high(&contact, value / PI, 1.0, 1.0 / PI);
         // Where the contact reaches the shorter side, or a corner.
         let short = graph(-3.0, 0.7, |x| [x * x / 2.0, x]);
@@ -224,7 +227,7 @@ fn the_error_says_that_the_bodies_are_too_short() {
 
 fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
     let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
-    let ContactError::PeakTooHigh { wanted, half_width, found } = error else { panic!("{error}") };
+    let ContactError::PeakTooHigh { wanted, half_width, found, .. } = error else { panic!("{error}") };
     assert_eq!(wanted, peak);
     assert_relative_eq!(half_width, widest, epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(found, reached, epsilon = 0.0, max_relative = 1e-13);

@@ -29,6 +29,7 @@ mod invariants;
 mod limits;
 mod one_at_a_time;
 mod peak;
+mod overload;
 mod pieces;
 mod profiles;
 mod pull_off;

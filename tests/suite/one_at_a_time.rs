@@ -198,10 +198,16 @@ fn a_width_beyond_the_bodies_names_the_end() {
             for strategy in strategies(Tolerance::FULL) {
                 let contact = contact.clone().search(&*strategy);
                 let error = contact.solve(Load::ToHalfWidth(half_width)).unwrap_err();
-                let ContactError::OutsideBodies { x, range } = error else { panic!("{error}") };
-                assert_eq!(range, reach);
-                let way = if bent.0[0] < 0.0 { -half_width } else { half_width };
-                assert_relative_eq!(x, origin + way, epsilon = 0.0, max_relative = 1e-12);
+                let ContactError::TooWide { wanted, half_width: room, end, .. } = error else {
+                    panic!("{error}")
+                };
+                assert_eq!(wanted, half_width);
+                // With that end as its limit, and c₀ = 0.
+                let way = if end < 0.0 { 1.0 } else { -1.0 };
+                let inner = end + way * 2.0 * room;
+                let on = Interval { left: end.min(inner), right: end.max(inner) };
+                assert!(reach.contains(&end) && on.left < origin && on.right > origin);
+                assert!(bent.coefficients(on)[0].abs() < 1e-13, "{on:?}");
             }
         }
     }
@@ -238,7 +244,7 @@ fn bodies_that_are_too_short_carry_so_much() {
             scenes.push(contact);
             for contact in scenes {
                 let error = contact.solve(Load::PerLength(load)).unwrap_err();
-                let ContactError::TooShort { end, carried, load: asked } = error else {
+                let ContactError::TooShort { end, carried, load: asked, .. } = error else {
                     panic!("{error}")
                 };
                 assert_eq!([end, asked], [side * reach, load], "{edges:?}");

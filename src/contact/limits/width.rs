@@ -2,6 +2,7 @@
 
 use super::place::Placed;
 use super::{Search, Trial, nearer};
+use crate::contact::capacity::{capacity, widest};
 use crate::contact::goal::{Excess, Goal};
 use crate::contact::stride::{Stride, ulps};
 use crate::search::Bracket;
@@ -56,10 +57,16 @@ impl<T: Real> Search<'_, T> {
                     }
                     continue;
                 }
-                (Placed::Beyond(end), Some(narrow)) => {
-                    let trial = self.pin(end, narrow.on)?;
+                (Placed::Beyond(_), Some(narrow)) => {
+                    self.engine.forget();
+                    let widest = widest(self.contact, self.goal, self.engine, self.range);
+                    let Some((on, _)) = widest.filter(|(on, _)| on.half_width() > narrow.on.half_width())
+                    else {
+                        return Err(self.no_balance(half_width));
+                    };
+                    let trial = self.attempt(on)?;
                     if trial.excess.spread() > zero {
-                        return Err(self.too_short(end, trial.on));
+                        return Err(self.too_short(trial.on));
                     }
                     trial
                 }
@@ -79,7 +86,7 @@ impl<T: Real> Search<'_, T> {
             if given && spread > zero {
                 for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
                     if self.goal.limits()[end].is_none() && x == self.range[end] {
-                        return Err(self.too_short(end, trial.on));
+                        return Err(self.too_short(trial.on));
                     }
                 }
             }
@@ -102,7 +109,7 @@ impl<T: Real> Search<'_, T> {
                     if half_width <= last {
                         return Err(match adrift {
                             Some(_) => self.no_balance(last),
-                            None => self.too_short(1, trial.on),
+                            None => self.too_short(trial.on),
                         });
                     }
                 }
@@ -116,39 +123,17 @@ impl<T: Real> Search<'_, T> {
         }
     }
 
-    /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
-    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
-        let (origin, range, room) = (self.origin, self.range, self.room());
-        let on = |other: T| match end {
-            0 => Interval { left: range[0], right: origin + other },
-            _ => Interval { left: origin - other, right: range[1] },
-        };
-        let least = if end == 0 { narrow.right - origin } else { origin - narrow.left };
-        let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
-        let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
-        if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {
-            return Ok(far);
-        }
-        let ends = Bracket::new(least, room[1 - end]).values(f_near, f_far);
-        let mut best = nearer(near, far, Excess::shift);
-        self.run(&ends, &mut best, Excess::shift, |search, other| search.attempt(on(other)))
-    }
-
     /// The error for a contact that reaches the end of the bodies and must still widen.
-    fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
-        match self.goal {
+    fn too_short(&mut self, on: Interval<T>) -> ContactError<T> {
+        let error = match self.goal {
             Goal::Pressure { wanted, .. } => {
-                let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
-                met.err().unwrap_or(self.no_balance(on.half_width()))
+                self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess)).err()
             }
-            Goal::Strength { conditions, .. } => match self.engine.moments(self.gap, on) {
-                Ok(m) => ContactError::TooShort {
-                    end: self.range[end],
-                    carried: conditions.balance(on, &m).unwrap_or(self.load),
-                    load: self.load,
-                },
-                Err(error) => error,
-            },
-        }
+            Goal::Strength { conditions, .. } => {
+                capacity(self.contact, &conditions, self.range, self.cost)
+                    .map(|widest| widest.too_short(self.load))
+            }
+        };
+        error.unwrap_or(self.no_balance(on.half_width()))
     }
 }
