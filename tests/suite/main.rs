@@ -37,6 +37,7 @@ mod quadrature;
 mod quantities;
 mod references_f32;
 mod reuse;
+mod saturated;
 mod search_counts;
 mod searches;
 mod shapes;
