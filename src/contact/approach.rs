@@ -149,6 +149,14 @@ pub(super) fn with_edges<T: Real>(
             };
         }
     }
+    // Newton's method that has come close to an end is perhaps on its way beyond.
+    let close = |on: Interval<T>| {
+        let away = (on.left - range[0]).min(range[1] - on.right);
+        away < T::of(1e-3) * on.half_width()
+    };
+    if settled.is_none() && contact.search.is_none() && engine.covered().is_some_and(close) {
+        refused.check(cost)?;
+    }
     if settled.is_none() && warm.is_some() {
         // The last contact was no help.
         engine.forget();
@@ -156,9 +164,6 @@ pub(super) fn with_edges<T: Real>(
     }
     if settled.is_none() {
         engine.forget();
-        if contact.search.is_none() {
-            refused.check(cost)?;
-        }
         let found = nested(contact, conditions, engine, contact.start, cost);
         let (mut nested, mut load) = found.map_err(|error| refused.because(error, cost))?;
         // Panels much wider than the contact are not as good as they look: search again on new ones.
@@ -191,7 +196,7 @@ pub(super) fn with_edges<T: Real>(
                 let error = ContactError::NoBalance { half_width, near: nested.on.centre() };
                 return Err(refused.because(error, cost));
             };
-            if much(error) {
+            if much(error) || (!own && error > T::epsilon().sqrt()) {
                 refused.check(cost)?;
             }
             return Ok(Found::new(conditions, nested.on, load, Some(error), &m));

@@ -28,7 +28,7 @@ const MOST_STEPS: usize = 60;
 
 /// Of these so many may lead beyond an end of the bodies: what they bear is another question, and each
 /// takes samples closer to that end.
-const MOST_AT_END: usize = 8;
+const MOST_AT_END: usize = 16;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]
@@ -102,7 +102,7 @@ pub(super) fn settle<T: Real>(
         };
         if allowed != on {
             at_end += usize::from(on.left < range[0] || on.right > range[1]);
-            if at_end > MOST_AT_END {
+            if at_end > MOST_AT_END && effort == Effort::Full {
                 return Ok(None);
             }
             (on, before) = (allowed, None);

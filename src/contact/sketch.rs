@@ -17,7 +17,7 @@ use crate::{ContactError, Interval, Real};
 const MOST_SKETCHES: usize = 120;
 
 /// Of which so many may reach for an end of the bodies before it is asked what these bear.
-const MOST_AT_END: usize = 6;
+const MOST_AT_END: usize = 40;
 
 /// The start, or the middle half of the bodies.
 pub(super) fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Interval<T> {
