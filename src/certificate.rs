@@ -153,11 +153,7 @@ fn heights<T: Real>(gap: &Gap<'_, T>, on: Interval<T>) -> Result<Cost, ContactEr
 }
 
 /// Whether free edges are as free by the cells as the limits were found to be.
-fn balanced<T: Real>(
-    kappa: T,
-    found: &Found<T>,
-    cells: &Cells<T>,
-) -> Result<(), ContactError<T>> {
+fn balanced<T: Real>(kappa: T, found: &Found<T>, cells: &Cells<T>) -> Result<(), ContactError<T>> {
     let Found { interval: on, load, free, .. } = *found;
     let (stiffness, m) = (kappa * on.half_width(), cells.moments(on));
     let size = load.abs().max(stiffness * m.size);
@@ -172,7 +168,8 @@ fn balanced<T: Real>(
     let edges = [(on.right, T::one()), (on.left, -T::one())];
     for ((x, sign), free) in edges.into_iter().zip(free) {
         let missed = load - stiffness * (m.first + sign * m.mean);
-        if free && !(missed.abs() <= allowed) {
+        let met = missed.abs() <= allowed;
+        if free && !met {
             let [strength, allowed] = [missed, allowed].map(|force| force * by_force);
             return Err(ContactError::Unbalanced { x, strength, allowed });
         }

@@ -208,7 +208,7 @@ impl<'a, T: Real> Contact<'a, T> {
     /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`], [`ContactError::PeakEdge`],
     /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
     /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
-    /// [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
+    /// [`ContactError::TooWide`], [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],

@@ -141,21 +141,17 @@ pub(super) fn with_edges<T: Real>(
                 .filter(|settled| settled.on.half_width() >= T::of(0.3) * covered.half_width());
         }
         if settled.is_none() {
+            refused.check_if_close(engine.covered(), cost)?;
             let guess = guess.unwrap_or_else(|| (start(contact, conditions), T::of(0.02)));
             settled = match in_full(contact, conditions, engine, guess) {
                 // About the contact of another scene.
                 Err(_) if warm.is_some() => None,
                 settled => settled?,
             };
+            if settled.is_none() {
+                refused.check_if_close(engine.covered(), cost)?;
+            }
         }
-    }
-    // Newton's method that has come close to an end is perhaps on its way beyond.
-    let close = |on: Interval<T>| {
-        let away = (on.left - range[0]).min(range[1] - on.right);
-        away < T::of(1e-3) * on.half_width()
-    };
-    if settled.is_none() && contact.search.is_none() && engine.covered().is_some_and(close) {
-        refused.check(cost)?;
     }
     if settled.is_none() && warm.is_some() {
         // The last contact was no help.
@@ -292,6 +288,20 @@ impl<T: Real> Refused<'_, T> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The same after Newton's method, which close to an end is perhaps on its way beyond.
+    fn check_if_close(
+        &mut self,
+        covered: Option<Interval<T>>,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        let range = self.contact.gap.range();
+        let close = |on: Interval<T>| {
+            let away = (on.left - range[0]).min(range[1] - on.right);
+            away < T::of(1e-3) * on.half_width()
+        };
+        if covered.is_some_and(close) { self.check(cost) } else { Ok(()) }
     }
 
     /// That, where it is the reason for an error of a search.

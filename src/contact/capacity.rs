@@ -85,7 +85,13 @@ pub(super) fn capacity<T: Real>(
     let mut engine = PANELS.engine().ok()?;
     let fixed = conditions.edges.map(|edge| edge.limit());
     let goal = Goal::Strength { conditions: *conditions, load: T::zero() };
-    let capacity = widest(contact, goal, &mut *engine, [left, right]).and_then(|(on, side)| {
+    let mut pinned = Pinned { contact, goal, engine: &mut *engine };
+    let found = LEFT_OUT.into_iter().find_map(|share| {
+        let out = T::of(share) * T::epsilon() * (right - left);
+        let [left, right] = [fixed[0].unwrap_or(left + out), fixed[1].unwrap_or(right - out)];
+        pinned.widest(Interval { left, right })
+    });
+    let capacity = found.and_then(|(on, side)| {
         let m = engine.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;
         engine.prepare(&contact.gap, on).ok()?;
@@ -103,26 +109,6 @@ pub(super) fn capacity<T: Real>(
     let pulled = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
     let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
     capacity.filter(bears)
-}
-
-/// The same for any conditions that can be balanced, and the end that it reaches: the left (0) or the
-/// right one (1).
-pub(super) fn widest<T: Real>(
-    contact: &Contact<'_, T>,
-    goal: Goal<T>,
-    engine: &mut dyn Engine<T>,
-    [left, right]: [T; 2],
-) -> Option<(Interval<T>, usize)> {
-    let fixed = goal.limits();
-    let mut pinned = Pinned { contact, goal, engine };
-    LEFT_OUT.into_iter().find_map(|share| {
-        let out = T::of(share) * T::epsilon() * (right - left);
-        let whole = Interval {
-            left: fixed[0].unwrap_or(left + out),
-            right: fixed[1].unwrap_or(right - out),
-        };
-        pinned.widest(whole)
-    })
 }
 
 /// Contacts that reach an end.

@@ -28,7 +28,7 @@ const MOST_STEPS: usize = 60;
 
 /// Of these so many may lead beyond an end of the bodies: what they bear is another question, and each
 /// takes samples closer to that end.
-const MOST_AT_END: usize = 16;
+const MOST_AT_END: usize = 24;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]

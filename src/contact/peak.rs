@@ -242,7 +242,7 @@ fn by_search<T: Real>(
             if !(next > from && next < to) {
                 next = from.sqrt() * to.sqrt();
             }
-        } else if !sure && !(next > T::of(1e-12) * first && next < T::of(1e12) * first) {
+        } else if !(sure || next > T::of(1e-12) * first && next < T::of(1e12) * first) {
             break;
         }
         load = next;

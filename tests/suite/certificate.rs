@@ -578,7 +578,8 @@ fn limits_off(on: linecontact::Interval<f64>, load: f64, slope: impl Fn(f64) -> 
 fn limits_that_are_off_are_not_certified() {
     let load = 0.02;
     let (mut wrong, mut certified) = (0, 0);
-    let mut named = vec![(0.152304969, 0.001317286, 0.001118924, 0.0), (0.138, 0.0194, 0.014, 1e-6)];
+    let mut named =
+        vec![(0.152304969, 0.001317286, 0.001118924, 0.0), (0.138, 0.0194, 0.014, 1e-6)];
     let share = |i: usize, step: f64| (step * (i as f64 + 0.5)).fract();
     for tolerance in [0.0, 1e-6, 1e-4, 1e-3] {
         for i in 0..100 {

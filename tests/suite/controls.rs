@@ -227,7 +227,9 @@ fn the_error_says_that_the_bodies_are_too_short() {
 
 fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
     let error = contact.solve(Load::ToPeak(peak)).unwrap_err();
-    let ContactError::PeakTooHigh { wanted, half_width, found, .. } = error else { panic!("{error}") };
+    let ContactError::PeakTooHigh { wanted, half_width, found, .. } = error else {
+        panic!("{error}")
+    };
     assert_eq!(wanted, peak);
     assert_relative_eq!(half_width, widest, epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(found, reached, epsilon = 0.0, max_relative = 1e-13);

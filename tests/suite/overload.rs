@@ -4,9 +4,7 @@
 use crate::common;
 use common::{Profile, graph};
 use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
-use linecontact::{
-    Contact, ContactError, Curve, CurvePoint, Flat, Load, ParametricProfile,
-};
+use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Load, ParametricProfile};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -82,7 +80,11 @@ fn scenes() -> Vec<Scene> {
     let l = PI * PI * e * e / 18.0;
     let logarithm = |p: f64| {
         graph(0.0, 2.0, move |k: f64| {
-            if k > 0.0 { [k * ((k / p).ln() - 1.0), (k / p).ln()] } else { [0.0, f64::NEG_INFINITY] }
+            if k > 0.0 {
+                [k * ((k / p).ln() - 1.0), (k / p).ln()]
+            } else {
+                [0.0, f64::NEG_INFINITY]
+            }
         })
     };
     // ln(L (1 + cos θ)) = ln(L/2) - 2 Σ (-1)^k cos kθ/k: c₀ = 0 where L = 2 p, and c₁ = 2.
@@ -145,7 +147,8 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
         let contact = Contact::new(&Flat, &body).unwrap();
         let taken = |load: Load<f64>| {
             let before = count.load(Ordering::Relaxed);
-            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| bears(&contact, load)));
+            let result =
+                std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| bears(&contact, load)));
             (count.load(Ordering::Relaxed) - before, result)
         };
         let (_, first) = taken(Load::PerLength(1e6));
@@ -201,6 +204,23 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
 }
 
+/// More than a body bears is never a contact, by how little or much it ever is.
+#[test]
+fn no_load_beyond_what_is_borne_has_a_contact() {
+    for s in [1.0, 0.3, 0.1] {
+        let Scene { body, bears: [most, ..], .. } = steep(s);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for i in 0..100 {
+            let load = most * (1.002 + 1e-3 * (1e8f64.powf(f64::from(i) / 100.0) - 1.0));
+            let error = contact.solve(Load::PerLength(load)).map(|_| ()).unwrap_err();
+            let ContactError::TooShort { carried, .. } = error else { panic!("{load}: {error}") };
+            assert!((carried / most - 1.0).abs() < 1e-12, "{carried} {most}");
+        }
+        let fits = contact.solve(Load::PerLength(0.999 * most)).unwrap();
+        assert!(fits.limits_error().unwrap() < 1e-9, "{fits:?}");
+    }
+}
+
 /// A flat punch with round edges in a groove touches at both, and has no single contact.
 #[test]
 fn a_punch_in_a_groove_bears_nothing_in_one_place() {
@@ -223,11 +243,11 @@ fn a_flat_has_the_contact_of_its_peak() {
             let contact = Contact::new(&Flat, &body).unwrap();
             let under = contact.solve(Load::ToHalfWidth(ratio * flat)).unwrap();
             let peak = under.peak().unwrap().pressure;
-            let found = contact.solve(Load::ToPeak(peak)).unwrap_or_else(|e| panic!("{ratio}: {e}"));
+            let found =
+                contact.solve(Load::ToPeak(peak)).unwrap_or_else(|e| panic!("{ratio}: {e}"));
             assert!((found.a() / under.a() - 1.0).abs() < 1e-11, "{found:?} {under:?}");
             assert!((found.load() / under.load() - 1.0).abs() < 1e-9, "{found:?} {under:?}");
             println!("{flat} {radius} {ratio}: {}", found.cost().samples);
         }
     }
 }
-

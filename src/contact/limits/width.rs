@@ -2,7 +2,7 @@
 
 use super::place::Placed;
 use super::{Search, Trial, nearer};
-use crate::contact::capacity::{capacity, widest};
+use crate::contact::capacity::capacity;
 use crate::contact::goal::{Excess, Goal};
 use crate::contact::stride::{Stride, ulps};
 use crate::search::Bracket;
@@ -57,14 +57,8 @@ impl<T: Real> Search<'_, T> {
                     }
                     continue;
                 }
-                (Placed::Beyond(_), Some(narrow)) => {
-                    self.engine.forget();
-                    let widest = widest(self.contact, self.goal, self.engine, self.range);
-                    let Some((on, _)) = widest.filter(|(on, _)| on.half_width() > narrow.on.half_width())
-                    else {
-                        return Err(self.no_balance(half_width));
-                    };
-                    let trial = self.attempt(on)?;
+                (Placed::Beyond(end), Some(narrow)) => {
+                    let trial = self.pin(end, narrow.on)?;
                     if trial.excess.spread() > zero {
                         return Err(self.too_short(trial.on));
                     }
@@ -121,6 +115,24 @@ impl<T: Real> Search<'_, T> {
                 }
             }
         }
+    }
+
+    /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
+    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+        let (origin, range, room) = (self.origin, self.range, self.room());
+        let on = |other: T| match end {
+            0 => Interval { left: range[0], right: origin + other },
+            _ => Interval { left: origin - other, right: range[1] },
+        };
+        let least = if end == 0 { narrow.right - origin } else { origin - narrow.left };
+        let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
+        let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
+        if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {
+            return Ok(far);
+        }
+        let ends = Bracket::new(least, room[1 - end]).values(f_near, f_far);
+        let mut best = nearer(near, far, Excess::shift);
+        self.run(&ends, &mut best, Excess::shift, |search, other| search.attempt(on(other)))
     }
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
