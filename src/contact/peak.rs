@@ -139,17 +139,18 @@ pub(super) fn find<T: Real>(
 ) -> Result<Found<T>, ContactError<T>> {
     check_edges(contact)?;
     let mut trials = Trials { contact, wanted, engine, cost, last: warm };
-    let mut found = by_search(&mut trials, warm)?;
-    // The derivatives of the load: from one step to the next, one more is exact.
+    let found = by_search(&mut trials, warm)?;
+    if T::MORE_STEPS == 0 {
+        return Ok(found);
+    }
+    // The derivatives of the load. From one step to the next one more is exact, but for the rate, which
+    // is that at a peak found to half the digits.
     let mut load = found.load.part(0);
-    for _ in 0..T::MORE_STEPS {
+    for _ in 0..T::MORE_STEPS + 2 {
         let (_, pressure, rate) = trials.at(Control::Load(load))?;
         load += (wanted - pressure) / rate.part(0);
     }
-    if T::MORE_STEPS > 0 {
-        found = trials.at(Control::Load(load))?.0;
-    }
-    Ok(found)
+    Ok(trials.at(Control::Load(load))?.0)
 }
 
 fn by_search<T: Real>(
