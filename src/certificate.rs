@@ -1,7 +1,8 @@
 //! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
 //! All of the gap is sampled, as panels of its slope: the contact first, and once more in short cells
-//! to see whether the panels have missed anything; then the way from either edge to the ends of the
+//! to see whether the panels, or those of the solver, have missed anything, and whether its limits
+//! balance the bodies; then the way from either edge to the ends of the
 //! bodies. The signs are those of pieces: bounds on a Chebyshev series by
 //! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
 //! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
@@ -13,11 +14,12 @@ mod series;
 mod view;
 
 use crate::contact::Found;
-use crate::gap::{Cost, Gap};
+use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::panels::{Cover, Panel};
-use crate::quadrature::{Pressing, Quadrature};
+use crate::quadrature::{Engine, Pressing, Quadrature};
 use crate::{ContactError, Interval, Panels, Real};
 use inside::Inside;
+use missed::Cells;
 use outside::Side;
 use view::View;
 
@@ -67,6 +69,7 @@ pub(crate) fn certify<T: Real>(
     gap: &Gap<'_, T>,
     kappa: T,
     found: &Found<T>,
+    solver: &dyn Engine<T>,
 ) -> Result<Certificate<T>, ContactError<T>> {
     let Found { interval: on, strengths, free, adhesive, ends, .. } = *found;
     let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
@@ -99,7 +102,10 @@ pub(crate) fn certify<T: Real>(
     let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
     let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);
-    let mut more = missed::compare(gap, &cover, sampled, spacing, view.steepest())?;
+    let mut more = heights(gap, sampled)?;
+    let cells = missed::compare(gap, [&cover, &solver], sampled, spacing, view.steepest())?;
+    more += cells.cost;
+    balanced(kappa, found, &cells)?;
     let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * view.steepest()) {
         None
     } else {
@@ -138,6 +144,41 @@ pub(crate) fn certify<T: Real>(
         return Err(ContactError::Overlap { x, gap, interval, load });
     }
     Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + more })
+}
+
+/// Heights that are not numbers are those of no body, however sound the slopes are.
+fn heights<T: Real>(gap: &Gap<'_, T>, on: Interval<T>) -> Result<Cost, ContactError<T>> {
+    let mut sampler = Sampler::default();
+    for x in [on.left, on.centre(), on.right] {
+        sampler.height(gap, x)?;
+    }
+    Ok(sampler.cost)
+}
+
+/// Whether free edges are as free by the cells as the limits were found to be.
+fn balanced<T: Real>(kappa: T, found: &Found<T>, cells: &Cells<T>) -> Result<(), ContactError<T>> {
+    let Found { interval: on, load, free, .. } = *found;
+    let (stiffness, m) = (kappa * on.half_width(), cells.moments(on));
+    let size = load.abs().max(stiffness * m.size);
+    let error = found.error.unwrap_or(T::zero());
+    let said = found.force.unwrap_or(T::of(3.0) * size * error);
+    let rounding = T::of(64.0) * T::epsilon() * size;
+    let rounding = rounding * (T::one() + on.left.abs().max(on.right.abs()) / on.half_width());
+    // An estimate may be off by as much; a tolerance is kept.
+    let open = T::of(16.0) * m.error + cells.doubt;
+    let allowed = T::of(10.0) * said + stiffness * open + rounding;
+    let by_force = T::frac_1_pi() / on.half_width();
+    // Where both are at fault it is the right one that is named.
+    let edges = [(on.left, -T::one()), (on.right, T::one())];
+    for ((x, sign), free) in edges.into_iter().zip(free).rev() {
+        let missed = load - stiffness * (m.first + sign * m.mean);
+        let met = missed.abs() <= allowed;
+        if free && !met {
+            let [strength, allowed] = [missed, allowed].map(|force| force * by_force);
+            return Err(ContactError::Unbalanced { x, strength, allowed });
+        }
+    }
+    Ok(())
 }
 
 /// Whether the slope of the gap rises over the contact, up to rounding and errors that do not matter.

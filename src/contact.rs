@@ -1,9 +1,8 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
-// Until the solver starts from it.
-#[allow(dead_code)]
 mod active_set;
 mod approach;
+mod capacity;
 mod check;
 mod edge_pressure;
 mod edges;
@@ -20,7 +19,6 @@ mod sketch;
 mod stretch;
 mod stride;
 mod topology;
-mod widest;
 
 pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
@@ -274,7 +272,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`], [`ContactError::PeakEdge`],
     /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
     /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
-    /// [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
+    /// [`ContactError::TooWide`], [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],

@@ -114,7 +114,8 @@ pub enum ContactError<T: Real> {
     /// The contact that carries the load reaches beyond a body.
     #[error(
         "the contact would leave the bodies at x = {end:?}: up to there they carry {carried:?} of the \
-         load {load:?}; extend the domain or lower the load"
+         load {load:?}, with half-width {half_width:?} and peak pressure {peak:?}; extend the domain \
+         or lower the load"
     )]
     TooShort {
         /// The end that the contact reaches first.
@@ -123,6 +124,28 @@ pub enum ContactError<T: Real> {
         carried: T,
         /// The load asked for.
         load: T,
+        /// The half-width of that contact.
+        half_width: T,
+        /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        peak: T,
+    },
+    /// A contact of this half-width reaches beyond a body.
+    #[error(
+        "a contact of half-width {wanted:?} would leave the bodies at x = {end:?}: there is room for \
+         {half_width:?}, which carries {load:?} with peak pressure {peak:?}; extend the domain or lower \
+         the half-width"
+    )]
+    TooWide {
+        /// The half-width asked for.
+        wanted: T,
+        /// The half-width of the largest contact that stays on the bodies.
+        half_width: T,
+        /// The end that it reaches.
+        end: T,
+        /// The load that it carries.
+        load: T,
+        /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        peak: T,
     },
     /// No position of a contact of some width balances the pressures at its two edges.
     #[error(
@@ -259,6 +282,22 @@ pub enum ContactError<T: Real> {
         /// What it was taken for.
         assumed: T,
     },
+    /// The samples of the certificate leave a pressure at a free edge that is not that of the contact:
+    /// what the limits were found from was not the whole of the curves.
+    #[error(
+        "the limits do not balance the bodies: at the free edge x = {x:?} the pressure would have a \
+         singularity of strength {strength:?}, where the limits were found to within {allowed:?}; declare \
+         joints, give a start nearer to the contact, or correct the curves, which must be the same at \
+         each call"
+    )]
+    Unbalanced {
+        /// The limit.
+        x: T,
+        /// The strength K of the inverse-square-root singularity there, a pressure.
+        strength: T,
+        /// How large it may be by the estimated error of the limits, and by that of the samples.
+        allowed: T,
+    },
     /// The certificate has spent its budget.
     #[error(
         "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
@@ -316,7 +355,8 @@ pub enum ContactError<T: Real> {
     /// The contact with this peak pressure reaches beyond a body, or beyond a corner.
     #[error(
         "the peak pressure {wanted:?} takes a wider contact than there is room for: with half-width \
-         {half_width:?} it is {found:?}; extend the domains or lower the peak"
+         {half_width:?}, up to x = {end:?}, it is {found:?} under the load {load:?}; extend the domains \
+         or lower the peak"
     )]
     PeakTooHigh {
         /// The peak pressure asked for.
@@ -325,6 +365,10 @@ pub enum ContactError<T: Real> {
         half_width: T,
         /// The peak pressure there.
         found: T,
+        /// The end of the bodies, or the corner, that this contact reaches.
+        end: T,
+        /// The load that it carries.
+        load: T,
     },
     /// The pressure has no largest value to be set.
     #[error(

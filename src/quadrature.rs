@@ -109,6 +109,11 @@ pub trait Engine<T: Real>: Any + Send + Sync {
         None
     }
 
+    /// The error that [`slope`](Self::slope) may have there.
+    fn doubt(&self, _x: T) -> Option<T> {
+        None
+    }
+
     /// Forgets the samples, but not the cost.
     fn forget(&mut self) {}
 

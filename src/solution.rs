@@ -98,10 +98,12 @@ impl<'b, T: Real> Solution<'b, T> {
     ///
     /// # Errors
     /// [`ContactError::Missed`] where the panels do not know of something in the contact;
+    /// [`ContactError::Unbalanced`] where its samples leave more at a free edge than
+    /// [`limits_error`](Self::limits_error) stands for; [`ContactError::Profile`] for heights that are not finite;
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found)
+        certify(&self.gap, self.kappa, &self.found, &*self.engine)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points and the joints show which

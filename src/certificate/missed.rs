@@ -2,11 +2,13 @@
 //!
 //! Panels are as long as the coefficients of their series allow, and what lies between two nodes shows
 //! in none of them. So the contact is sampled a second time, in cells as short as those outside it, and
-//! the two are compared.
+//! all that is known of it is compared with them: the panels of the certificate, and those that the
+//! limits were found from.
 
 use crate::gap::{Cost, Gap, Sampler};
-use crate::quadrature::panels::Cover;
 use crate::quadrature::panels::chebyshev::Table;
+use crate::quadrature::panels::{Cover, Panel, edge_integrals};
+use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Interval, Real};
 
 /// The share of the largest slope by which the two may differ, besides the noise.
@@ -15,41 +17,82 @@ const ALLOWED: f64 = 1e-6;
 /// The share of a cell below which a part of it is not looked at.
 const SHORT: f64 = 1e-6;
 
-/// Compares the slopes of the panels on an interval with those at eight nodes or more in each cell.
+/// What is assumed of the slope of the gap.
+pub(super) trait Assumed<T> {
+    /// The slope at x, and the error that it may have.
+    fn at(&self, x: T) -> Option<(T, T)>;
+}
+
+impl<T: Real> Assumed<T> for Cover<T> {
+    fn at(&self, x: T) -> Option<(T, T)> {
+        self.slope(x).zip(self.tail(x))
+    }
+}
+
+/// One that keeps no samples assumes nothing.
+impl<T: Real> Assumed<T> for &dyn Engine<T> {
+    fn at(&self, x: T) -> Option<(T, T)> {
+        self.slope(x).zip(self.doubt(x))
+    }
+}
+
+/// The contact in short cells.
+pub(super) struct Cells<T> {
+    panels: Vec<Panel<T>>,
+    /// The least error that the panels of the solver claim.
+    pub doubt: T,
+    pub cost: Cost,
+}
+
+impl<T: Real> Cells<T> {
+    pub fn moments(&self, on: Interval<T>) -> Moments<T> {
+        edge_integrals(&self.panels, on)
+    }
+}
+
+/// Compares the slopes assumed on an interval, last those of the solver, with those at eight nodes or
+/// more in each cell.
 pub(super) fn compare<T: Real>(
     gap: &Gap<'_, T>,
-    panels: &Cover<T>,
+    assumed: [&dyn Assumed<T>; 2],
     on: Interval<T>,
     spacing: T,
     steepest: T,
-) -> Result<Cost, ContactError<T>> {
-    // Loose: it is the values at the nodes that count.
-    let mut cells = Cover::new(T::of(1e-3));
+) -> Result<Cells<T>, ContactError<T>> {
+    let mut cells = Cover::new(T::epsilon().sqrt());
     let mut sampler = Sampler::default();
+    let (mut panels, mut doubt) = (Vec::new(), None);
     let mut left = on.left;
     while left < on.right {
         let next = left + spacing;
         let right = if next > left { next.min(on.right) } else { on.right };
         cells.sample_anew(gap, Interval { left, right })?;
+        panels.extend_from_slice(&cells.panels);
         // Those halved down to a jump end at one of its two sides, by chance.
         let short = T::of(SHORT) * (right - left);
         for cell in cells.panels.iter().filter(|cell| cell.half() > short) {
             let table = Table::of(cell.n);
             for &z in &table.z[..cell.n] {
                 let x = cell.x[0] + cell.half() * T::of(1.0 + z);
-                let Some((assumed, tail)) = panels.slope(x).zip(panels.tail(x)) else { continue };
-                let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * tail;
-                if (cell.value(x) - assumed).abs() <= allowed {
-                    continue;
-                }
-                // The series of the cell may itself be off.
-                let slope = sampler.slope(gap, x)?;
-                if (slope - assumed).abs() > allowed {
-                    return Err(ContactError::Missed { x, slope, assumed });
+                for (i, assumed) in assumed.iter().enumerate() {
+                    let Some((assumed, error)) = assumed.at(x) else { continue };
+                    if i == 1 {
+                        doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
+                    }
+                    let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
+                    if (cell.value(x) - assumed).abs() <= allowed {
+                        continue;
+                    }
+                    // The series of the cell may itself be off.
+                    let slope = sampler.slope(gap, x)?;
+                    if (slope - assumed).abs() > allowed {
+                        return Err(ContactError::Missed { x, slope, assumed });
+                    }
                 }
             }
         }
         left = right;
     }
-    Ok(cells.cost + sampler.cost)
+    let cost = cells.cost + sampler.cost;
+    Ok(Cells { panels, doubt: doubt.unwrap_or(T::zero()), cost })
 }

@@ -3,8 +3,10 @@
 //! First the contact is [sketched](super::sketch). Then a stretch a little wider than that is sampled in
 //! full, and Newton's method finds the limits on it. The nested search ([`limits`](super::limits))
 //! takes over where this goes astray, and is used throughout where the user has chosen a strategy or
-//! the quadrature knows no derivatives; it ends on panels made for the contact, too.
+//! the quadrature knows no derivatives; it ends on panels made for the contact, too. Where neither finds
+//! a contact it is asked what the bodies [bear](super::capacity).
 
+use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::goal::{Goal, relative_error};
 use super::limits::{self, Nested};
@@ -15,6 +17,9 @@ use super::{Contact, Found, pull};
 use crate::gap::Cost;
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Interval, Real};
+
+/// More doubt than this, as a share of the half-width, is no contact found.
+pub(super) const MOST_DOUBT: f64 = 0.03;
 
 /// Finds the contact that meets the conditions.
 pub(super) fn find<T: Real>(
@@ -121,12 +126,12 @@ pub(super) fn with_edges<T: Real>(
         }
     }
     engine.hold(gap, limits);
-    let mut settled = None;
+    let (mut settled, mut refused) = (None, Refused { contact, conditions, bears: None });
     let warm = warm.filter(|on| on.left >= range[0] && on.right <= range[1]);
     if contact.search.is_none() {
         let guess = match warm {
             Some(warm) => Some((warm, T::of(0.02))),
-            None => sketch(contact, conditions, engine)?,
+            None => sketch(contact, conditions, engine, &mut refused, cost)?,
         };
         // What was sampled for the last load serves for the next.
         if let (Some((guess, _)), Some(covered)) = (guess, engine.covered()) {
@@ -136,12 +141,16 @@ pub(super) fn with_edges<T: Real>(
                 .filter(|settled| settled.on.half_width() >= T::of(0.3) * covered.half_width());
         }
         if settled.is_none() {
+            refused.check_if_close(engine.covered(), cost)?;
             let guess = guess.unwrap_or_else(|| (start(contact, conditions), T::of(0.02)));
             settled = match in_full(contact, conditions, engine, guess) {
                 // About the contact of another scene.
                 Err(_) if warm.is_some() => None,
                 settled => settled?,
             };
+            if settled.is_none() {
+                refused.check_if_close(engine.covered(), cost)?;
+            }
         }
     }
     if settled.is_none() && warm.is_some() {
@@ -151,7 +160,8 @@ pub(super) fn with_edges<T: Real>(
     }
     if settled.is_none() {
         engine.forget();
-        let (mut nested, mut load) = nested(contact, conditions, engine, contact.start, cost)?;
+        let found = nested(contact, conditions, engine, contact.start, cost);
+        let (mut nested, mut load) = found.map_err(|error| refused.because(error, cost))?;
         // Panels much wider than the contact are not as good as they look: search again on new ones.
         for _ in 0..3 {
             let covered = engine.covered().map(|on| on.half_width());
@@ -165,16 +175,27 @@ pub(super) fn with_edges<T: Real>(
             let start = Some(nested.on);
             (nested, load) = self::nested(contact, conditions, engine, start, cost)?;
         }
-        let error = Some(nested.error);
         if contact.search.is_none() {
             settled = in_full(contact, conditions, engine, (nested.on, T::zero()))?;
         }
         if settled.is_none() {
             let m = engine.moments(gap, nested.on)?;
-            check_strengths(conditions, &nested, &m)?;
             let carried = || conditions.balance(nested.on, &m);
             let load = load.or_else(carried).unwrap_or_else(|| conditions.load());
-            return Ok(Found::new(conditions, nested.on, load, error, &m));
+            // A strategy and a rule of one's own are as good as one has asked for.
+            let own = contact.search.is_some() || m.trend.is_none();
+            let much = |error: T| error > T::of(MOST_DOUBT);
+            let error = strength_error(conditions, &nested, load, &m);
+            let error = error.filter(|&error| own || !much(error));
+            let Some(error) = error else {
+                let half_width = nested.on.half_width();
+                let error = ContactError::NoBalance { half_width, near: nested.on.centre() };
+                return Err(refused.because(error, cost));
+            };
+            if much(error) || (!own && error > T::epsilon().sqrt()) {
+                refused.check(cost)?;
+            }
+            return Ok(Found::new(conditions, nested.on, load, Some(error), &m));
         }
     }
     match settled {
@@ -216,29 +237,82 @@ fn given<T: Real>(
     Ok(Found::new(conditions, on, load, error, &m))
 }
 
-/// What the nested search has found on panels that were changed under way must hold on those that
-/// it has left: no more strength at a free edge than the search says that it may have left.
-fn check_strengths<T: Real>(
+/// The error of limits that the nested search has found, by what it says itself and by what is left at
+/// the free edges on the panels that it has ended with, which may have changed under way. `None` where
+/// load and adhesion are less than the rounding of the forces: any interval would do.
+fn strength_error<T: Real>(
     conditions: &Conditions<T>,
     nested: &Nested<T>,
+    load: T,
     m: &Moments<T>,
-) -> Result<(), ContactError<T>> {
+) -> Option<T> {
     let on = nested.on;
-    let Given::Load(load) = conditions.given else { return Ok(()) };
     let stiffness = conditions.kappa * on.half_width();
-    let share = T::of(0.01).max(T::of(10.0) * nested.error);
-    let allowed = share * (load.abs() + stiffness * m.size);
-    // Where load and adhesion are less than the rounding of the forces, any interval would do.
     let [pull_b, pull_a] = conditions.pull(on.half_width());
     let lost = T::epsilon() * stiffness * m.size > load.abs() + pull_a + pull_b;
+    let by_load = matches!(conditions.given, Given::Load(_));
+    if lost && by_load && conditions.edges.iter().any(|edge| edge.is_free()) {
+        return None;
+    }
+    let size = load.abs() + stiffness * m.size;
+    let mut error = nested.error;
     for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
-        let missed = load - stiffness * (m.first + sign * m.mean);
-        if edge.is_free() && (lost || missed.abs() > allowed) {
-            let half_width = on.half_width();
-            return Err(ContactError::NoBalance { half_width, near: on.centre() });
+        let missed = (load - stiffness * (m.first + sign * m.mean)).abs() / size;
+        if edge.is_free() && missed > error {
+            error = missed;
         }
     }
-    Ok(())
+    Some(error)
+}
+
+/// A load or a width for which no contact is found.
+pub(super) struct Refused<'s, T: Real> {
+    contact: &'s Contact<'s, T>,
+    conditions: &'s Conditions<T>,
+    /// What the bodies bear, once looked at.
+    bears: Option<Option<Capacity<T>>>,
+}
+
+impl<T: Real> Refused<'_, T> {
+    /// Refuses more than the bodies bear.
+    pub fn check(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let Self { contact, conditions, .. } = *self;
+        let range = contact.gap.range();
+        let bears = self.bears.get_or_insert_with(|| capacity(contact, conditions, range, cost));
+        match (conditions.given, bears) {
+            (Given::Load(load), Some(bears)) if load > bears.load => Err(bears.too_short(load)),
+            (Given::HalfWidth(wanted), Some(bears))
+                if wanted > bears.on.half_width() * (T::one() + T::of(8.0) * T::epsilon()) =>
+            {
+                Err(bears.too_wide(wanted))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The same after Newton's method, which close to an end is perhaps on its way beyond.
+    fn check_if_close(
+        &mut self,
+        covered: Option<Interval<T>>,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        let range = self.contact.gap.range();
+        let close = |on: Interval<T>| {
+            let away = (on.left - range[0]).min(range[1] - on.right);
+            away < T::of(1e-3) * on.half_width()
+        };
+        if covered.is_some_and(close) { self.check(cost) } else { Ok(()) }
+    }
+
+    /// That, where it is the reason for an error of a search.
+    fn because(&mut self, error: ContactError<T>, cost: &mut Cost) -> ContactError<T> {
+        match error {
+            ContactError::NoBalance { .. }
+            | ContactError::OutsideBodies { .. }
+            | ContactError::Overflow { .. } => self.check(cost).err().unwrap_or(error),
+            _ => error,
+        }
+    }
 }
 
 /// The contact that Newton's method has settled on.

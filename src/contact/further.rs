@@ -10,7 +10,7 @@ use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};
 
 /// Steps taken; each gains three to five digits.
-pub(super) const STEPS: usize = 6;
+const STEPS: usize = 6;
 
 /// The step of the differences, as a share of the half-width.
 const SHARE: f64 = 1e-5;

@@ -134,6 +134,7 @@ struct Trial<T> {
 }
 
 struct Search<'s, T: Real> {
+    contact: &'s Contact<'s, T>,
     goal: Goal<T>,
     gap: &'s Gap<'s, T>,
     engine: &'s mut dyn Engine<T>,
@@ -162,6 +163,7 @@ impl<'s, T: Real> Search<'s, T> {
         cost: &'s mut Cost,
     ) -> Self {
         Self {
+            contact,
             goal,
             gap: &contact.gap,
             engine,

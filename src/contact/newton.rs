@@ -17,6 +17,7 @@
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
 //! long one as in the power of L that the load is seen to go with.
 
+use super::approach::MOST_DOUBT;
 use super::edges::{Conditions, Edge, Given};
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
@@ -24,6 +25,10 @@ use nalgebra::{Matrix2, Vector2};
 
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
+
+/// Of these so many may lead beyond an end of the bodies: what they bear is another question, and each
+/// takes samples closer to that end.
+const MOST_AT_END: usize = 24;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]
@@ -57,7 +62,7 @@ pub(super) fn settle<T: Real>(
     let range = gap.range();
     let mut on = conditions.with_given_limits(start);
     let mut load = conditions.load();
-    let mut before: Option<T> = None;
+    let (mut before, mut at_end): (Option<T>, usize) = (None, 0);
     // A step that was cut short tells nothing of the next.
     let certain = |size: T| Some(size).filter(|&size| size <= T::of(0.25));
     for _ in 0..MOST_STEPS {
@@ -96,6 +101,10 @@ pub(super) fn settle<T: Real>(
             right: back(before_move.right, allowed.right, range[1], allowed.right > range[1]),
         };
         if allowed != on {
+            at_end += usize::from(on.left < range[0] || on.right > range[1]);
+            if at_end > MOST_AT_END && effort == Effort::Full {
+                return Ok(None);
+            }
             (on, before) = (allowed, None);
             continue;
         }
@@ -131,8 +140,7 @@ pub(super) fn settle<T: Real>(
                 };
                 let errors = [error(0, left), error(1, right)];
                 let force = system.force(errors);
-                // More doubt than this is no contact found.
-                if errors[0].max(errors[1]) > T::of(0.03) {
+                if errors[0].max(errors[1]) > T::of(MOST_DOUBT) {
                     return Ok(None);
                 }
                 let error = errors[0].max(errors[1]);

@@ -1,21 +1,22 @@
 //! The contact with a given largest pressure.
 //!
-//! The largest pressure is sought as a function of the half-width, with which it grows. Each trial
-//! is a contact of given half-width; the samples of one serve the next.
+//! The largest pressure grows with the load, on bodies of any shape: the contact being what it is, by
+//! `1/(π sqrt((a - x)(x + b)))` for each unit of it. So the load is sought. Each trial is a contact of given
+//! load; the samples of one serve the next.
 
+use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
-use super::widest::widest;
 use super::{Contact, Found, approach};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, Pressing, complete};
-use crate::search::Bracket;
+use crate::search::{Bracket, Newton};
 use crate::{ContactError, Interval, Real};
 
 /// Points at which a largest pressure is first looked for.
 const POINTS: usize = 64;
 
-/// Widths tried before the pressure is given up.
-const MOST_WIDTHS: usize = 200;
+/// Loads tried before the pressure is given up.
+const MOST_LOADS: usize = 200;
 
 /// Where the pressure of a prepared contact is largest, and how large, adding to `cost` what it takes.
 pub(crate) fn peak<T: Real>(
@@ -73,7 +74,7 @@ pub(crate) fn peak<T: Real>(
     Ok(top)
 }
 
-/// Contacts of given half-width between free edges.
+/// Contacts of given load between free edges.
 struct Trials<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     wanted: T,
@@ -83,40 +84,30 @@ struct Trials<'s, T: Real> {
     last: Option<Interval<T>>,
 }
 
+/// A contact, its largest pressure, and how that grows with the load.
+type Trial<T> = (Found<T>, T, T);
+
 impl<T: Real> Trials<'_, T> {
-    fn conditions(&self, half_width: T) -> Conditions<T> {
-        let kappa = self.contact.kappa;
-        Conditions { kappa, edges: [Edge::Free; 2], given: Given::HalfWidth(half_width) }
+    fn conditions(&self, given: Given<T>) -> Conditions<T> {
+        Conditions { kappa: self.contact.kappa, edges: [Edge::Free; 2], given }
     }
 
-    /// A contact and its largest pressure.
-    fn at(&mut self, half_width: T) -> Result<(Found<T>, T), ContactError<T>> {
-        let (contact, conditions) = (self.contact, self.conditions(half_width));
+    fn at(&mut self, given: Given<T>) -> Result<Trial<T>, ContactError<T>> {
+        let (contact, conditions) = (self.contact, self.conditions(given));
         let found = approach::find(contact, conditions, self.engine, self.last, self.cost)?;
         let on = found.interval;
-        let rounding = T::of(8.0) * T::epsilon() * half_width;
+        let rounding = T::of(8.0) * T::epsilon() * on.half_width();
         super::check_within(on, contact.ends(), rounding)?;
         self.engine.prepare(&contact.gap, on)?;
         complete(self.engine, &contact.gap, on, self.cost)?;
         let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };
-        let (_, Estimate { value: pressure, error: doubt }) =
+        let (x, Estimate { value: pressure, error: doubt }) =
             peak(self.engine, &contact.gap, &pressing, on, self.cost)?;
-        if pressure.is_finite() {
-            self.last = Some(on);
-            // The half-width goes with the peak, and is known no better.
-            let error = found.error.map(|error| error + doubt / pressure.abs());
-            Ok((Found { error, ..found }, pressure))
-        } else {
-            Err(ContactError::NoPeak { wanted: self.wanted, half_width, found: pressure })
-        }
-    }
-
-    /// The largest half-width that there is room for, where that can be told.
-    fn widest(&mut self) -> Option<T> {
-        let conditions = self.conditions(T::one());
-        let on = widest(self.contact, conditions, self.engine, self.cost)?;
-        self.last = Some(on);
-        Some(on.half_width())
+        self.last = Some(on.plain());
+        // The half-width goes with the peak, and is known no better.
+        let error = found.error.map(|error| error + doubt / pressure.abs());
+        let rate = T::frac_1_pi() / on.edge_root(x);
+        Ok((Found { error, ..found }, pressure, rate))
     }
 }
 
@@ -152,19 +143,14 @@ pub(super) fn find<T: Real>(
     if T::MORE_STEPS == 0 {
         return Ok(found);
     }
-    // The derivatives of the half-width, by a few steps with its rate from a difference.
-    let on = found.interval.plain();
-    let mut half_width = on.half_width();
-    let mut try_out = |half_width| {
-        trials.last = Some(on);
-        trials.at(half_width)
-    };
-    let step = T::of(1e-5) * half_width;
-    let rate = ((try_out(half_width)?.1 - try_out(half_width - step)?.1) / step).part(0);
-    for _ in 0..super::further::STEPS {
-        half_width -= (try_out(half_width)?.1 - wanted) / rate;
+    // The derivatives of the load. From one step to the next one more is exact, but for the rate, which
+    // is that at a peak found to half the digits.
+    let mut load = found.load.part(0);
+    for _ in 0..T::MORE_STEPS + 2 {
+        let (_, pressure, rate) = trials.at(Given::Load(load))?;
+        load += (wanted - pressure) / rate.part(0);
     }
-    Ok(try_out(half_width)?.0)
+    Ok(trials.at(Given::Load(load))?.0)
 }
 
 fn by_search<T: Real>(
@@ -172,110 +158,137 @@ fn by_search<T: Real>(
     warm: Option<Interval<T>>,
 ) -> Result<Found<T>, ContactError<T>> {
     let (contact, wanted) = (trials.contact, trials.wanted);
-    let range = contact.gap.range();
-    let start = warm.or(contact.start).map(|on| on.half_width());
-    let mut half_width = start.unwrap_or(T::of(1.0 / 64.0) * (range[1] - range[0]));
+    let (zero, one) = (T::zero(), T::one());
+    let (range, infinite) = (contact.gap.range(), one / zero);
+    let half_width = match warm.or(contact.start) {
+        Some(on) => on.half_width(),
+        None => T::of(1.0 / 64.0) * (range[1] - range[0]),
+    };
+    // That of Hertz: or of a contact as wide as that, if there is one.
+    let hertz = T::frac_pi_2() * wanted * half_width;
+    let begin = trials.at(Given::HalfWidth(half_width));
+    let mut bears = begin.as_ref().err().and_then(|error| Capacity::of(error, contact.ends()));
+    let mut begin =
+        begin.ok().filter(|(found, pressure, _)| found.load > zero && pressure.is_finite());
+    let first = match (&begin, bears) {
+        (Some((found, ..)), _) => found.load,
+        (None, Some(widest)) => widest.load,
+        (None, None) => hertz,
+    };
+    let interval = trials.last.unwrap_or(Interval { left: range[0], right: range[1] });
+    if !(hertz > zero && hertz.is_finite()) {
+        return Err(ContactError::Overflow { interval });
+    }
+    let mut load = first;
+    // Loads and peaks on either side of the one wanted: infinite where the pressure is, or there is no
+    // contact, and zero where so small a load does not close a hollow.
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
-    let (mut too_wide, mut narrowest): (Option<T>, Option<T>) = (None, None);
-    let mut widest = None;
-    for _ in 0..MOST_WIDTHS {
-        let (found, pressure) = match trials.at(half_width) {
-            Ok(trial) => trial,
-            // Too wide for the bodies, or beyond a place where the pressure is infinite: half the way
-            // back.
+    for _ in 0..MOST_LOADS {
+        let trial = match (begin.take(), bears) {
+            (Some(trial), _) => Ok(trial),
+            (None, Some(widest)) if load >= widest.load => Err(widest.too_short(load)),
+            _ => trials.at(Given::Load(load)),
+        };
+        let (pressure, rate) = match trial {
+            Ok((found, pressure, _)) if pressure == wanted => return Ok(found),
+            Ok((_, pressure, rate)) => (pressure, rate),
+            Err(ContactError::NoBalance { .. }) if high.is_none() => (zero, zero),
             Err(
-                error @ (ContactError::NoPeak { .. }
+                error @ (ContactError::TooShort { .. }
                 | ContactError::OutsideBodies { .. }
-                | ContactError::TooShort { .. }
                 | ContactError::NoBalance { .. }),
             ) => {
-                let from = low.map_or(T::zero(), |[half_width, _]| half_width);
-                too_wide = Some(half_width);
-                let no_room = matches!(
-                    error,
-                    ContactError::OutsideBodies { .. } | ContactError::TooShort { .. }
-                );
-                if no_room && widest.is_none() {
-                    widest = trials.widest().filter(|&widest| widest > from && widest < half_width);
-                    if let Some(widest) = widest {
-                        half_width = widest;
-                        continue;
+                let conditions = trials.conditions(Given::Load(load));
+                let ends = contact.ends();
+                let known = bears.or_else(|| Capacity::of(&error, ends));
+                bears = known.or_else(|| capacity(contact, &conditions, ends, trials.cost));
+                match bears.filter(|widest| widest.load <= load) {
+                    Some(widest) => {
+                        let room = T::of(8.0) * T::epsilon() * wanted;
+                        if (widest.peak - wanted).abs() <= room {
+                            trials.last = Some(widest.on);
+                            let half_width = widest.on.half_width();
+                            return Ok(trials.at(Given::HalfWidth(half_width))?.0);
+                        }
+                        if widest.peak < wanted {
+                            return Err(widest.peak_too_high(wanted));
+                        }
+                        load = widest.load;
+                        (widest.peak, T::frac_1_pi() / widest.on.half_width())
                     }
+                    None => (infinite, infinite),
                 }
-                half_width = T::of(0.5) * (from + half_width);
-                let first = *narrowest.get_or_insert(T::of(1e-6) * half_width);
-                if half_width - from <= T::of(1e-9) * half_width || half_width < first {
-                    return Err(match low {
-                        Some(low) if no_room => too_high(wanted, low),
-                        _ => error,
-                    });
-                }
-                continue;
             }
             Err(error) => return Err(error),
         };
-        if pressure == wanted {
-            return Ok(found);
+        *(if pressure < wanted { &mut low } else { &mut high }) = Some([load, pressure]);
+        // By Newton's rule for the logarithms, and a little further, so as to enclose it.
+        let power = (pressure / (load * rate)).max(T::of(0.5)).min(T::of(5.0));
+        let step = (wanted / pressure).powf(power);
+        let step = if pressure < wanted { step * T::of(1.1) } else { step / T::of(1.1) };
+        let sure = pressure.is_finite() && pressure > zero;
+        let most = T::of(if sure { 1e12 } else { 1e3 });
+        let mut next = load * step.max(most.recip()).min(most);
+        if next <= zero {
+            return Err(ContactError::Overflow { interval });
         }
-        if widest == Some(half_width) && pressure < wanted {
-            // All the room there is.
-            let met = wanted - pressure <= T::of(8.0) * T::epsilon() * wanted;
-            return if met { Ok(found) } else { Err(too_high(wanted, [half_width, pressure])) };
+        if let (Some([from, at_from]), Some([to, at_to])) = (low, high) {
+            if to <= T::of(4.0) * from && at_to.is_finite() {
+                let bracket = Bracket::new(from, to).values(at_from - wanted, at_to - wanted);
+                return enclosed(trials, &bracket.guess(next));
+            }
+            if to <= from * (one + T::epsilon().sqrt()) {
+                break;
+            }
+            if !(next > from && next < to) {
+                next = from.sqrt() * to.sqrt();
+            }
+        } else if !(sure || next > T::of(1e-12) * first && next < T::of(1e12) * first) {
+            break;
         }
-        if pressure <= T::zero() {
-            // So narrow a contact there is none: the bodies touch beside a hollow.
-            let wider = half_width + half_width;
-            let half_way = |end: T| T::of(0.5) * half_width + T::of(0.5) * end;
-            half_width = too_wide.filter(|&end| wider >= end).map_or(wider, half_way);
-            continue;
-        }
-        *(if pressure < wanted { &mut low } else { &mut high }) = Some([half_width, pressure]);
-        if let (Some(low), Some(high)) = (low, high) {
-            let bracket = Bracket::new(low[0].min(high[0]), low[0].max(high[0]));
-            let bracket = bracket.values(low[1] - wanted, high[1] - wanted);
-            let (mut best, mut failed): (Option<(T, Found<T>)>, _) = (None, None);
-            let mut f = |half_width| match trials.at(half_width) {
-                Ok((found, pressure)) => {
-                    let missed = pressure - wanted;
-                    if best.is_none_or(|(least, _)| missed.abs() <= least) {
-                        best = Some((missed.abs(), found));
-                    }
-                    missed
-                }
-                Err(error) => {
-                    failed = Some(error);
-                    T::of(f64::NAN)
-                }
-            };
-            let root = contact.strategy().find(&mut f, &bracket);
-            return match (failed, root, best) {
-                (Some(error), _, _) => Err(error),
-                // A strategy may have left something, or more than it says.
-                (None, Ok(_), Some((missed, found))) => {
-                    let error = found.error.map(|error| error + missed / wanted);
-                    Ok(Found { error, ..found })
-                }
-                (None, Err(source), Some((_, found))) => {
-                    Err(ContactError::LimitSearch { best: found.interval, source })
-                }
-                (None, _, None) => {
-                    Err(ContactError::NoPeak { wanted, half_width: low[0], found: low[1] })
-                }
-            };
-        }
-        // The pressure of a round body grows with the half-width.
-        let factor = wanted / pressure;
-        let factor = if pressure < wanted { factor * T::of(1.2) } else { factor / T::of(1.2) };
-        let last = half_width;
-        half_width *= factor.max(T::of(1e-3)).min(T::of(4.0));
-        if let Some(too_wide) = too_wide.filter(|&too_wide| half_width >= too_wide) {
-            half_width = T::of(0.5) * (last + too_wide);
-        }
+        load = next;
     }
-    let found = low.or(high).map_or(T::zero(), |[_, pressure]| pressure);
+    let found = high.or(low).map_or(zero, |[_, pressure]| pressure);
+    let half_width = trials.last.map_or(half_width, |on| on.half_width());
     Err(ContactError::NoPeak { wanted, half_width, found })
 }
 
-fn too_high<T: Real>(wanted: T, [half_width, found]: [T; 2]) -> ContactError<T> {
-    ContactError::PeakTooHigh { wanted, half_width, found }
+/// Finds the load between one that is too small and one that is too large.
+fn enclosed<T: Real>(
+    trials: &mut Trials<'_, T>,
+    bracket: &Bracket<T>,
+) -> Result<Found<T>, ContactError<T>> {
+    let wanted = trials.wanted;
+    let strategy = trials.contact.search.unwrap_or(&Newton::DEFAULT);
+    let (mut best, mut failed): (Option<(T, Found<T>)>, _) = (None, None);
+    let mut f = |load| match trials.at(Given::Load(load)) {
+        Ok((found, pressure, rate)) => {
+            let missed = pressure - wanted;
+            if best.is_none_or(|(least, _)| missed.abs() <= least) {
+                best = Some((missed.abs(), found));
+            }
+            (missed, rate)
+        }
+        Err(error) => {
+            failed = Some(error);
+            (T::of(f64::NAN), T::zero())
+        }
+    };
+    let root = strategy.find_with_slope(&mut f, bracket);
+    match (failed, root, best) {
+        (Some(error), _, _) => Err(error),
+        // A strategy may have left something, or more than it says.
+        (None, Ok(_), Some((missed, found))) => {
+            let error = found.error.map(|error| error + missed / wanted);
+            Ok(Found { error, ..found })
+        }
+        (None, Err(source), Some((_, found))) => {
+            Err(ContactError::LimitSearch { best: found.interval, source })
+        }
+        (None, _, None) => Err(ContactError::NoPeak {
+            wanted,
+            half_width: trials.last.map_or(T::zero(), |on| on.half_width()),
+            found: T::of(f64::NAN),
+        }),
+    }
 }

@@ -1,8 +1,8 @@
 //! Adhesive contacts that are pulled at.
 
 use super::approach::{contact_of, in_full, with_edges};
+use super::capacity::capacity;
 use super::edges::{Conditions, Given};
-use super::widest::widest;
 use super::{Contact, Found};
 use crate::gap::Cost;
 use crate::quadrature::Engine;
@@ -45,18 +45,14 @@ pub(super) fn find<T: Real>(
             | ContactError::NoBalance { .. }
             | ContactError::Overflow { .. }),
         ) => {
-            let on = widest(contact, *conditions, engine, cost).ok_or(error)?;
-            let m = engine.moments(&contact.gap, on)?;
-            let carried = conditions.balance(on, &m).unwrap_or(T::zero());
-            let [left, right] = contact.ends();
-            let end = if on.left <= left { left } else { right };
-            let too_short = ContactError::TooShort { end, carried, load };
-            if carried <= load {
+            let widest = capacity(contact, conditions, contact.ends(), cost).ok_or(error)?;
+            let too_short = widest.too_short(load);
+            if widest.load <= load {
                 return Err(too_short);
             }
             // Unless it grows with its load, the one to be found is wider.
             fault = Some(too_short);
-            (carried, on)
+            (widest.load, widest.on)
         }
         Err(error) => return Err(error),
     };

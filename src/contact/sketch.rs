@@ -5,14 +5,19 @@
 //! is sketched anew.
 
 use super::Contact;
+use super::approach::Refused;
 use super::edges::Conditions;
 use super::newton::{Effort, Settled, settle};
 use super::stretch::{beyond, with_corners};
+use crate::gap::Cost;
 use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};
 
 /// Sketches before the approach is given up.
 const MOST_SKETCHES: usize = 120;
+
+/// Of which so many may reach for an end of the bodies before it is asked what these bear.
+const MOST_AT_END: usize = 40;
 
 /// The start, or the middle half of the bodies.
 pub(super) fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Interval<T> {
@@ -36,6 +41,8 @@ pub(super) fn sketch<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     engine: &mut dyn Engine<T>,
+    refused: &mut Refused<'_, T>,
+    cost: &mut Cost,
 ) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
     let gap = &contact.gap;
     let range = gap.range();
@@ -43,6 +50,7 @@ pub(super) fn sketch<T: Real>(
         |on: &Interval<T>| on.left >= range[0] && on.right <= range[1] && on.left < on.right;
     let mut stretch = start(contact, conditions);
     let mut on: Option<Interval<T>> = None;
+    let mut at_end = 0;
     for _ in 0..MOST_SKETCHES {
         if !inside(&stretch) {
             return Ok(None);
@@ -89,6 +97,11 @@ pub(super) fn sketch<T: Real>(
             left: inward(next.left, on.left, range[0]),
             right: -inward(-next.right, -on.right, -range[1]),
         };
+        // One that comes to an end again and again is perhaps more than the bodies bear.
+        at_end += usize::from(next.left <= range[0] || next.right >= range[1]);
+        if at_end == MOST_AT_END {
+            refused.check(cost)?;
+        }
         stretch = with_corners(conditions, stretch.plain());
     }
     Ok(None)

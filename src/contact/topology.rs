@@ -259,7 +259,6 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
-            if std::env::var("SHOW").is_ok() {
                 println!("{start:?} {on:?} {fault:?}");
             }
             let last = on.len() - 1;

@@ -16,7 +16,7 @@ mod way;
 pub(crate) use knots::Knot;
 
 use super::{Cost, Gap, Side};
-use crate::profile::{Piece, turning_point};
+use crate::profile::{Piece, first_turn, turning_point};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
@@ -213,9 +213,9 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
             knots[i] = knot;
         }
         if !sound {
-            for knot in knots.iter_mut() {
+            for (i, knot) in knots.iter_mut().enumerate() {
                 *knot = self.or_end(*knot);
-                self.check(knot)?;
+                self.check(i, knot)?;
             }
         }
         Ok(all_near)
@@ -278,7 +278,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
             }
             cost.evaluations += 1;
             let knot = self.or_end(Knot::new(k, self.piece.curve.at(k)));
-            self.check(&knot)?;
+            self.check(i, &knot)?;
             if self.is_near(i, &knot) {
                 return Ok(knot);
             }
@@ -316,7 +316,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
             }
             cost.evaluations += 1;
             let knot = self.or_end(Knot::new(k, self.piece.curve.at(k)));
-            if let Err(error) = self.check(&knot) {
+            if let Err(error) = self.check(i, &knot) {
                 failed = Some(error);
                 return (T::of(f64::NAN), knot.dx);
             }
@@ -331,7 +331,7 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
                 None => {
                     cost.evaluations += 1;
                     let knot = self.or_end(Knot::new(root.x, self.piece.curve.at(root.x)));
-                    self.check(&knot).map(|()| knot)
+                    self.check(i, &knot).map(|()| knot)
                 }
             },
             (Err(source), None) => Err(ContactError::Inversion { body, x: target, source }),
@@ -344,8 +344,11 @@ impl<const N: usize, T: Real> Shot<'_, N, T> {
         knot.x.is_finite() & knot.slope.is_finite() & (onward >= T::zero())
     }
 
-    fn check(&self, knot: &Knot<T>) -> Result<(), ContactError<T>> {
-        if self.is_sound(knot) { Ok(()) } else { Err(self.fault(knot)) }
+    /// A point on the way to a target need have no slope: X may have saturated there, far from all that
+    /// counts.
+    fn check(&self, i: usize, knot: &Knot<T>) -> Result<(), ContactError<T>> {
+        let still = knot.dx.is_zero() && knot.x.is_finite() && !self.is_near(i, knot);
+        if still || self.is_sound(knot) { Ok(()) } else { Err(self.fault(knot)) }
     }
 
     #[cold]
@@ -366,8 +369,9 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
     let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
         return error;
     };
-    let [left, _] = piece.k;
-    let (k, x) = turning_point(piece.curve, left.min(k), left.max(k));
+    let [left, right] = piece.k;
+    let first = first_turn(piece.curve, [left.min(right), left.max(right)]);
+    let (k, x) = first.unwrap_or_else(|| turning_point(piece.curve, left.min(k), left.max(k)));
     ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
 }
 

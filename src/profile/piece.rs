@@ -44,7 +44,7 @@ impl<'a, T: Real> Piece<'a, T> {
     ///
     /// # Errors
     /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` is not finite,
-    /// [`ProfileError::TurnsBack`] where it is the same at both ends.
+    /// [`ProfileError::TurnsBack`] where it is the same at both ends, or runs the wrong way at both.
     pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
         let k = interval(curve.domain())?;
         let ends = k.map(|k| curve.at(k));
@@ -83,6 +83,14 @@ impl<'a, T: Real> Piece<'a, T> {
         k: [T; 2],
         ends: [CurvePoint<T>; 2],
     ) -> Result<Self, ProfileError<T>> {
+        // Between two ends at which X runs the other way it turns, as that of a closed curve does. At
+        // those where it stands still X' may be rounded.
+        let slope = (ends[1].x - ends[0].x) / (k[1] - k[0]);
+        let back = |end: &CurvePoint<T>| end.dx / slope < -T::epsilon().sqrt();
+        if ends.iter().all(back) {
+            let (k, x) = first_turn(curve, k).unwrap_or((k[0], ends[0].x));
+            return Err(ProfileError::TurnsBack { k, x });
+        }
         if ends[0].x < ends[1].x {
             Ok(Self { curve, k, ends })
         } else if ends[0].x > ends[1].x {
@@ -146,7 +154,8 @@ impl<'a, T: Real> Piece<'a, T> {
                 // the wrong way.
                 let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
                 let j = (0..STEPS).find(turns).unwrap_or(i);
-                let (k, x) = turning_point(curve, k(j), k(j + 1));
+                let first = first_turn(curve, [from, to]);
+                let (k, x) = first.unwrap_or_else(|| turning_point(curve, k(j), k(j + 1)));
                 return Err(ProfileError::TurnsBack { k, x });
             }
         }
@@ -188,6 +197,31 @@ fn check_derivatives<T: Real>(
         }
     }
     wrong
+}
+
+/// The first place, outward from the middle of the domain, where `X'` changes its sign: what lies
+/// between it and the middle is of use.
+pub(crate) fn first_turn<T: Real>(
+    curve: &dyn ParametricProfile<T>,
+    [from, to]: [T; 2],
+) -> Option<(T, T)> {
+    const STEPS: usize = 2048;
+    let half = T::of(0.5);
+    let (middle, step) = (half * from + half * to, half * (to - from) / T::count(STEPS));
+    let back = |k: T| curve.dx(k) < T::zero();
+    let side = back(middle);
+    let mut last = [middle; 2];
+    for i in 1..=STEPS {
+        let reach = step * T::count(i);
+        let next = [(middle - reach).max(from), (middle + reach).min(to)];
+        for (last, next) in last.iter_mut().zip(next) {
+            if back(next) != side {
+                return Some(turning_point(curve, last.min(next), last.max(next)));
+            }
+            *last = next;
+        }
+    }
+    None
 }
 
 /// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.

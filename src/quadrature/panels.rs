@@ -110,6 +110,11 @@ impl<T: Real> Quadrature<T> for Panels {
     }
 }
 
+/// The edge integrals over an interval that the panels cover.
+pub(crate) fn edge_integrals<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
+    integrals::moments(panels, on, false)
+}
+
 #[derive(Clone)]
 struct AtWork<T> {
     rule: Panels,
@@ -327,6 +332,10 @@ impl<T: Real> Engine<T> for AtWork<T> {
 
     fn slope(&self, x: T) -> Option<T> {
         self.cover.slope(x)
+    }
+
+    fn doubt(&self, x: T) -> Option<T> {
+        Some(self.cover.tail(x)? + self.cover.tolerance * self.cover.size)
     }
 
     fn forget(&mut self) {

@@ -556,3 +556,106 @@ fn a_kink_downwards_far_out() {
         assert!(there == x && pressure == f64::NEG_INFINITY, "{there} {pressure}");
     }
 }
+
+/// x²/2 with one smooth rise of the slope, of width w and height s, at x₀.
+fn risen(x0: f64, w: f64, s: f64) -> Profile {
+    graph(-1.0, 1.0, move |x: f64| {
+        let t = ((x - x0) / w).tanh();
+        [x * x / 2.0 + s * w * t, x + s * (1.0 - t * t)]
+    })
+}
+
+/// By how much limits under a load are off, as a share of the half-width, by c₀ and c₁ from so many
+/// points that they resolve the rise.
+fn limits_off(on: linecontact::Interval<f64>, load: f64, slope: impl Fn(f64) -> f64) -> f64 {
+    let (n, c, l) = (20_000, on.centre(), on.half_width());
+    let (mut m0, mut m1) = (0.0, 0.0);
+    for i in 0..n {
+        let cos = (PI * (f64::from(i) + 0.5) / f64::from(n)).cos();
+        let g = slope(c + l * cos) / f64::from(n);
+        (m0, m1) = (m0 + g, m1 + g * cos);
+    }
+    (m0.abs() + (load / l - m1).abs()) / l
+}
+
+/// Bumps that the panels of the solver may have missed, though those of the certificate have not: no
+/// limits are certified that are off by more than they say.
+#[test]
+fn limits_that_are_off_are_not_certified() {
+    let load = 0.02;
+    let (mut wrong, mut certified) = (0, 0);
+    let mut named =
+        vec![(0.152304969, 0.001317286, 0.001118924, 0.0), (0.138, 0.0194, 0.014, 1e-6)];
+    let share = |i: usize, step: f64| (step * (i as f64 + 0.5)).fract();
+    for tolerance in [0.0, 1e-6, 1e-4, 1e-3] {
+        for i in 0..100 {
+            let x0 = 0.19 * (2.0 * share(i, 0.618_033_988_75) - 1.0);
+            let w = 1e-3 * 40f64.powf(share(i, 0.754_877_666_2));
+            let s = 3e-4 * 60f64.powf(share(i, 0.569_840_291));
+            named.push((x0, w, s, tolerance));
+        }
+    }
+    for (x0, w, s, tolerance) in named {
+        let body = risen(x0, w, s);
+        let panels = linecontact::Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels);
+        let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
+        if solution.certify().is_err() {
+            continue;
+        }
+        certified += 1;
+        let slope = |x: f64| x + s * (1.0 - ((x - x0) / w).tanh().powi(2));
+        let off = limits_off(solution.interval(), load, slope);
+        if off > 10.0 * solution.limits_error().unwrap() + tolerance + 1e-13 {
+            println!("{x0} {w} {s} {tolerance}: {off:e} {:?}", solution.limits_error());
+            wrong += 1;
+        }
+    }
+    println!("{wrong} of {certified}");
+    assert!(wrong == 0 && certified > 50, "{wrong} of {certified}");
+}
+
+/// A body that is another at each time it is looked at, as one in a cell may be.
+#[test]
+fn a_body_that_has_changed_is_not_certified() {
+    let half = std::sync::atomic::AtomicBool::new(false);
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let scale = if half.load(std::sync::atomic::Ordering::Relaxed) { 0.25 } else { 1.0 };
+        CurvePoint { x: k, y: scale * k * k / 2.0, dx: 1.0, dy: scale * k }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for midpoint in [false, true] {
+        half.store(false, std::sync::atomic::Ordering::Relaxed);
+        let rule = Midpoint::default();
+        let contact = if midpoint { contact.clone().quadrature(&rule) } else { contact.clone() };
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
+        solution.certify().unwrap();
+        half.store(true, std::sync::atomic::Ordering::Relaxed);
+        match solution.certify() {
+            Err(ContactError::Missed { .. }) if !midpoint => {}
+            // F/L - m₁ = (1 - 1/4) L/2, by π.
+            Err(ContactError::Unbalanced { strength, allowed, .. }) if midpoint => {
+                assert!((strength * PI / 0.075 - 1.0).abs() < 1e-6, "{strength}");
+                assert!(allowed < 1e-6, "{allowed}");
+            }
+            other => panic!("{midpoint}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn heights_that_are_no_numbers_are_not_certified() {
+    for (from, to) in [(-1.0, 1.0), (0.19, 0.21), (-0.001, 0.001)] {
+        let body = Curve::new([-1.0, 1.0], move |k: f64| {
+            let y = if k >= from && k <= to { f64::NAN } else { k * k / 2.0 };
+            CurvePoint { x: k, y, dx: 1.0, dy: k }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap().certified(true);
+        let error = contact.solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
+        let ContactError::Profile { source, .. } = error else { panic!("{error}") };
+        let linecontact::ProfileError::NotFinite { quantity: "Y", k, .. } = source else {
+            panic!("{source}")
+        };
+        assert!(k >= from && k <= to, "{k}");
+    }
+}

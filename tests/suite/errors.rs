@@ -53,7 +53,7 @@ fn scales_that_are_none() {
 fn a_load_too_large_for_the_domain() {
     // A parabola that reaches to x = ±1 carries F = 1/2 at most.
     for load in [0.51, 2.0, 1e10, 1e300] {
-        let ContactError::TooShort { end, carried, load: asked } =
+        let ContactError::TooShort { end, carried, load: asked, .. } =
             error(&Flat, &*parabola(1.0), load)
         else {
             panic!("load {load}")

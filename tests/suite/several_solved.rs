@@ -64,7 +64,7 @@ fn errors<T: Real>(name: &str, form: &dyn ClosedForm<T>, solution: &Solution<T>)
 }
 
 #[test]
-#[ignore = "several contacts are not solved yet"]
+
 fn the_solver_agrees_with_closed_forms() {
     for (name, form, reach) in forms::<f64>() {
         let body = body(&*form, -reach, reach).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -80,7 +80,7 @@ fn the_solver_agrees_with_closed_forms() {
 }
 
 #[test]
-#[ignore = "several contacts are not solved yet"]
+
 fn in_single_precision_too() {
     for (name, form, reach) in forms::<f32>() {
         // Many contacts, narrow ones, leave few digits of x in each.
@@ -100,7 +100,7 @@ fn in_single_precision_too() {
 
 /// `x⁴ - 2x²` up and down through F = π, cold and warm.
 #[test]
-#[ignore = "several contacts are not solved yet"]
+
 fn two_contacts_merge_and_part() {
     let kappa = PI / 2.0;
     let quartic = graph(-2.5, 2.5, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
@@ -132,7 +132,7 @@ fn two_contacts_merge_and_part() {
 /// A rough body: as the load grows its limits only move outwards, through births and mergers, and its
 /// pressures change little by little; the way back is the same.
 #[test]
-#[ignore = "several contacts are not solved yet"]
+
 fn limits_only_move_outwards() {
     let height = |x: f64| {
         let waves =
@@ -204,7 +204,7 @@ fn limits_only_move_outwards() {
 
 /// A solution found by other means: `tests/data/several`.
 #[test]
-#[ignore = "several contacts are not solved yet"]
+
 fn contacts_without_a_closed_form() {
     let want = several("rough_parabola");
     let body = graph(-2.0, 2.0, |x| {

@@ -2,6 +2,7 @@
 
 use super::place::Placed;
 use super::{Search, Trial, nearer};
+use crate::contact::capacity::capacity;
 use crate::contact::goal::{Excess, Goal};
 use crate::contact::stride::{Stride, ulps};
 use crate::search::Bracket;
@@ -59,7 +60,7 @@ impl<T: Real> Search<'_, T> {
                 (Placed::Beyond(end), Some(narrow)) => {
                     let trial = self.pin(end, narrow.on)?;
                     if trial.excess.spread() > zero {
-                        return Err(self.too_short(end, trial.on));
+                        return Err(self.too_short(trial.on));
                     }
                     trial
                 }
@@ -79,7 +80,7 @@ impl<T: Real> Search<'_, T> {
             if given && spread > zero {
                 for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
                     if self.goal.limits()[end].is_none() && x == self.range[end] {
-                        return Err(self.too_short(end, trial.on));
+                        return Err(self.too_short(trial.on));
                     }
                 }
             }
@@ -102,7 +103,7 @@ impl<T: Real> Search<'_, T> {
                     if half_width <= last {
                         return Err(match adrift {
                             Some(_) => self.no_balance(last),
-                            None => self.too_short(1, trial.on),
+                            None => self.too_short(trial.on),
                         });
                     }
                 }
@@ -135,20 +136,16 @@ impl<T: Real> Search<'_, T> {
     }
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
-    fn too_short(&mut self, end: usize, on: Interval<T>) -> ContactError<T> {
-        match self.goal {
+    fn too_short(&mut self, on: Interval<T>) -> ContactError<T> {
+        let error = match self.goal {
             Goal::Pressure { wanted, .. } => {
-                let met = self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess));
-                met.err().unwrap_or(self.no_balance(on.half_width()))
+                self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess)).err()
             }
-            Goal::Strength { conditions, .. } => match self.engine.moments(self.gap, on) {
-                Ok(m) => ContactError::TooShort {
-                    end: self.range[end],
-                    carried: conditions.balance(on, &m).unwrap_or(self.load),
-                    load: self.load,
-                },
-                Err(error) => error,
-            },
-        }
+            Goal::Strength { conditions, .. } => {
+                capacity(self.contact, &conditions, self.range, self.cost)
+                    .map(|widest| widest.too_short(self.load))
+            }
+        };
+        error.unwrap_or(self.no_balance(on.half_width()))
     }
 }

@@ -54,6 +54,7 @@ fn loads_scales_and_edges() {
                             matches!(
                                 error,
                                 ContactError::TooShort { .. }
+                                    | ContactError::TooWide { .. }
                                     | ContactError::Overflow { .. }
                                     | ContactError::NoPeak { .. }
                                     | ContactError::PeakTooHigh { .. }

@@ -27,6 +27,12 @@ impl<T: Real> Cover<T> {
                 sum += rise.abs() + due.abs();
                 rounded = rounded.max(knots[i].y.abs() + (knots[i].x * knots[i].slope).abs());
             }
+            if !sum.is_finite()
+                && let Some(knot) = knots.iter().find(|knot| !knot.y.is_finite())
+            {
+                let source = ProfileError::NotFinite { quantity: "Y", k: knot.k, value: knot.y };
+                return Err(ContactError::Profile { body, source });
+            }
             let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height());
             let noise = noise + T::of(1e-6) * self.size * (knots[n - 1].x - knots[0].x);
             if off > T::of(0.3) * sum + noise {

@@ -1,0 +1,172 @@
+//! What the bodies bear: the last of their balanced contacts.
+//!
+//! For each half-width there is one balanced contact, and with the half-width its load and its largest
+//! pressure grow. The family ends where a limit reaches the end of a body. That contact depends on the
+//! bodies alone: it is found on panels of its own, whatever was asked for and by whatever means.
+
+use super::edges::{Conditions, Edge};
+use super::goal::Goal;
+use super::peak::peak;
+use super::Contact;
+use crate::gap::Cost;
+use crate::quadrature::{Engine, Panels, Pressing, Quadrature};
+use crate::search::{Bracket, Brent, LimitSearch};
+use crate::{ContactError, Interval, Real};
+
+/// Shares of the bodies that are left out at their ends where the slope is no number there, or too
+/// large for one.
+const LEFT_OUT: [f64; 4] = [0.0, 4.0, 4e3, 4e6];
+
+/// By how much narrower contacts at the end become from one to the next until one is too narrow.
+const NARROWER: f64 = 8.0;
+
+/// How often: what that takes from the largest number to the smallest.
+const MOST_WIDTHS: usize = 700;
+
+/// The widest balanced contact.
+#[derive(Clone, Copy)]
+pub(super) struct Capacity<T> {
+    pub on: Interval<T>,
+    /// The end of the bodies that it reaches.
+    pub end: T,
+    pub load: T,
+    /// Its largest pressure; infinite at a corner, or where the slope of the gap jumps up.
+    pub peak: T,
+}
+
+impl<T: Real> Capacity<T> {
+    /// What an error says of it, if it is that of bodies with these ends.
+    pub fn of(error: &ContactError<T>, ends: [T; 2]) -> Option<Self> {
+        let (end, load, half_width, peak) = match *error {
+            ContactError::TooShort { end, carried, half_width, peak, .. } => {
+                (end, carried, half_width, peak)
+            }
+            ContactError::TooWide { end, load, half_width, peak, .. } => {
+                (end, load, half_width, peak)
+            }
+            _ => return None,
+        };
+        let width = half_width + half_width;
+        let on = if end == ends[0] {
+            Interval { left: end, right: end + width }
+        } else {
+            Interval { left: end - width, right: end }
+        };
+        ends.contains(&end).then_some(Self { on, end, load, peak })
+    }
+
+    /// The error for a load that is more than the bodies bear.
+    pub fn too_short(&self, load: T) -> ContactError<T> {
+        let Self { on, end, load: carried, peak } = *self;
+        ContactError::TooShort { end, carried, load, half_width: on.half_width(), peak }
+    }
+
+    /// The error for a width that the bodies have no room for.
+    pub fn too_wide(&self, wanted: T) -> ContactError<T> {
+        let Self { on, end, load, peak } = *self;
+        ContactError::TooWide { wanted, half_width: on.half_width(), end, load, peak }
+    }
+
+    /// The error for a peak higher than that of any contact there is room for.
+    pub fn peak_too_high(&self, wanted: T) -> ContactError<T> {
+        let Self { on, end, load, peak } = *self;
+        ContactError::PeakTooHigh { wanted, half_width: on.half_width(), found: peak, end, load }
+    }
+}
+
+/// The balanced contact that reaches the first of two ends; `None` where there is none, as between
+/// bodies that do not open towards their ends.
+pub(super) fn capacity<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    [left, right]: [T; 2],
+    cost: &mut Cost,
+) -> Option<Capacity<T>> {
+    let mut engine = Panels::FULL.engine().ok()?;
+    let fixed = conditions.edges.map(|edge| edge.limit());
+    let goal = Goal::Strength { conditions: *conditions, load: T::zero() };
+    let mut pinned = Pinned { contact, goal, engine: &mut *engine };
+    let found = LEFT_OUT.into_iter().find_map(|share| {
+        let out = T::of(share) * T::epsilon() * (right - left);
+        let [left, right] = [fixed[0].unwrap_or(left + out), fixed[1].unwrap_or(right - out)];
+        pinned.widest(Interval { left, right })
+    });
+    let capacity = found.and_then(|(on, side)| {
+        let m = engine.moments(&contact.gap, on).ok()?;
+        let load = conditions.balance(on, &m)?;
+        engine.prepare(&contact.gap, on).ok()?;
+        let free = [conditions.edges[1].is_free(), conditions.edges[0].is_free()];
+        let pressing = Pressing { kappa: conditions.kappa, load, free };
+        let peak = if fixed == [None; 2] {
+            peak(&*engine, &contact.gap, &pressing, on, &mut Cost::default()).ok()?.1.value
+        } else {
+            T::one() / T::zero()
+        };
+        Some(Capacity { on, end: [left, right][side], load, peak })
+    });
+    *cost += engine.cost();
+    // Without adhesion one that would have to be pulled at is none: the bodies touch beside a hollow.
+    let pulled = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+    let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
+    capacity.filter(bears)
+}
+
+/// Contacts that reach an end.
+struct Pinned<'s, T: Real> {
+    contact: &'s Contact<'s, T>,
+    goal: Goal<T>,
+    engine: &'s mut dyn Engine<T>,
+}
+
+impl<T: Real> Pinned<'_, T> {
+    /// The balanced one, and which end it reaches.
+    fn widest(&mut self, whole: Interval<T>) -> Option<(Interval<T>, usize)> {
+        let Interval { left, right } = whole;
+        match self.goal.limits() {
+            [Some(_), _] => return Some((whole, 1)),
+            [_, Some(_)] => return Some((whole, 0)),
+            [None, None] => {}
+        }
+        let at_whole = self.shift(whole)?;
+        let side = usize::from(at_whole > T::zero());
+        if at_whole.is_zero() {
+            return Some((whole, side));
+        }
+        // One limit stays at the end towards which all of the bodies would shift, the other moves in.
+        let on = |x: T| match side {
+            0 => Interval { left, right: x },
+            _ => Interval { left: x, right },
+        };
+        let (mut wide, mut at_wide, mut width) = ([right, left][side], at_whole, right - left);
+        for _ in 0..MOST_WIDTHS {
+            width /= T::of(NARROWER);
+            let narrow = [left + width, right - width][side];
+            if on(narrow).half_width() <= T::zero() {
+                return None;
+            }
+            let at_narrow = self.shift(on(narrow))?;
+            if (at_narrow > T::zero()) != (at_wide > T::zero()) {
+                let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
+                let [lo, hi] = if side == 0 { [one, other] } else { [other, one] };
+                let bracket = Bracket::new(lo.0, hi.0).values(lo.1, hi.1);
+                let mut f = |x| self.shift(on(x)).unwrap_or(T::of(f64::NAN));
+                let root = Brent::DEFAULT.find(&mut f, &bracket).ok()?;
+                return Some((on(root.x), side));
+            }
+            (wide, at_wide) = (narrow, at_narrow);
+        }
+        None
+    }
+
+    /// Positive: the contact must move to the right.
+    fn shift(&mut self, on: Interval<T>) -> Option<T> {
+        // Panels much wider than a contact would not see what is narrow in it.
+        let covered = self.engine.covered().map_or(T::zero(), |covered| covered.half_width());
+        if covered > T::of(2.0 * NARROWER) * on.half_width() {
+            self.engine.forget();
+        }
+        let (goal, gap) = (&self.goal, &self.contact.gap);
+        let excess = goal.excess(gap, on, self.engine, &mut Cost::default()).ok()?;
+        excess.is_finite().then(|| excess.shift())
+    }
+}

@@ -1,0 +1,254 @@
+//! What bodies bear: the same whatever is asked of them.
+#![allow(missing_docs)]
+
+use crate::common;
+use common::{Profile, graph};
+use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, ParametricProfile};
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A body that counts how often it is looked at.
+struct Counted(Profile, Arc<AtomicUsize>);
+
+impl ParametricProfile<f64> for Counted {
+    fn domain(&self) -> [f64; 2] {
+        self.0.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.0.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
+        self.0.piece(index)
+    }
+}
+
+/// What a body bears on a flat, κ = 1: load, half-width, peak pressure and the end it reaches. Without a
+/// closed form, NaN.
+struct Scene {
+    name: String,
+    body: Profile,
+    bears: [f64; 3],
+    end: f64,
+}
+
+/// x^1.5 - s x on [0, 4]: c₀ = 0 with one limit at 0 where sqrt(2 L) = π s/3.
+fn steep(s: f64) -> Scene {
+    let body = graph(0.0, 4.0, move |x: f64| [x * (x.sqrt() - s), 1.5 * x.sqrt() - s]);
+    let l = PI * PI * s * s / 18.0;
+    let bears = [l * s / 3.0, l, f64::NAN];
+    Scene { name: format!("x^1.5 - {s} x"), body, bears, end: 0.0 }
+}
+
+/// Two slopes on [-1, 1]: π c₀/2 = m₂ θ₀ - m₁ (π - θ₀) = 0, F = L (m₁ + m₂) sin θ₀/π.
+fn tip(slopes: [f64; 2]) -> Scene {
+    let [m1, m2] = [-slopes[0], slopes[1]];
+    // From the side that is steeper.
+    let (beta, end) = (PI * m1.min(m2) / (m1 + m2), if m1 > m2 { 1.0 } else { -1.0 });
+    let l = 1.0 / (1.0 + beta.cos());
+    let bears = [l * (m1 + m2) * beta.sin() / PI, l, f64::INFINITY];
+    let body = Box::new(wedge(slopes, 1.0).unwrap());
+    Scene { name: format!("wedge {slopes:?}"), body, bears, end }
+}
+
+fn lopsided(left: f64) -> Scene {
+    let body = Box::new(Parabola::new(1.0, [left, 1.0]).unwrap());
+    let bears = [left * left / 2.0, -left, -left / PI];
+    Scene { name: format!("parabola from {left}"), body, bears, end: left }
+}
+
+fn scenes() -> Vec<Scene> {
+    let none = [f64::NAN; 3];
+    let flank = |from: f64| Scene {
+        name: format!("flank at {from}"),
+        body: Box::new(Involute::new(50.0, from, [0.0, 0.8]).unwrap()),
+        bears: none,
+        end: -100.0 * (0.5 * from).sin().powi(2),
+    };
+    let e = 1e-6;
+    let square = Curve::new([0.0, 1.0], move |k: f64| CurvePoint {
+        x: k * k,
+        y: k * k * (k - e),
+        dx: 2.0 * k,
+        dy: k * (3.0 * k - 2.0 * e),
+    });
+    let l = PI * PI * e * e / 18.0;
+    let logarithm = |p: f64| {
+        graph(0.0, 2.0, move |k: f64| {
+            if k > 0.0 {
+                [k * ((k / p).ln() - 1.0), (k / p).ln()]
+            } else {
+                [0.0, f64::NEG_INFINITY]
+            }
+        })
+    };
+    // ln(L (1 + cos θ)) = ln(L/2) - 2 Σ (-1)^k cos kθ/k: c₀ = 0 where L = 2 p, and c₁ = 2.
+    let by_log = |p: f64| Scene {
+        name: format!("k ln(k/{p}) - k"),
+        body: logarithm(p),
+        bears: [2.0 * p, 2.0 * p, f64::NAN],
+        end: 0.0,
+    };
+    vec![
+        steep(1.0),
+        steep(0.3),
+        steep(0.1),
+        tip([-1.0, 0.1]),
+        tip([-0.1, 1e-6]),
+        lopsided(-0.1),
+        lopsided(-1e-9),
+        flank(0.01),
+        flank(1e-4),
+        flank(1e-6),
+        Scene {
+            name: "x = k², y = k³ - 1e-6 k²".into(),
+            body: Box::new(square),
+            bears: [l * e / 3.0, l, f64::NAN],
+            end: 0.0,
+        },
+        Scene {
+            name: "k^1.2 - 0.001 k".into(),
+            body: graph(0.0, 2.0, |k: f64| [k.powf(1.2) - 1e-3 * k, 1.2 * k.powf(0.2) - 1e-3]),
+            bears: none,
+            end: 0.0,
+        },
+        by_log(0.1),
+        by_log(1e-3),
+    ]
+}
+
+/// Control, half-width, peak and end by the errors for more than that.
+fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
+    match contact.solve(load).map(|solution| (solution.interval(), solution.limits_error())) {
+        Err(ContactError::TooShort { carried, half_width, peak, end, .. }) => {
+            [carried, half_width, peak, end]
+        }
+        Err(ContactError::TooWide { load, half_width, peak, end, .. }) => {
+            [load, half_width, peak, end]
+        }
+        Err(ContactError::PeakTooHigh { load, half_width, found, end, .. }) => {
+            [load, half_width, found, end]
+        }
+        other => panic!("{load:?}: {other:?}"),
+    }
+}
+
+#[test]
+fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
+    let mut faults = Vec::new();
+    for Scene { name, body, bears: exact, end } in scenes() {
+        let count = Arc::new(AtomicUsize::new(0));
+        let body = Counted(body, Arc::clone(&count));
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let taken = |load: Control<f64>| {
+            let before = count.load(Ordering::Relaxed);
+            let result =
+                std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| bears(&contact, load)));
+            (count.load(Ordering::Relaxed) - before, result)
+        };
+        let (_, first) = taken(Control::Load(1e6));
+        let Ok(first) = first else {
+            faults.push(name);
+            continue;
+        };
+        for (found, exact) in first.into_iter().zip(exact) {
+            let off = (found / exact - 1.0).abs();
+            if off > 1e-8 {
+                faults.push(format!("{name}: {first:?}, not {exact:?}"));
+            }
+        }
+        if (first[3] - end).abs() > 4e-15 * end.abs() {
+            faults.push(format!("{name}: end {}, not {end}", first[3]));
+        }
+        let half = |load: Control<f64>| {
+            let before = count.load(Ordering::Relaxed);
+            let _ = contact.solve(load);
+            count.load(Ordering::Relaxed) - before
+        };
+        // What presses may be a load; a peak takes several loads.
+        let at_half = half(Control::Load(first[0] / 2.0));
+        let at_half = at_half.max(half(Control::PeakPressure(first[2].min(1e300) / 2.0)));
+        let mut worst = [0; 3];
+        for times in [1.002, 1.6, 10.0, 55.0, 1e3, 1e5, 1e8, 1e13] {
+            let mut asked = vec![Control::Load(times * first[0])];
+            if times < 1e5 {
+                asked.push(Control::HalfWidth(times * first[1]));
+            }
+            if first[2].is_finite() {
+                asked.push(Control::PeakPressure(times * first[2]));
+            }
+            for load in asked {
+                let (taken, again) = taken(load);
+                let i = match load {
+                    Control::HalfWidth(_) => 1,
+                    Control::PeakPressure(_) => 2,
+                    _ => 0,
+                };
+                worst[i] = taken.max(worst[i]);
+                match again {
+                    Ok(again) if again.map(f64::to_bits) == first.map(f64::to_bits) => {}
+                    _ => faults.push(format!("{name} {times} {load:?}: {again:?}")),
+                }
+            }
+        }
+        println!("{name}: {first:?}; evaluations {worst:?}, at half of it {at_half}");
+        if worst.iter().any(|&worst| worst > 20 * at_half) {
+            faults.push(format!("{name}: {worst:?} > 20 {at_half}"));
+        }
+    }
+    assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// More than a body bears is never a contact, by how little or much it ever is.
+#[test]
+fn no_load_beyond_what_is_borne_has_a_contact() {
+    for s in [1.0, 0.3, 0.1] {
+        let Scene { body, bears: [most, ..], .. } = steep(s);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for i in 0..100 {
+            let load = most * (1.002 + 1e-3 * (1e8f64.powf(f64::from(i) / 100.0) - 1.0));
+            let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
+            let ContactError::TooShort { carried, .. } = error else { panic!("{load}: {error}") };
+            assert!((carried / most - 1.0).abs() < 1e-12, "{carried} {most}");
+        }
+        let fits = contact.solve(Control::Load(0.999 * most)).unwrap();
+        assert!(fits.limits_error().unwrap() < 1e-9, "{fits:?}");
+    }
+}
+
+/// A flat punch with round edges in a groove touches at both, and has no single contact.
+#[test]
+fn a_punch_in_a_groove_bears_nothing_in_one_place() {
+    let groove = Parabola::new(3.0, [-1.5, 1.5]).unwrap();
+    // The widest contact in balance would carry -L²/6 by the groove and next to nothing by its edges.
+    let punch = rounded_punch(1.0, 0.1, 1.05).unwrap();
+    let contact = Contact::new(&groove, &punch).unwrap();
+    for load in [1e-3, 1.0, 1e3] {
+        let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::NoBalance { .. }), "{load}: {error}");
+    }
+}
+
+/// Peaks of bodies with a flat, where they come from.
+#[test]
+fn a_flat_has_the_contact_of_its_peak() {
+    for (flat, radius) in [(1.0f64, 1.0), (1.0, 0.1), (0.1, 5.0)] {
+        for ratio in [1.0001, 1.001, 1.003, 1.03, 1.3] {
+            let body = rounded_punch(flat, radius, 1.5 * flat).unwrap();
+            let contact = Contact::new(&Flat, &body).unwrap();
+            let under = contact.solve(Control::HalfWidth(ratio * flat)).unwrap();
+            let peak = under.peak().unwrap().pressure;
+            let found = contact
+                .solve(Control::PeakPressure(peak))
+                .unwrap_or_else(|e| panic!("{ratio}: {e}"));
+            assert!((found.a() / under.a() - 1.0).abs() < 1e-11, "{found:?} {under:?}");
+            assert!((found.load() / under.load() - 1.0).abs() < 1e-9, "{found:?} {under:?}");
+            println!("{flat} {radius} {ratio}: {}", found.cost().samples);
+        }
+    }
+}
