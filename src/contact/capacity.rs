@@ -4,10 +4,10 @@
 //! pressure grow. The family ends where a limit reaches the end of a body. That contact depends on the
 //! bodies alone: it is found on panels of its own, whatever was asked for and by whatever means.
 
+use super::Contact;
 use super::edges::{Conditions, Edge};
 use super::goal::Goal;
 use super::peak::peak;
-use super::Contact;
 use crate::gap::Cost;
 use crate::quadrature::{Engine, Panels, Pressing, Quadrature};
 use crate::search::{Bracket, Brent, LimitSearch};
