@@ -34,7 +34,7 @@ fn scene<'a>(task: &Task, bodies: &'a [Body; 2], panels: &'a Panels) -> Result<C
 
 /// The contact, and `x` and `P(x)` at the points.
 fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> {
-    let on = solution.interval();
+    let on = solution.hull();
     points.x = places(on);
     solution.pressure()?.at_many(&points.x, &mut points.p)?;
     Ok([on.left, on.right])

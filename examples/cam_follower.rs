@@ -96,7 +96,7 @@ impl Simulation {
         }
         let contact = Contact::new(&cam, &Flat)?.contact_modulus(MODULUS);
         let solution = self.solver.solve(&contact, Control::Load(force))?;
-        let (arm, half_width) = (solution.interval().centre(), solution.interval().half_width());
+        let (arm, half_width) = (solution.hull().centre(), solution.hull().half_width());
 
         let hertz = (4.0 * force * (h + ddh) / (PI * MODULUS)).sqrt();
         let energy = energy(self.angle, self.speed) / self.energy - 1.0;

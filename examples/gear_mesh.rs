@@ -77,7 +77,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let [pinion, wheel] = mesh.flanks(s)?;
         let contact = Contact::new(&pinion, &wheel)?.contact_modulus(MODULUS);
         let solution = solver.solve(&contact, Control::Load(mesh.load(s)))?;
-        let solved = [solution.interval().half_width(), solution.peak()?.pressure];
+        let solved = [solution.hull().half_width(), solution.peak()?.pressure];
 
         let radius = s * (mesh.line - s) / mesh.line; // 1/R = 1/s + 1/(line - s)
         let half_width = (4.0 * mesh.load(s) * radius / (PI * MODULUS)).sqrt();

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let exact = Ellipse::circle(RADIUS, HALF_WIDTH)?;
     let contact = Contact::new(&Flat, &smooth)?.contact_modulus(MODULUS);
     let solution = contact.solve(Control::Load(exact.load(kappa)))?;
-    let (on, pressure) = (solution.interval(), solution.pressure()?);
+    let (on, pressure) = (solution.hull(), solution.pressure()?);
     let middle = pressure.at(0.0)?;
     let off = [on.right / HALF_WIDTH, -on.left / HALF_WIDTH, middle / exact.pressure(0.0, kappa)];
     let off = off.map(|ratio| ratio - 1.0);

@@ -61,7 +61,7 @@ fn elliptic(modulus: f64) -> (f64, f64) {
 
 /// Draws the pressure, and says where.
 fn draw(solution: &Solution<f64>) -> Result<&'static str, Box<dyn Error>> {
-    let (on, pressure) = (solution.interval(), solution.pressure()?);
+    let (on, pressure) = (solution.hull(), solution.pressure()?);
     // At equal angles, close together at the edges where the pressure is steep.
     let x = (0..=200).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 200.0)));
     let points =

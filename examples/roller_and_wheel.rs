@@ -76,7 +76,7 @@ fn wheel() -> Result<(), Box<dyn Error>> {
     for load in [1000.0, 100.0, 10.0] {
         let solution = contact.solve(Control::Load(load))?;
         let form = UnequalRadii::under_load(radii[0], radii[1], load, kappa)?;
-        let (got, want) = (solution.interval(), form.limits());
+        let (got, want) = (solution.hull(), form.limits());
         let x = 0.5 * want.right;
         let ratios = [
             got.left / want.left,

@@ -72,7 +72,7 @@ fn draw(
     // The roller on the flat, in units of L²/R = L². Of the gap that opens beside the contact over
     // that of the bodies, and of their common surface in it, each has half.
     let loaded = |x: f64| {
-        let inside = solution.interval().contains(L * x);
+        let inside = solution.hull().contains(L * x);
         let gap = if inside { 0.0 } else { solution.gap_at(L * x)? / (L * L) };
         let [flat, roller] = [0.0, (x * x - 1.0) / 2.0];
         let moved = 0.5 * (gap - (roller - flat));

@@ -63,7 +63,7 @@ impl<T: Real> Solution<'_, T> {
         if let Some(&interval) = contacts.get(next).filter(|on| on.contains(x)) {
             return Err(ContactError::Misplaced { x, inside: false, interval });
         }
-        let Interval { left, right } = self.interval();
+        let Interval { left, right } = self.hull();
         // An edge may have been rounded to beyond the end of a body that it lies at.
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });

@@ -63,7 +63,7 @@ impl<T: Real> Solution<'_, T> {
     /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
     /// [`ContactError::Overflow`].
     pub fn moment(&self) -> Result<T, ContactError<T>> {
-        let interval = self.interval();
+        let interval = self.hull();
         let moment = interval.half_width() * self.moment_by_half_width()?;
         if moment.is_finite() { Ok(moment) } else { Err(ContactError::Overflow { interval }) }
     }
@@ -78,12 +78,12 @@ impl<T: Real> Solution<'_, T> {
         if load.is_zero() {
             return Err(ContactError::Load { load });
         }
-        Ok(self.interval().half_width() * (self.moment_by_half_width()? / load))
+        Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
     }
 
     /// A force: a moment may be beyond the numbers where the centre of pressure is not.
     fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
-        let on = self.interval();
+        let on = self.hull();
         let (centre, half_width) = (on.centre(), on.half_width());
         let share = |distance: T, strength: T| [-(distance / half_width) * strength];
         let [about_centre] = Integrals::new(self)?.over(centre, share)?;
@@ -141,7 +141,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
         let Some(interval) = self.contact_with(x) else {
-            return Err(ContactError::Misplaced { x, inside: true, interval: self.interval() });
+            return Err(ContactError::Misplaced { x, inside: true, interval: self.hull() });
         };
         let integrals = Integrals::new(self)?;
         let mut at_x = [T::zero()];

@@ -14,9 +14,9 @@ pub use report::{Report, Start, Trial, Verdict};
 
 /// A solved contact: its limits, and on request its pressure.
 ///
-/// It is the solution for one contact interval. Where the slope of the gap rises throughout it is
-/// the physical one; otherwise the pressure may turn out negative inside, or the bodies may
-/// overlap outside: [`certify`](Self::certify) proves that they do not.
+/// It is the contact of the bodies, in one interval or several ([`intervals`](Self::intervals)), as far as the
+/// checks of the solve can see; [`report`](Self::report) says what was checked. What they cannot see is
+/// narrower than the distance of the samples: [`certify`](Self::certify) looks at all of the bodies.
 ///
 /// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
 /// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
@@ -55,8 +55,8 @@ impl<'b, T: Real> Solution<'b, T> {
         -self.found.interval.left
     }
 
-    /// The contact `[-b, a]`.
-    pub fn interval(&self) -> Interval<T> {
+    /// From the first limit to the last, `[-b, a]`: the contact, if it is one.
+    pub fn hull(&self) -> Interval<T> {
         self.found.interval
     }
 

@@ -159,7 +159,7 @@ impl<T: Real> Subsurface<'_, T> {
             return Err(ContactError::AboveSurface { x, depth });
         }
         // Where all digits of the depth are lost.
-        if depth <= T::epsilon().powi(5) * self.interval().half_width() {
+        if depth <= T::epsilon().powi(5) * self.hull().half_width() {
             return self.on_surface(x);
         }
         let moments = self.integrals.over(x, |distance, strength| {
@@ -176,7 +176,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// The limit of the stress as the depth goes to zero.
     fn on_surface(&self, x: T) -> Result<Stress<T>, ContactError<T>> {
-        let Interval { left, right } = self.interval();
+        let Interval { left, right } = self.hull();
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
         if self.solution.contact_with(x).is_some() {
@@ -205,15 +205,15 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// The contact.
-    pub fn interval(&self) -> Interval<T> {
-        self.solution.interval()
+    pub fn hull(&self) -> Interval<T> {
+        self.solution.hull()
     }
 }
 
 impl<T: Real> std::fmt::Debug for Subsurface<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut debug = f.debug_struct("Subsurface");
-        debug.field("interval", &self.interval()).field("friction", &self.friction);
+        debug.field("interval", &self.hull()).field("friction", &self.friction);
         debug.finish_non_exhaustive()
     }
 }

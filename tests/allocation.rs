@@ -64,7 +64,7 @@ fn solve(
 
 fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
     let solution = solver.solve(contact, Control::Load(load)).unwrap();
-    let (on, mut pressures) = (solution.interval(), [0.0; 101]);
+    let (on, mut pressures) = (solution.hull(), [0.0; 101]);
     let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(0.02 + 0.03 * i as f64));
     let pressure = solution.pressure().unwrap();
     pressure.at_many(&x, &mut pressures).unwrap();

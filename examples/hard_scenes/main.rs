@@ -101,7 +101,7 @@ fn line(scene: &Scene) -> Result<String, String> {
         let known = !scene.points.is_empty();
         let pressure = if known { format!("{worst:.0e}") } else { "-".to_owned() };
         let estimate = solution.limits_error().unwrap_or(f64::NAN);
-        Ok((solution.interval(), estimate, solution.cost().evaluations, pressure))
+        Ok((solution.hull(), estimate, solution.cost().evaluations, pressure))
     })
     .map_err(of)?;
     let condition = condition(scene, found).map_err(of)?;
@@ -128,7 +128,7 @@ fn condition(scene: &Scene, on: Interval<f64>) -> Result<f64, ContactError<f64>>
                 CurvePoint { dy: point.dy * (1.0 + CHANGE * share), ..point }
             };
             let changed = scene.changed(which, Arc::new(change));
-            let moved = solve(scene, &changed, |solution| Ok(solution.interval()))?;
+            let moved = solve(scene, &changed, |solution| Ok(solution.hull()))?;
             worst = worst.max(apart(on, moved) / CHANGE);
         }
     }

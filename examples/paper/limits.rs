@@ -114,7 +114,7 @@ pub fn solve(case: &Case, reading: Reading, zero: Zero) -> Result<Solved, Contac
         }
     };
     let solution = contact.solve(Control::Load(c / PI))?;
-    let (contact, cost) = (solution.interval(), solution.cost());
+    let (contact, cost) = (solution.hull(), solution.cost());
     let pressure = solution.pressure()?;
     let cost = cost + pressure.cost();
     let segment = (contact.right - contact.left) / case.segments as f64;

@@ -9,7 +9,7 @@ pub const SOLVED: bool = false;
 
 /// The contacts of a solution, from left to right.
 pub fn contacts(solution: &Solution<f64>) -> Vec<Interval<f64>> {
-    vec![solution.interval()]
+    vec![solution.hull()]
 }
 
 /// Where a body begins and ends; NaN if it has no ends.

@@ -63,7 +63,7 @@ pub fn outcome(scene: &Scene, way: &Way) -> Result<Outcome, ContactError<f64>> {
 }
 
 fn of_limits(scene: &Scene, solution: &Solution<f64>) -> [f64; 2] {
-    let (got, want) = (solution.interval(), scene.limits);
+    let (got, want) = (solution.hull(), scene.limits);
     [got.right / want.right - 1.0, got.left / want.left - 1.0].map(f64::abs)
 }
 

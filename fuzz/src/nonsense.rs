@@ -111,7 +111,7 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
         ));
     }
     let Ok(solution) = solved else { return Ok(false) };
-    let on = solution.interval();
+    let on = solution.hull();
     if !(on.left < on.right && on.right - on.left < f64::INFINITY && solution.load().is_finite()) {
         return Err(format!(
             "limits: {on:?} under {} for {load:?} on {contact:?}",

@@ -279,7 +279,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         let z = [rng.between(-0.99, 0.99), 1.0 - near, near - 1.0][i % 3];
         let x = centre + half_width * z;
         let apart = scene.joints.iter().map(|joint| (joint - x).abs()).fold(half_width, f64::min);
-        if x <= solution.interval().left || x >= solution.interval().right || apart == 0.0 {
+        if x <= solution.hull().left || x >= solution.hull().right || apart == 0.0 {
             continue;
         }
         let exact = scene.kappa * scene.on.pressure(&terms, x);

@@ -20,7 +20,7 @@ use crate::Real;
 /// let below = Placed::new(roller, Placement::default().flipped())?;
 /// let contact = Contact::new(&below, &above)?;
 /// let solution = contact.solve(Control::Load(0.01))?;
-/// assert!((solution.interval().centre() - 1.5).abs() < 1e-13);
+/// assert!((solution.hull().centre() - 1.5).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -49,7 +49,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses edges at which all stress is infinite.
     fn check_edges(&self) -> Result<(), ContactError<T>> {
-        let (found, Interval { left, right }) = (self.solution.found(), self.interval());
+        let (found, Interval { left, right }) = (self.solution.found(), self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
         // Where both are it is the right one that is named.
         for (i, x) in [left, right].into_iter().enumerate().rev() {

@@ -68,7 +68,7 @@ fn worse(max: f64, error: f64) -> f64 {
 
 /// The largest errors of value and derivative of the limits, as shares of the half-width.
 fn limits_off(solution: &Solution<'_, Dual64>, form: &dyn ClosedForm<Dual64>) -> [f64; 2] {
-    let (got, want) = (solution.interval(), form.limits());
+    let (got, want) = (solution.hull(), form.limits());
     let l = want.half_width().re;
     [got.right - want.right, got.left - want.left]
         .iter()
@@ -253,7 +253,7 @@ fn given_pressures_at_the_edges() {
 /// What comes of a scene: limits, pressures, moment, peak, stress below and gap beside.
 fn answers(solution: &Solution<'_, Dual64>, x: [Dual64; 2]) -> Vec<Dual64> {
     let pressure = solution.pressure().unwrap();
-    let half_width = solution.interval().half_width();
+    let half_width = solution.hull().half_width();
     let below = solution.subsurface().unwrap().at(x[0], half_width).unwrap();
     vec![
         solution.a(),

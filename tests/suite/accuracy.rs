@@ -88,7 +88,7 @@ fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
                 let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
                 worst = worst.max((got - exact).abs() / largest);
             }
-            let (got, want) = (solution.interval(), known.limits);
+            let (got, want) = (solution.hull(), known.limits);
             let limits = (got.left - want.left).abs().max((got.right - want.right).abs());
             let limits = limits / want.half_width();
             println!(
@@ -147,7 +147,7 @@ fn the_papers_example_3_takes_few_calls() {
     let before = calls.load(Ordering::Relaxed);
     assert_eq!(before, 4, "the ends of both bodies");
     let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
-    let (on, mut pressures) = (solution.interval(), [0.0; 101]);
+    let (on, mut pressures) = (solution.hull(), [0.0; 101]);
     let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(PI * (i as f64 + 0.5) / 101.0));
     solution.pressure().unwrap().at_many(&x, &mut pressures).unwrap();
     let want = reference("paper_example_3_scale_one");
@@ -204,7 +204,7 @@ fn many_at_once_are_the_same_as_one_by_one() {
         let want = reference(scene.name);
         let contact = scene.contact();
         let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
-        let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+        let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
         // Any number, in any order, also outside.
         for count in [0, 1, 2, 7, 8, 9, 101] {
             let x: Vec<f64> = (0..count)

@@ -605,7 +605,7 @@ fn limits_that_are_off_are_not_certified() {
         }
         certified += 1;
         let slope = |x: f64| x + s * (1.0 - ((x - x0) / w).tanh().powi(2));
-        let off = limits_off(solution.interval(), load, slope);
+        let off = limits_off(solution.hull(), load, slope);
         if off > 10.0 * solution.limits_error().unwrap() + tolerance + 1e-13 {
             println!("{x0} {w} {s} {tolerance}: {off:e} {:?}", solution.limits_error());
             wrong += 1;

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// Limits and a pressure.
 fn key(contact: Contact<f64>, load: Control<f64>) -> [f64; 4] {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
-    let x = solution.interval().at_angle(1.0);
+    let x = solution.hull().at_angle(1.0);
     [solution.a(), solution.b(), solution.load(), solution.pressure().unwrap().at(x).unwrap()]
 }
 
@@ -115,7 +115,7 @@ fn a_corner_is_let_go_under_adhesion_too() {
         let held = Contact::new(&Flat, &*body).unwrap().edges(corner, glued);
         let free = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, glued);
         let [held, free] =
-            [&held, &free].map(|contact| contact.solve(Control::Load(load)).unwrap().interval());
+            [&held, &free].map(|contact| contact.solve(Control::Load(load)).unwrap().hull());
         for (held, free) in [(held.left, free.left), (held.right, free.right)] {
             assert_relative_eq!(held, free, epsilon = 0.0, max_relative = 1e-12);
         }
@@ -132,7 +132,7 @@ fn an_edge_may_be_fixed_close_to_the_end_of_the_bodies() {
             if s > 0.0 { [Edge::Fixed(s), Edge::Free] } else { [Edge::Free, Edge::Fixed(s)] };
         let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
         let solution = contact.solve(Control::Load(load)).unwrap();
-        let l = solution.interval().half_width();
+        let l = solution.hull().half_width();
         assert_relative_eq!(l * (1.5 * l + s.abs()), load, epsilon = 0.0, max_relative = 1e-12);
     }
 }

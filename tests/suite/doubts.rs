@@ -20,7 +20,7 @@ fn a_sloppy_search_for_the_limits_shows() {
         let sloppy = Brent { tolerance: Tolerance::relative(relative) };
         let contact = contact.clone().search(&sloppy);
         let solution = contact.solve(Control::Load(0.03)).unwrap();
-        let error = (solution.a() - exact).abs() / solution.interval().half_width();
+        let error = (solution.a() - exact).abs() / solution.hull().half_width();
         assert!(error <= 2.0 * solution.limits_error().unwrap(), "{relative}: {error:e}");
     }
 }

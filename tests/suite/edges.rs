@@ -70,7 +70,7 @@ pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
 /// 29, 1972).
 fn check_integrals(solution: &Solution<f64>, slope: impl Fn(f64) -> f64, kappa: f64) {
     const N: usize = 12;
-    let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+    let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let x = |angle: f64| on.centre() + on.half_width() * angle.cos();
     let nodes: Vec<[f64; 2]> = (0..N)
         .map(|j| {
@@ -110,7 +110,7 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
         for load in [0.2, 0.1] {
             let solution = contact.solve(Control::Load(load)).expect(&name);
-            let (on, load) = (solution.interval(), solution.load());
+            let (on, load) = (solution.hull(), solution.load());
             let scale = KAPPA * on.half_width();
             let exact = g.strengths(load, on);
             for (i, edge) in [left, right].into_iter().enumerate() {
@@ -146,7 +146,7 @@ fn on_parabola(load: f64, radius: f64, left: Edge<f64>, right: Edge<f64>) -> [f6
     // The conditions at the edges, whatever their signs.
     let contact = contact.single_interval(true);
     let solution = contact.solve(Control::Load(load)).unwrap();
-    let on = solution.interval();
+    let on = solution.hull();
     let x = on.left + 0.3 * (on.right - on.left);
     let pressure = solution.pressure().unwrap().estimate(x, &mut Default::default()).unwrap();
     [solution.a(), solution.b(), x, pressure.value]

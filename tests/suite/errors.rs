@@ -312,7 +312,7 @@ proptest! {
         };
         if let Ok(solution) = contact.solve(Control::Load(load)) {
             prop_assert!(solution.a().is_finite() && solution.b().is_finite());
-            prop_assert!(solution.interval().left < solution.interval().right);
+            prop_assert!(solution.hull().left < solution.hull().right);
         }
     }
 

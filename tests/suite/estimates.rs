@@ -277,7 +277,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
                 );
                 if work < 1e-90 {
                     let half_width = (0.1 + (0.01f64 + 6.0 * load).sqrt()) / 3.0;
-                    let half = solution.interval().half_width();
+                    let half = solution.hull().half_width();
                     assert_relative_eq!(half, half_width, epsilon = 0.0, max_relative = 1e-14);
                 }
                 if load < 1e-3 * work {

@@ -71,7 +71,7 @@ fn halves_of_a_panel_that_is_all_but_resolved() {
         let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
         assert!(solution.limits_error().unwrap() < 1e-13, "{solution:?}");
         for z in [-0.9, -0.6, -0.2, 0.1, 0.8] {
-            let on = solution.interval();
+            let on = solution.hull();
             let residual = solution.residual(on.centre() + half_width * z).unwrap();
             assert!(residual.abs() < 1e-12, "{half_width} {z}: {residual:e}");
         }
@@ -113,7 +113,7 @@ fn a_steep_line_before_a_series() {
     };
     let body = graph(-3.0, 3.0, at);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let exact = contact.solve(Control::HalfWidth(1.0)).unwrap().interval();
+    let exact = contact.solve(Control::HalfWidth(1.0)).unwrap().hull();
     for tolerance in [1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6] {
         let rule = Panels { tolerance };
         let coarse = contact.clone().quadrature(&rule);
@@ -227,7 +227,7 @@ fn a_kink_beside_a_corner() {
             let load = l * (left + l + m0 + l / 2.0 + m1);
             let free = |contact: &Contact<'_, f64>, edge: f64| {
                 let solution = contact.solve(Control::Load(load)).unwrap();
-                let on = solution.interval();
+                let on = solution.hull();
                 let off = (on.left + on.right - edge).abs() / l;
                 let estimate = solution.limits_error().unwrap();
                 assert!(off <= 3.0 * estimate + 1e-8, "{share} {jump}: {off:e}, {estimate:e}");

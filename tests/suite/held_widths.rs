@@ -22,7 +22,7 @@ fn a_width_beside_a_fixed_edge() {
             let mirrored = contact.clone().edges(Edge::Fixed(-held), Edge::Free);
             let contact = contact.clone().edges(Edge::Free, Edge::Fixed(held));
             let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
-            assert_relative_eq!(solution.interval().left, far, epsilon = 0.0, max_relative = 1e-14);
+            assert_relative_eq!(solution.hull().left, far, epsilon = 0.0, max_relative = 1e-14);
             assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-9);
             let solution = mirrored.solve(Control::HalfWidth(half_width)).unwrap();
             assert_relative_eq!(solution.a(), -far, epsilon = 0.0, max_relative = 1e-14);
@@ -44,7 +44,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
     let contact = Contact::new(&Flat, &tip).unwrap().edges(Edge::Fixed(-0.5), Edge::Free);
     let contact = contact.single_interval(true);
     let solution = contact.solve(Control::HalfWidth(0.25)).unwrap();
-    assert_eq!(solution.interval(), Interval { left: -0.5, right: 0.0 });
+    assert_eq!(solution.hull(), Interval { left: -0.5, right: 0.0 });
     assert_relative_eq!(solution.load(), -0.0625, epsilon = 0.0, max_relative = 1e-14);
 
     let arc = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
@@ -59,7 +59,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
             let contact = Contact::new(&Flat, &arc).unwrap().quadrature(&panels);
             let contact = contact.edges(Edge::Fixed(left), Edge::Free).single_interval(true);
             let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
-            assert_eq!(solution.interval().left, left);
+            assert_eq!(solution.hull().left, left);
             let off = (solution.load() / load - 1.0).abs();
             let estimate = solution.limits_error().unwrap();
             assert!(off <= 4.0 * estimate + 1e-15, "{left} {tolerance}: {off} {estimate}");
@@ -123,7 +123,7 @@ fn a_width_pulled_at_one_edge() {
             for (edges, sign) in [([Edge::Free, pull], 1.0), ([pull, Edge::Free], -1.0)] {
                 let contact = contact.clone().edges(edges[0], edges[1]);
                 let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
-                let on = solution.interval();
+                let on = solution.hull();
                 assert_relative_eq!(
                     on.centre(),
                     sign * centre,

@@ -29,7 +29,7 @@ const PLACES: [f64; 5] = [-0.95, -0.4, 0.05, 0.5, 0.97];
 
 fn answer(contact: &Contact<f64>, load: Control<f64>) -> Answer {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{error}"));
-    let on = solution.interval();
+    let on = solution.hull();
     let pressure = solution.pressure().expect("pressures");
     let pressures = PLACES.map(|z| {
         let x = on.centre() + on.half_width() * z;
@@ -253,7 +253,7 @@ proptest! {
         let bodies = Bodies::new(scene.bodies());
         let contact = bodies.contact(scene.kappa);
         let solution = contact.solve(Control::HalfWidth(scene.half_width)).unwrap();
-        let on = solution.interval();
+        let on = solution.hull();
         let all = solution.pressure().unwrap();
         let pressure = |x: f64| all.estimate(x, &mut Cost::default()).map_or(0.0, |p| p.value);
         let (angles, joints) = (Angles::new(on.left, on.right), scene.breaks());
@@ -273,7 +273,7 @@ proptest! {
         let bodies = Bodies::<f32>::new(scene.bodies());
         let contact = bodies.contact(scene.kappa as f32);
         let solution = contact.solve(Control::Load(wanted.load as f32)).unwrap();
-        let on = solution.interval();
+        let on = solution.hull();
         let half_width = f64::from(on.half_width());
         let error = f64::from(solution.limits_error().unwrap()) * half_width;
         let rounding = 4.0 * f64::from(f32::EPSILON) * (wanted.left.abs().max(wanted.right.abs()) + half_width);

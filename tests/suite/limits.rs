@@ -174,7 +174,7 @@ fn a_gap_that_is_not_convex() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3), x + 3.0 * x * x]);
     let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
     for load in [1e-6, 1e-3, 5e-3, 0.01, 0.0106] {
-        let l = contact.solve(Control::Load(load)).unwrap().interval().half_width();
+        let l = contact.solve(Control::Load(load)).unwrap().hull().half_width();
         let carried = l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
         assert_relative_eq!(carried, load, epsilon = 0.0, max_relative = 1e-14);
         assert!(l * l < 1.0 / 27.0, "the branch that grows with the load");

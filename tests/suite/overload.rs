@@ -124,7 +124,7 @@ fn scenes() -> Vec<Scene> {
 
 /// Control, half-width, peak and end by the errors for more than that.
 fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
-    match contact.solve(load).map(|solution| (solution.interval(), solution.limits_error())) {
+    match contact.solve(load).map(|solution| (solution.hull(), solution.limits_error())) {
         Err(ContactError::TooShort { carried, half_width, peak, end, .. }) => {
             [carried, half_width, peak, end]
         }

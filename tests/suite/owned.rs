@@ -29,7 +29,7 @@ fn bent() -> impl ParametricProfile<f64> {
 
 /// Limits, load and pressures, and what follows from them, bit by bit.
 fn bits(solution: &Solution<f64>) -> Vec<u64> {
-    let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+    let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let mut pressures = [0.0; 11];
     let x = [0.3, 0.5, 0.8, 1.1, 1.4, 1.7, 2.0, 2.3, 2.6, 2.8, 2.9].map(|t| on.at_angle(t));
     pressure.at_many(&x, &mut pressures).unwrap();

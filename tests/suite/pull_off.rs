@@ -36,7 +36,7 @@ impl PullOff {
         let body = Quadratic([0.0, 1.0 / Self::RADIUS, 0.0]).body(-2.0, 2.0);
         let [left, right] = self.edges;
         let contact = Contact::new(&Flat, &*body)?.kappa(KAPPA).edges(left, right);
-        Ok(contact.solve(Control::Load(part * self.load()))?.interval().half_width())
+        Ok(contact.solve(Control::Load(part * self.load()))?.hull().half_width())
     }
 
     fn check(&self, part: f64) {
@@ -152,7 +152,7 @@ fn a_pull_at_one_edge_may_fit_bodies_too_short_for_no_load() {
         let l = part * none;
         let load = KAPPA * l * l / 2.0 - (KAPPA * work * l).sqrt();
         let solution = contact.solve(Control::Load(load)).unwrap_or_else(|e| panic!("{part}: {e}"));
-        let on = solution.interval();
+        let on = solution.hull();
         assert_relative_eq!(on.left, centre(l) - l, epsilon = 0.0, max_relative = 1e-12);
         assert_relative_eq!(on.right, centre(l) + l, epsilon = 0.0, max_relative = 1e-12);
     }

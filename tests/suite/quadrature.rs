@@ -163,7 +163,7 @@ fn an_odd_number_of_segments_has_a_point_at_the_centre() {
 /// In s = c + L cos φ, with x = c + L cos θ, the constant P(x) sin θ is subtracted, whose
 /// principal value is zero, and what is left is smooth and periodic.
 fn residual(solution: &Solution<'_, f64>, x: f64, kappa_g: f64) -> f64 {
-    let Interval { left, right } = solution.interval();
+    let Interval { left, right } = solution.hull();
     let (c, l) = ((right + left) / 2.0, (right - left) / 2.0);
     let pressure = solution.pressure().unwrap();
     let theta = ((x - c) / l).acos();
@@ -185,7 +185,7 @@ fn the_pressure_satisfies_the_equation() {
     let rule = rule(4096, 4, HALF_ODD);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(2.0).quadrature(&rule);
     let solution = contact.solve(Control::Load(0.2)).unwrap();
-    let Interval { left, right } = solution.interval();
+    let Interval { left, right } = solution.hull();
     for z in [-0.71, -0.3, 0.013, 0.44, 0.83] {
         let x = (right + left) / 2.0 + z * (right - left) / 2.0;
         let relative = residual(&solution, x, 2.0 * slope(x)) / slope(right);
@@ -317,7 +317,7 @@ fn cost_is_counted() {
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     let pressure = solution.pressure().unwrap();
     assert_eq!(pressure.cost().samples, 64 + 128);
-    let centre = solution.interval().centre();
+    let centre = solution.hull().centre();
     let mut on_grid = linecontact::Cost::default();
     pressure.estimate(centre, &mut on_grid).unwrap();
     assert_eq!(on_grid.samples, 0);
@@ -423,7 +423,7 @@ fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
     let rule = rule(8, 1, EVEN);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
     let solution = contact.solve(Control::HalfWidth(0.5)).unwrap();
-    let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+    let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let at = |place: f64| {
         let x = on.left + (on.right - on.left) * (place / 8.0);
         pressure.estimate(x, &mut Default::default()).unwrap().value

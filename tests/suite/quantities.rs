@@ -257,7 +257,7 @@ fn the_gap_is_the_integral_of_its_slope() {
         let reference = common::reference(scene.name);
         let contact = scene.contact();
         let solution = contact.solve(Control::Load(reference.c / PI)).unwrap();
-        let (a, half_width) = (solution.a(), solution.interval().half_width());
+        let (a, half_width) = (solution.a(), solution.hull().half_width());
         let gap = |x| solution.gap_at(x).unwrap();
         let x = a + 0.5 * half_width;
         let h = 0.03 * half_width;
@@ -275,7 +275,7 @@ fn the_equation_is_met() {
         let reference = common::reference(scene.name);
         let contact = scene.contact();
         let solution = contact.solve(Control::Load(reference.c / PI)).unwrap();
-        let on = solution.interval();
+        let on = solution.hull();
         let size = solution.mean_pressure();
         let mut worst = 0.0f64;
         for i in 0..12 {
@@ -323,7 +323,7 @@ fn a_solution_shows_its_limits_and_its_load() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let solution = contact.solve(Control::Load(0.0625)).unwrap();
     let shown = format!("{solution:?}");
-    for part in [format!("{:?}", solution.interval()), format!("load: {:?}", solution.load())] {
+    for part in [format!("{:?}", solution.hull()), format!("load: {:?}", solution.load())] {
         assert!(shown.contains(&part), "{shown}");
     }
 }

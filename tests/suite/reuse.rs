@@ -19,7 +19,7 @@ struct Result {
 
 impl Result {
     fn of(solution: &Solution<f64>) -> Self {
-        let on = solution.interval();
+        let on = solution.hull();
         let pressure = solution.pressure().unwrap();
         let x = std::array::from_fn::<_, 9, _>(|i| on.centre() + on.half_width() * at(i));
         let mut pressures = [0.0; 9];
@@ -157,7 +157,7 @@ fn the_next_load_costs_nothing_or_little() {
         let before = calls.load(Ordering::Relaxed);
         let solution = solver.solve(&contact, Control::Load(load)).unwrap();
         let mut pressures = [0.0; 101];
-        let on = solution.interval();
+        let on = solution.hull();
         let x: [f64; 101] = std::array::from_fn(|i| on.at_angle(0.01 + 0.03 * i as f64));
         solution.pressure().unwrap().at_many(&x, &mut pressures).unwrap();
         let (calls, cost) = (calls.load(Ordering::Relaxed) - before, solution.cost());

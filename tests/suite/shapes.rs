@@ -19,7 +19,7 @@ fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f
     let (want, load) = (form.limits(), form.load(1.0));
     let contact = Contact::new(&Flat, upper).unwrap();
     let solution = contact.solve(Control::Load(load)).unwrap();
-    let (got, l, pressure) = (solution.interval(), want.half_width(), solution.pressure().unwrap());
+    let (got, l, pressure) = (solution.hull(), want.half_width(), solution.pressure().unwrap());
     let off = |x: f64| (pressure.at(x).unwrap() / form.pressure(x, 1.0) - 1.0).abs();
     let at = |i: i32| want.at_angle(PI * (f64::from(i) + 0.1) / 20.0);
     let worst = (1..19).map(at).map(off).fold(0.0, f64::max);
@@ -152,7 +152,7 @@ fn a_rotated_arc_is_an_arc() {
     assert_eq!(turned.slope_at(0.0), None);
     let load = Control::Load(1e-3);
     let solve = |body: &dyn ParametricProfile<f64>| {
-        Contact::new(&Flat, body).unwrap().solve(load).unwrap().interval()
+        Contact::new(&Flat, body).unwrap().solve(load).unwrap().hull()
     };
     let (got, want) = (solve(&turned), solve(&whole));
     assert_relative_eq!(got.right, want.right, epsilon = 0.0, max_relative = 1e-13);
@@ -182,7 +182,7 @@ fn a_rotated_parabola_is_the_formula() {
     let contact = Contact::new(&Flat, &turned).unwrap();
     let solution = contact.solve(Control::HalfWidth(1e-4)).unwrap();
     let k = -turn.tan();
-    let centre = solution.interval().centre();
+    let centre = solution.hull().centre();
     assert!((centre - turned.x(k)).abs() < 1e-7, "{centre}");
     assert_relative_eq!(solution.load(), 0.5e-8 * cos.powi(3), epsilon = 0.0, max_relative = 1e-7);
 }
@@ -190,7 +190,7 @@ fn a_rotated_parabola_is_the_formula() {
 fn solved(lower: &dyn ParametricProfile<f64>, upper: &dyn ParametricProfile<f64>) -> [f64; 4] {
     let contact = Contact::new(lower, upper).unwrap();
     let solution = contact.solve(Control::Load(0.02)).unwrap();
-    let (on, pressure) = (solution.interval(), solution.pressure().unwrap());
+    let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let third = (on.right - on.left) / 3.0;
     let pressures = [on.left + third, on.right - third].map(|x| pressure.at(x).unwrap());
     [on.left, on.right, pressures[0], pressures[1]]
@@ -227,7 +227,7 @@ fn a_mirrored_or_exchanged_scene_has_the_same_solution() {
     let contact_upper = Placed::new(upper, scale).unwrap();
     let contact = Contact::new(&large, &contact_upper).unwrap();
     let solution = contact.solve(Control::Load(0.06)).unwrap();
-    let on = solution.interval();
+    let on = solution.hull();
     let third = (on.right - on.left) / 3.0;
     let pressure = solution.pressure().unwrap();
     let pressures = [on.left + third, on.right - third].map(|x| pressure.at(x).unwrap());
@@ -259,7 +259,7 @@ fn placing_keeps_joints_and_known_slopes() {
     assert!(left.dy.abs() < 1e-16 && left.y.abs() < 1e-15, "{left:?}");
     let round = Ellipse::circle(-2.0, [-1.0, 1.0]).unwrap();
     let contact = Contact::new(&round, &turned).unwrap();
-    let ends = contact.solve(Control::Load(0.01)).unwrap().interval();
+    let ends = contact.solve(Control::Load(0.01)).unwrap().hull();
     assert!(ends.left < 0.0 && ends.right > 0.0, "{ends:?}");
 
     // An infinite slope is still one, and not NaN.

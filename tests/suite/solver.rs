@@ -45,7 +45,7 @@ fn seen(solution: &Solution<f64>) -> (Interval<f64>, [f64; 2], usize) {
     let mut cost = linecontact::Cost::default();
     let pressure = solution.pressure().unwrap();
     let estimate = pressure.estimate(0.1 * solution.a(), &mut cost).unwrap();
-    (solution.interval(), [estimate.value, estimate.error], solution.cost().evaluations)
+    (solution.hull(), [estimate.value, estimate.error], solution.cost().evaluations)
 }
 
 #[test]

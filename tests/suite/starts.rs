@@ -120,7 +120,7 @@ fn the_contact_found_grows_with_its_load() {
             for contact in [newton.clone(), newton.clone().search(&brent)] {
                 let contact = contact.start(start);
                 let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
-                let found = solution.interval().half_width();
+                let found = solution.hull().half_width();
                 assert!(
                     (found / half_width - 1.0).abs() < 1e-12,
                     "{left:?} {right:?} {load} {start:?}: {found}, not {half_width}"
@@ -146,8 +146,8 @@ fn first_contact_between_the_ends_of_the_start() {
     for (left, right) in [(-0.6, 0.6), (-0.55, 0.7), (-0.8, 0.55), (-0.51, 0.9)] {
         let contact = contact.clone().start(Interval { left: place + left, right: place + right });
         let solution = contact.solve(Control::Load(5e-3)).unwrap();
-        let l = solution.interval().half_width();
-        assert!((solution.interval().centre() - place).abs() < 1e-13, "{solution:?}");
+        let l = solution.hull().half_width();
+        assert!((solution.hull().centre() - place).abs() < 1e-13, "{solution:?}");
         assert!((l * l * (1.0 - 3.0 * l * l) / 0.01 - 1.0).abs() < 1e-12, "{l}");
     }
 }

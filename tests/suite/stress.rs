@@ -102,7 +102,7 @@ fn compare(
     allowed: f64,
     potential: impl Fn(Complex) -> [Complex; 2],
 ) {
-    let on = field.interval();
+    let on = field.hull();
     let half_width = on.half_width();
     let (mut worst, mut place) = (0.0, (0.0, 0.0));
     for (x, y) in places() {
@@ -242,7 +242,7 @@ fn a_cut_carries_the_load() {
     let solution = contact.solve(Control::Load(0.05)).unwrap();
     let mu = 0.4;
     let field = solution.subsurface().unwrap().friction(mu).unwrap();
-    let on = field.interval();
+    let on = field.hull();
     for depth in [0.2, 1.0, 3.0].map(|depth| depth * on.half_width()) {
         // The trapezoidal rule in t, x = c + sinh t.
         let step = 0.04;
@@ -269,7 +269,7 @@ fn on_the_surface_it_is_the_pressure() {
     let peak = solution.peak().unwrap().pressure;
     let mu = 0.4;
     let field = solution.subsurface().unwrap().friction(mu).unwrap();
-    let on = field.interval();
+    let on = field.hull();
     let mut worst = 0.0f64;
     for i in 0..40 {
         let x = on.at_angle(PI * (f64::from(i) + 0.4) / 40.0);
@@ -529,7 +529,7 @@ fn a_field_shows_its_contact_and_its_friction() {
     let solution = contact.solve(Control::Load(0.01)).unwrap();
     let field = solution.subsurface().unwrap().friction(0.375).unwrap();
     let shown = format!("{field:?}");
-    for part in [format!("{:?}", solution.interval()), "friction: 0.375".into()] {
+    for part in [format!("{:?}", solution.hull()), "friction: 0.375".into()] {
         assert!(shown.contains(&part), "{shown}");
     }
 }

@@ -13,7 +13,7 @@ fn key(
     load: Control<f64>,
 ) -> Result<[u64; 5], ContactError<f64>> {
     let solution = solver.solve(contact, load)?;
-    let pressure = solution.pressure()?.at(solution.interval().centre())?;
+    let pressure = solution.pressure()?.at(solution.hull().centre())?;
     let bits = [solution.a(), solution.b(), solution.load(), pressure].map(f64::to_bits);
     let [a, b, load, pressure] = bits;
     Ok([a, b, load, pressure, solution.cost().evaluations as u64])

@@ -11,7 +11,7 @@ use linecontact::{ParametricProfile, Piecewise, Solution};
 use std::f64::consts::PI;
 
 fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, most: usize) {
-    let (got, cost) = (solution.interval(), solution.cost());
+    let (got, cost) = (solution.hull(), solution.cost());
     let error = (got.left - want.left).abs().max((got.right - want.right).abs());
     let (error, estimate) = (error / want.half_width(), solution.limits_error().unwrap());
     println!("error {error:.1e}, said to be {estimate:.1e}, {cost:?}");
@@ -312,7 +312,7 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
                 let contact = Contact::new(&Flat, body).unwrap();
                 let contact = contact.start(Interval { left: -start, right: start });
                 let solution = contact.solve(Control::Load(0.3)).unwrap();
-                (solution.interval(), solution.limits_error().unwrap())
+                (solution.hull(), solution.limits_error().unwrap())
             };
             let ((got, error), (want, _)) = (solve(&whole), solve(&parts));
             let off = (got.left - want.left).abs().max((got.right - want.right).abs());
@@ -340,7 +340,7 @@ fn a_shape_common_to_both_bodies() {
         });
         let contact = Contact::new(&lower, &upper).unwrap();
         let solution = contact.solve(Control::Load(0.4519)).unwrap();
-        (solution.interval(), solution.limits_error().unwrap())
+        (solution.hull(), solution.limits_error().unwrap())
     };
     let (plain, _) = solve(0.0);
     for common in [0.152, 1.0, 30.0] {
@@ -367,7 +367,7 @@ fn a_tip_far_narrower_than_a_panel_beside_a_joint() {
         ]);
         let contact = Contact::new(&Flat, &*body).unwrap();
         let solution = contact.solve(Control::HalfWidth(0.4)).unwrap();
-        let (on, error) = (solution.interval(), solution.limits_error().unwrap());
+        let (on, error) = (solution.hull(), solution.limits_error().unwrap());
         let (a, b, c) = (on.right, -on.left, on.centre());
         // Simpson's rule in x/ε.
         let (n, step) = (4000, 0.01);
@@ -510,7 +510,7 @@ fn a_root_beside_an_end_where_the_derivatives_vanish() {
         let contact =
             contact.clone().start(Interval { left: joint - before, right: joint + after });
         let solution = contact.solve(Control::HalfWidth(1e-4)).unwrap();
-        let [left, right] = [joint - solution.interval().left, solution.interval().right - joint];
+        let [left, right] = [joint - solution.hull().left, solution.hull().right - joint];
         assert_relative_eq!(left, 1e-4, epsilon = 0.0, max_relative = 1e-10);
         assert_relative_eq!(right, 1e-4, epsilon = 0.0, max_relative = 1e-10);
     }

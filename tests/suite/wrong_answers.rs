@@ -74,7 +74,7 @@ fn a_superellipse_in_a_groove() {
     for (load, count) in [(20.0, 2), (500.0, 2), (1500.0, 1), (3000.0, 1)] {
         let solution = contact.solve(Control::Load(load)).unwrap();
         assert_eq!(intervals(&solution).len(), count, "{load}");
-        let on = solution.interval();
+        let on = solution.hull();
         assert!((on.left + on.right).abs() < 1e-9, "{on:?}");
         let name = format!("{load} N/mm");
         let kappa = PI / 2.0 * modulus;
@@ -89,10 +89,10 @@ fn a_superellipse_in_a_groove() {
 fn corners_that_the_load_does_not_reach() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let error = contact.solve(Control::Load(0.01)).map(|s| s.interval()).unwrap_err();
+    let error = contact.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
     assert!(error.to_string().contains("UpTo"), "{error}");
     let enough = contact.solve(Control::Load(0.2)).unwrap();
-    assert_eq!(enough.interval(), Interval { left: -0.5, right: 0.5 });
+    assert_eq!(enough.hull(), Interval { left: -0.5, right: 0.5 });
     let up_to = contact.clone().edges(Edge::UpTo(-0.5), Edge::UpTo(0.5));
     let solution = up_to.solve(Control::Load(0.01)).unwrap();
     assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
@@ -523,11 +523,11 @@ fn the_flat_of_a_punch_on_a_circle() {
         let wave = (f64::from(step) * 0.37).sin();
         let load = 1e-3 * 50f64.powf(0.5 + 0.5 * wave);
         let warm = solver.solve(&contact, Control::Load(load)).unwrap();
-        let (on, said) = (warm.interval(), warm.limits_error().unwrap());
+        let (on, said) = (warm.hull(), warm.limits_error().unwrap());
         let off = (on.centre() - 0.13).abs() / on.half_width();
         let cold = contact.solve(Control::Load(load)).unwrap();
         assert!(off < 10.0 * said + 1e-15, "F = {load}: {off:e}, but {said:e} is said");
-        let off = (cold.interval().centre() - 0.13).abs() / on.half_width();
+        let off = (cold.hull().centre() - 0.13).abs() / on.half_width();
         assert!(off < 10.0 * cold.limits_error().unwrap(), "F = {load}: {off:e} cold");
     }
 }
@@ -541,7 +541,7 @@ fn a_small_contact_on_steep_bodies() {
     let half_width = 1.4e-3;
     let load = half_width * half_width / 2.0 * (1.0 + half_width * half_width / 8.0);
     let solution = contact.solve(Control::Load(load)).unwrap();
-    let on = solution.interval();
+    let on = solution.hull();
     // To the rounding of x = 3.7.
     assert!((on.centre() - 3.7).abs() < 1e-12 * half_width + 2e-15, "{on:?}");
     assert_relative_eq!(on.half_width(), half_width, epsilon = 0.0, max_relative = 3e-12);

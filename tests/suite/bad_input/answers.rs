@@ -4,7 +4,7 @@ use super::*;
 
 /// Everything that can be asked of a solution, at places good and bad.
 pub fn ask_all(solution: &Solution<f64>) {
-    let Interval { left, right } = solution.interval();
+    let Interval { left, right } = solution.hull();
     let places = [
         NAN,
         INF,
@@ -50,7 +50,7 @@ fn what_is_asked_of_a_solution() {
     let upper = body();
     let contact = Contact::new(&Flat, &*upper).unwrap();
     let solution = contact.solve(Control::Load(0.05)).unwrap();
-    let on = solution.interval();
+    let on = solution.hull();
     let pressure = solution.pressure().unwrap();
     let below = || solution.subsurface().unwrap();
     let rates = solution.load_rates().unwrap();

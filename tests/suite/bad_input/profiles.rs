@@ -316,7 +316,7 @@ fn curves_that_change_between_calls() {
                     || {
                         let contact = Contact::new(&Flat, &*changing)?;
                         let solution = contact.solve(load)?;
-                        seen = Some((solution.interval(), solution.limits_error()));
+                        seen = Some((solution.hull(), solution.limits_error()));
                         Ok(())
                     },
                     |_| true,

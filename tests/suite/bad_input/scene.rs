@@ -45,7 +45,7 @@ fn loads_scales_and_edges() {
                     || {
                         let contact = contact.clone().kappa(kappa);
                         let solution = contact.solve(way(value))?;
-                        found = Some((solution.interval(), solution.load()));
+                        found = Some((solution.hull(), solution.load()));
                         Ok(())
                     },
                     |outcome| match outcome {
