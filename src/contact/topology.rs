@@ -221,7 +221,7 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let [left, right] = self.contact.ends();
             let within = |&[x, _]: &[T; 2]| x >= left && x <= right;
-            let heights = look.heights().iter().copied().filter(within);
+            let heights = look.heights_and_lows().filter(within);
             overlap = check.overlap(fields, heights, self.cost)?;
         }
         if let Some(own) = own {
@@ -259,6 +259,9 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
+            if std::env::var("SHOW").is_ok() {
+                eprintln!("{start:?} {on:?} {fault:?}");
+            }
             let last = on.len() - 1;
             let corners = [
                 fixed[0] || at_corner[0] && on[0].left <= ends[0],

@@ -97,16 +97,8 @@ impl<T: Real> FirstLook<T> {
         let mut knots = std::mem::take(&mut self.knots);
         self.find_knots(&mut knots);
         self.heights.clear();
-        self.heights.reserve(2 * knots.capacity());
-        for (i, knot) in knots.iter().enumerate() {
-            self.heights.push([knot.x, knot.height]);
-            // Between two samples a low place shows in their slopes.
-            let Some(next) = knots.get(i + 1) else { break };
-            let segment = Segment::new(*knot, *next);
-            if let Some(t) = segment.minimum() {
-                self.heights.push([knot.x + t * segment.width, segment.at(t)[0]]);
-            }
-        }
+        self.heights.reserve(knots.capacity());
+        self.heights.extend(knots.iter().map(|knot| [knot.x, knot.height]));
         (self.lowest, self.bulges) = (self.find_lowest(&knots), Self::find_bulging(&knots));
         self.knots = knots;
         Ok(())
@@ -141,6 +133,17 @@ impl<T: Real> FirstLook<T> {
     /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
     pub fn heights(&self) -> &[[T; 2]] {
         &self.heights
+    }
+
+    /// The same, and the low places between two samples that show in their slopes.
+    pub fn heights_and_lows(&self) -> impl Iterator<Item = [T; 2]> {
+        let after = |i: usize| {
+            let segment = Segment::new(self.knots[i], *self.knots.get(i + 1)?);
+            let t = segment.minimum()?;
+            Some([self.knots[i].x + t * segment.width, segment.at(t)[0]])
+        };
+        let both = move |(i, &height): (usize, &[T; 2])| [Some(height), after(i)];
+        self.heights.iter().enumerate().flat_map(both).flatten()
     }
 
     /// The place of the lowest gap; the middle of it where that is a stretch.
