@@ -72,6 +72,8 @@ pub struct Contact<'b, T: Real> {
     quadrature: &'b dyn Quadrature<T>,
     certified: bool,
     single_interval: bool,
+    /// Whether what one contact bears is what the bodies bear.
+    bears_as_one: bool,
 }
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
@@ -199,6 +201,7 @@ impl<'b, T: Real> Contact<'b, T> {
             quadrature: &Panels::FULL,
             certified: false,
             single_interval: false,
+            bears_as_one: true,
         })
     }
 

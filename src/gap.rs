@@ -18,7 +18,7 @@ mod sampler;
 
 pub(crate) use aim::{Knot, Trace, aim};
 #[allow(unused_imports)]
-pub(crate) use first_look::FirstLook;
+pub(crate) use first_look::{FirstLook, LowPlace};
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};

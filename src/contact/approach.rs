@@ -41,9 +41,10 @@ pub(super) fn find<T: Real>(
             if !(x >= range[0] && x <= range[1]) {
                 return Err(ContactError::OutsideBodies { x, range });
             }
-            let touched = warm.is_some_and(|on| [on.left, on.right][i] == x) && !one_held;
-            one_held |= touched;
-            *edge = if by_load || touched { Edge::Fixed(x) } else { Edge::Free };
+            let touched = warm.map(|on| [on.left, on.right][i] == x);
+            let held = touched.unwrap_or(by_load) && (by_load || !one_held);
+            one_held |= held;
+            *edge = if held { Edge::Fixed(x) } else { Edge::Free };
         }
     }
     let mut found = match attempt(contact, &conditions, engine, warm, cost) {
@@ -277,6 +278,9 @@ impl<T: Real> Refused<'_, T> {
     /// Refuses more than the bodies bear.
     pub fn check(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let Self { contact, conditions, .. } = *self;
+        if !contact.bears_as_one {
+            return Ok(());
+        }
         let range = contact.gap.range();
         let bears = self.bears.get_or_insert_with(|| capacity(contact, conditions, range, cost));
         match (conditions.given, bears) {

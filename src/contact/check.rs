@@ -6,10 +6,19 @@
 
 use super::Found;
 use super::field::{Field, POINTS};
-use crate::gap::{Cost, Gap, Sampler};
+use crate::gap::{Cost, Gap, LowPlace, Sampler};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Engine, Pressing};
 use crate::{ContactError, Interval, Real};
+
+/// Joints of a contact at which the pressure is looked at, besides those where the slope jumps down.
+const MOST_JOINTS: usize = 64;
+
+/// How often a stretch between two heights is halved in search of its lowest place.
+const MOST_HALVES: usize = 8;
+
+/// How much of the contact is not looked at beside a gap that has closed.
+const CLOSED: f64 = 1e-6;
 
 /// Steps to a least pressure between those that were looked at.
 const MOST_STEPS: usize = 4;
@@ -20,6 +29,8 @@ pub(super) struct Check<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
     pub kappa: T,
     pub found: &'c Found<T>,
+    /// Places at which two contacts have met with nothing but rounding between them: a concave kink, say.
+    pub closed: &'c [T],
 }
 
 impl<T: Real> Check<'_, T> {
@@ -59,8 +70,13 @@ impl<T: Real> Check<'_, T> {
             return Ok(None);
         }
         self.fields(fields)?;
+        let hull = self.found.interval;
         let mut worst: Option<[T; 2]> = None;
         let mut meet = |x: T, pressure: T, allowed: T| {
+            let is_closed = |&closed: &T| (x - closed).abs() <= T::of(CLOSED) * hull.half_width();
+            if self.closed.iter().any(is_closed) {
+                return;
+            }
             let deeper = worst.is_none_or(|[_, least]| pressure < least);
             // NaN does not press either.
             if !(pressure >= -allowed) && deeper {
@@ -122,6 +138,10 @@ impl<T: Real> Check<'_, T> {
                 places.iter().zip(out).for_each(|(&x, &mut pressure)| meet(x, pressure, allowed));
                 Ok::<_, ContactError<T>>(())
             };
+            // Where the slope jumps down the pressure goes to minus infinity.
+            for joint in self.gap.telling_joints(on, -T::one(), MOST_JOINTS) {
+                look(&[joint])?;
+            }
             // What the panels resolve is not narrower than their nodes.
             panels::nodes(self.engine, i, &mut |x| {
                 (places[count], count) = (x, count + 1);
@@ -141,12 +161,30 @@ impl<T: Real> Check<'_, T> {
         Ok((!(pressure + estimate.error >= T::zero())).then_some([x, pressure]))
     }
 
+    /// About where the loaded gap is lowest between two places, at the first of which it falls and at the
+    /// second rises.
+    fn lowest_between(
+        &self,
+        fields: &[Field<T>],
+        sampler: &mut Sampler<T>,
+        [mut left, mut right]: [T; 2],
+    ) -> Result<T, ContactError<T>> {
+        let half = T::of(0.5);
+        for _ in 0..MOST_HALVES {
+            let x = half * (left + right);
+            let pulled = fields.iter().fold(T::zero(), |sum, field| sum + field.pull(x));
+            let slope = sampler.slope(self.gap, x)? - pulled / self.kappa;
+            if slope > T::zero() { right = x } else { left = x }
+        }
+        Ok(half * (left + right))
+    }
+
     /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
-    /// the gap before loading show it: `[x, h]`, by rising x.
+    /// the gap before loading show it, by rising x.
     pub fn overlap(
         &self,
         fields: &[Field<T>],
-        heights: impl Iterator<Item = [T; 2]>,
+        heights: impl Iterator<Item = LowPlace<T>>,
         cost: &mut Cost,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         let contacts = self.contacts();
@@ -158,7 +196,7 @@ impl<T: Real> Check<'_, T> {
         // takes off it.
         let mut from: Option<(usize, T, T)> = None;
         let mut next = 0;
-        for [x, height] in heights {
+        for LowPlace { x, height, between } in heights {
             while next <= last && contacts[next].right <= x {
                 next += 1;
             }
@@ -188,8 +226,18 @@ impl<T: Real> Check<'_, T> {
             if gap(height) >= -allowed {
                 continue;
             }
-            // The height may be an interpolated one.
-            let gap = gap(sampler.height(self.gap, x)?);
+            // The height may be an interpolated one, or a bound.
+            let x = match between {
+                Some([from, to]) => {
+                    // Not in the contacts on either side.
+                    let from = next.checked_sub(1).map_or(from, |i| from.max(contacts[i].right));
+                    let to = contacts.get(next).map_or(to, |on| to.min(on.left));
+                    self.lowest_between(fields, &mut sampler, [from, to])?
+                }
+                None => x,
+            };
+            let height = sampler.height(self.gap, x)?;
+            let gap = height - at_edge - (total(x) - taken) / self.kappa;
             if !(gap >= -allowed) && worst.is_none_or(|[_, least]| gap < least) {
                 worst = Some([x, gap]);
             }

@@ -84,6 +84,20 @@ impl<T: Real> Field<T> {
         T::of(4.0) * T::pi() * tail
     }
 
+    /// `∫ P/(x - s) ds` at a place outside the contact.
+    pub fn pull(&self, x: T) -> T {
+        let half_width = self.on.half_width();
+        let right = x > self.on.centre();
+        let distance = if right { x - self.on.right } else { self.on.left - x };
+        let beyond = distance.max(T::zero()) / half_width;
+        let root = (beyond * (beyond + T::of(2.0))).sqrt();
+        let size = T::one() / (T::one() + beyond + root);
+        let u = if right { size } else { -size };
+        let sum = self.q.iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
+        let pull = T::pi() * sum / (root * half_width);
+        if right { pull } else { -pull }
+    }
+
     /// The load of the contact.
     pub fn load(&self) -> T {
         T::pi() * self.q[0]

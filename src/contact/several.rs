@@ -85,7 +85,7 @@ impl<T: Real> Newton<T> {
             }
             // For the derivatives of dual numbers, beyond the convergence of the value.
             if let Some(left) = &mut more_steps {
-                self.advance(corners);
+                self.advance(corners, None);
                 *left -= 1;
                 if *left == 0 {
                     several.set(gap, &self.on, corners, ends)?;
@@ -96,7 +96,7 @@ impl<T: Real> Newton<T> {
             let size = self.size(corners);
             let last = self.on.len() - 1;
             let hull = Interval { left: self.on[0].left, right: self.on[last].right };
-            let place = self.advance(corners);
+            let place = self.advance(corners, cut);
             let next = Interval { left: self.on[0].left, right: self.on[last].right };
             let (beyond_left, beyond_right) = (next.left < ends[0], next.right > ends[1]);
             if beyond_left {
@@ -105,11 +105,20 @@ impl<T: Real> Newton<T> {
             if beyond_right {
                 self.on[last].right = half * hull.right + half * ends[1];
             }
+            // A contact may have left the bodies as a whole.
+            let ordered = |pair: [T; 2]| pair[0] < pair[1];
+            if !self.on.iter().all(|on| ordered([on.left, on.right]))
+                || !self.on.windows(2).all(|pair| ordered([pair[0].right, pair[1].left]))
+            {
+                return Ok(Outcome::Failed);
+            }
             if place.is_some() || beyond_left || beyond_right {
                 let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
                 let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
                 cut = Some((place, times));
-                if times > MOST_CUT {
+                // Between two contacts at a concave kink the gap falls exponentially with the load.
+                let closed = place < 2 * last && place % 2 == 1 && self.is_nothing(place / 2);
+                if times > MOST_CUT || closed {
                     return Ok(match place {
                         usize::MAX => Outcome::Beyond(1),
                         place if place == usize::MAX - 1 => Outcome::Beyond(0),
@@ -155,7 +164,9 @@ impl<T: Real> Newton<T> {
     /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
     /// the load of a round body goes with it, and so does what is left of a gap that closes. Says which width
     /// was kept from falling further.
-    fn advance(&mut self, corners: [bool; 2]) -> Option<Place> {
+    ///
+    /// `cut` is what was kept from falling further last, and how often in a row: a gap may then fall faster.
+    fn advance(&mut self, corners: [bool; 2], cut: Option<(Place, usize)>) -> Option<Place> {
         let (zero, one, half, two) = (T::zero(), T::one(), T::of(0.5), T::of(2.0));
         let count = 2 * self.on.len();
         self.moves.clear();
@@ -170,7 +181,11 @@ impl<T: Real> Newton<T> {
         for i in 0..count - 1 {
             let width = *self.limit(i + 1) - *self.limit(i);
             let change = self.moves[i + 1] - self.moves[i];
-            let least = T::of(LEAST_LEFT) * width;
+            let times = match cut {
+                Some((place, times)) if place == i && i % 2 == 1 => times + 1,
+                _ => 1,
+            };
+            let least = T::of(LEAST_LEFT.powi(times as i32)) * width;
             let square = width * (width + two * change);
             let next = if square < least * least {
                 let worse = (square / (width * width), i);
@@ -197,7 +212,7 @@ impl<T: Real> Newton<T> {
         for i in 0..count - 1 {
             let width = *self.limit(i + 1) - *self.limit(i);
             let less = self.moves[i] - self.moves[i + 1];
-            let most = (one - T::of(0.5 * LEAST_LEFT)) * width;
+            let most = (one - T::of(0.5) * T::of(LEAST_LEFT.powi(MOST_CUT as i32))) * width;
             if less > most {
                 share = share.min(most / less);
             }
@@ -207,6 +222,12 @@ impl<T: Real> Newton<T> {
             *self.limit(i) += step;
         }
         held.map(|(_, place)| place)
+    }
+
+    /// Whether the gap after a contact is as narrow as rounding.
+    fn is_nothing(&self, i: usize) -> bool {
+        let [from, to] = [self.on[i].right, self.on[i + 1].left];
+        to - from <= T::of(64.0) * T::epsilon() * from.abs().max(to.abs())
     }
 
     /// The largest step, as a share of the half-width of its contact.

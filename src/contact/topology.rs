@@ -12,7 +12,7 @@ use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
 use super::several::{Newton, Outcome};
 use super::{Contact, Found, approach, peak};
-use crate::gap::{Cost, FirstLook, Gap, Sampler};
+use crate::gap::{Cost, FirstLook, Gap, LowPlace, Sampler};
 use crate::quadrature::{Engine, Panels, Quadrature, panels};
 use crate::solution::{Report, Start, Verdict};
 use crate::{ContactError, Interval, Real};
@@ -97,10 +97,15 @@ pub(super) fn find<T: Real>(
     let edges = contact.checked_edges()?;
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let convex = gap.is_convex();
-    let mut search = Search { contact, sought, engine, workspace, cost };
+    let cells = FIRST_CELLS;
+    let closed = Vec::new();
+    let mut search = Search { contact, sought, engine, workspace, cost, cells, closed };
     if contact.single_interval || given {
         let start = search.first_start(true)?;
         let found = search.one(start)?;
+        if let Some(error) = found.lifts_off(&edges).filter(|_| !contact.single_interval) {
+            return Err(error);
+        }
         search.workspace.report.add(start.0, Verdict::Unchecked);
         return Ok(found);
     }
@@ -135,6 +140,10 @@ struct Search<'s, 'b, T: Real> {
     engine: &'s mut dyn Engine<T>,
     workspace: &'s mut Workspace<T>,
     cost: &'s mut Cost,
+    /// Cells that the next active set starts with.
+    cells: usize,
+    /// Where gaps have closed.
+    closed: Vec<T>,
 }
 
 impl<T: Real> Search<'_, '_, T> {
@@ -208,7 +217,7 @@ impl<T: Real> Search<'_, '_, T> {
         let engine = own.as_deref().unwrap_or(&*self.engine);
         self.workspace.look(gap, self.cost)?;
         let Workspace { look, fields, .. } = &mut *self.workspace;
-        let check = Check { gap, engine, kappa, found };
+        let check = Check { gap, engine, kappa, found, closed: &self.closed };
         let (interval, load) = (found.interval, found.load);
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields)? {
@@ -220,8 +229,8 @@ impl<T: Real> Search<'_, '_, T> {
                 check.fields(fields)?;
             }
             let [left, right] = self.contact.ends();
-            let within = |&[x, _]: &[T; 2]| x >= left && x <= right;
-            let heights = look.heights_and_lows().filter(within);
+            let within = |low: &LowPlace<T>| low.x >= left && low.x <= right;
+            let heights = look.low_places().filter(within);
             overlap = check.overlap(fields, heights, self.cost)?;
         }
         if let Some(own) = own {
@@ -292,6 +301,9 @@ impl<T: Real> Search<'_, '_, T> {
             };
             // Where the search has led without an end says little.
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
+            if let Outcome::Closed(i) = outcome {
+                self.closed.push(T::of(0.5) * (on[i].right + on[i + 1].left));
+            }
             on.clone_from(before);
             let verdict = match outcome {
                 Outcome::Closed(i) => {
@@ -328,7 +340,7 @@ impl<T: Real> Search<'_, '_, T> {
         let contact = self.contact;
         let newton = &mut self.workspace.newton;
         if let [on] = newton.on[..] {
-            let around = Contact { start: Some(on), ..contact.clone() };
+            let around = Contact { start: Some(on), bears_as_one: false, ..contact.clone() };
             return approach::find(&around, *conditions, self.engine, Some(on), self.cost).map(Ok);
         }
         for (side, corner) in corners.into_iter().enumerate() {
@@ -389,39 +401,22 @@ impl<T: Real> Search<'_, '_, T> {
         self.workspace.look(gap, self.cost)?;
         let Workspace { look, newton, .. } = &mut *self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
-        let share = T::of(CLOSER);
-        let mut seeds = std::mem::take(&mut newton.on);
+        let before = newton.on.len();
         match fault {
-            Some(&ContactError::Tension { x, .. }) => {
-                if let Some(i) = seeds.iter().position(|on| on.contains(x)) {
-                    let on = seeds[i];
-                    let aside = share * on.half_width();
-                    let [from, to] = [(x - aside).max(on.left), (x + aside).min(on.right)];
-                    seeds[i].right = from;
-                    seeds.insert(i + 1, Interval { left: to, right: on.right });
-                    seeds.retain(|on| on.left < on.right);
-                }
-            }
-            Some(&ContactError::Overlap { x, .. }) => {
-                let aside = share * share * (range[1] - range[0]);
-                let at = seeds.partition_point(|on| on.right < x);
-                let left = if at == 0 { range[0] } else { seeds[at - 1].right };
-                let right = seeds.get(at).map_or(range[1], |next| next.left);
-                let half = T::of(0.5);
-                let seed = Interval {
-                    left: (x - aside).max(half * (x + left)),
-                    right: (x + aside).min(half * (x + right)),
-                };
-                seeds.insert(at, seed);
-            }
-            _ => seeds.clear(),
+            Some(fault) => take_apart(&mut newton.on, fault, range),
+            None => newton.on.clear(),
         }
-        let cells = FIRST_CELLS;
-        let scene = Scene { kappa, load, range, cells, known: look.heights(), start: &seeds };
+        let seeds = &newton.on;
+        // As many as have not failed yet.
+        let cells = self.cells;
+        self.cells = (cells + cells).min(16 * FIRST_CELLS);
+        let scene = Scene { kappa, load, range, cells, known: look.heights(), start: seeds };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;
         match coarse {
+            // It does not see what has failed a check, as between two contacts at a kink: the checks do.
+            Ok(coarse) if coarse.intervals.len() == before && seeds.len() > before => Ok(()),
             Ok(coarse) => {
                 newton.on = coarse.intervals;
                 Ok(())
@@ -432,5 +427,36 @@ impl<T: Real> Search<'_, '_, T> {
                 near: look.lowest(),
             }),
         }
+    }
+}
+
+/// Parts a contact where the bodies would pull at each other, or puts one where they would overlap. Of any
+/// other fault nothing is to be learnt.
+fn take_apart<T: Real>(contacts: &mut Vec<Interval<T>>, fault: &ContactError<T>, range: [T; 2]) {
+    let (half, share) = (T::of(0.5), T::of(CLOSER));
+    match *fault {
+        ContactError::Tension { x, .. } => {
+            let Some(i) = contacts.iter().position(|on| on.contains(x)) else { return };
+            let on = contacts[i];
+            let aside = share * on.half_width();
+            let left = (x - aside).max(half * (on.left + x));
+            let right = (x + aside).min(half * (on.right + x));
+            contacts[i].right = left;
+            contacts.insert(i + 1, Interval { left: right, right: on.right });
+        }
+        ContactError::Overlap { x, .. } => {
+            let aside = share * share * (range[1] - range[0]);
+            let at = contacts.partition_point(|on| on.right < x);
+            let left = if at == 0 { range[0] } else { contacts[at - 1].right };
+            let right = contacts.get(at).map_or(range[1], |next| next.left);
+            let seed = Interval {
+                left: (x - aside).max(half * (x + left)),
+                right: (x + aside).min(half * (x + right)),
+            };
+            if seed.left < seed.right {
+                contacts.insert(at, seed);
+            }
+        }
+        _ => contacts.clear(),
     }
 }

@@ -43,6 +43,14 @@ pub(crate) struct FirstLook<T> {
     scratch: Scratch<T>,
 }
 
+/// A height of the gap, or between two of them a bound for it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LowPlace<T> {
+    pub x: T,
+    pub height: T,
+    pub between: Option<[T; 2]>,
+}
+
 /// Where a piece is looked at: parameters, the points there, and those found beside a short range on the
 /// right, from right to left.
 #[derive(Clone, Debug)]
@@ -135,14 +143,21 @@ impl<T: Real> FirstLook<T> {
         &self.heights
     }
 
-    /// The same, and the low places between two samples that show in their slopes.
-    pub fn heights_and_lows(&self) -> impl Iterator<Item = [T; 2]> {
+    /// Where the gap may be low: each sample, and between two where the slope rises the place where their
+    /// tangents cross, than which no convex piece of the gap is lower.
+    pub fn low_places(&self) -> impl Iterator<Item = LowPlace<T>> {
         let after = |i: usize| {
-            let segment = Segment::new(self.knots[i], *self.knots.get(i + 1)?);
-            let t = segment.minimum()?;
-            Some([self.knots[i].x + t * segment.width, segment.at(t)[0]])
+            let (from, to) = (self.knots[i], self.knots.get(i + 1)?);
+            let [first, second] = [from.slopes[1], to.slopes[0]];
+            let width = to.x - from.x;
+            let along = (second * width - (to.height - from.height)) / (second - first);
+            let inside = second > first && along > T::zero() && along < width;
+            let (x, height) = (from.x + along, from.height + first * along);
+            inside.then_some(LowPlace { x, height, between: Some([from.x, to.x]) })
         };
-        let both = move |(i, &height): (usize, &[T; 2])| [Some(height), after(i)];
+        let both = move |(i, &[x, height]): (usize, &[T; 2])| {
+            [Some(LowPlace { x, height, between: None }), after(i)]
+        };
         self.heights.iter().enumerate().flat_map(both).flatten()
     }
 

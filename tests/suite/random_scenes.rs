@@ -250,7 +250,8 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let reached = [0, last].map(|i| oracle.pressure[i] > 0.0);
     let cornered = scene.kind == Kind::Cornered;
     let edge = |i: usize| match cornered {
-        true if scene.fixed && reached[i] => Edge::Fixed(scene.range[i]),
+        // Two fixed edges are two given limits.
+        true if scene.fixed && reached[i] && !reached[1 - i] => Edge::Fixed(scene.range[i]),
         true => Edge::UpTo(scene.range[i]),
         false => Edge::Free,
     };
