@@ -44,6 +44,8 @@ pub(super) struct Newton<T> {
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
     pub errors: Vec<T>,
     pub steps: usize,
+    /// Places at which the slope of the gap falls so steeply that no contact holds them.
+    pub kinks: Vec<T>,
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
@@ -56,7 +58,8 @@ impl<T: Real> Newton<T> {
     pub fn new() -> Self {
         let [errors, step, moves, corrections] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        Self { on: Vec::new(), errors, steps: 0, system, linear, step, moves, corrections }
+        let (on, kinks) = (Vec::new(), Vec::new());
+        Self { on, errors, steps: 0, kinks, system, linear, step, moves, corrections }
     }
 
     /// Moves the contacts until they bear a load, that is F/κ.
@@ -105,6 +108,12 @@ impl<T: Real> Newton<T> {
             if beyond_right {
                 self.on[last].right = half * hull.right + half * ends[1];
             }
+            // Between two contacts at a concave kink the gap falls exponentially with the load.
+            let nothing =
+                |&i: &usize| self.on[i].right <= self.on[i + 1].left && self.is_nothing(i);
+            if let Some(i) = (0..last).find(nothing) {
+                return Ok(Outcome::Closed(i));
+            }
             // A contact may have left the bodies as a whole.
             let ordered = |pair: [T; 2]| pair[0] < pair[1];
             if !self.on.iter().all(|on| ordered([on.left, on.right]))
@@ -116,9 +125,7 @@ impl<T: Real> Newton<T> {
                 let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
                 let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
                 cut = Some((place, times));
-                // Between two contacts at a concave kink the gap falls exponentially with the load.
-                let closed = place < 2 * last && place % 2 == 1 && self.is_nothing(place / 2);
-                if times > MOST_CUT || closed {
+                if times > MOST_CUT {
                     return Ok(match place {
                         usize::MAX => Outcome::Beyond(1),
                         place if place == usize::MAX - 1 => Outcome::Beyond(0),
@@ -207,12 +214,31 @@ impl<T: Real> Newton<T> {
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
         }
+        // A gap at a kink keeps it, however narrow it becomes.
+        for i in (1..count - 1).step_by(2) {
+            let (left, right) = (*self.limit(i), *self.limit(i + 1));
+            let Some(&kink) = self.kinks.iter().find(|&&kink| left < kink && kink < right) else {
+                continue;
+            };
+            let times = match cut {
+                Some((place, times)) if place == i => times + 1,
+                _ => 1,
+            };
+            let most = one - T::of(LEAST_LEFT.powi(times as i32));
+            let (from_left, to_right) = (most * (kink - left), most * (right - kink));
+            if self.moves[i] > from_left || -self.moves[i + 1] > to_right {
+                self.moves[i] = self.moves[i].min(from_left);
+                self.moves[i + 1] = self.moves[i + 1].max(-to_right);
+                held = Some((-one, i));
+            }
+        }
         // What is good for one width may be too much for the next.
         let mut share = one;
         for i in 0..count - 1 {
             let width = *self.limit(i + 1) - *self.limit(i);
             let less = self.moves[i] - self.moves[i + 1];
-            let most = (one - T::of(0.5) * T::of(LEAST_LEFT.powi(MOST_CUT as i32))) * width;
+            let times = if i % 2 == 1 { MOST_CUT as i32 } else { 1 };
+            let most = (one - T::of(0.5 * LEAST_LEFT.powi(times))) * width;
             if less > most {
                 share = share.min(most / less);
             }

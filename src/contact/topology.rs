@@ -97,6 +97,7 @@ pub(super) fn find<T: Real>(
     let edges = contact.checked_edges()?;
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let convex = gap.is_convex();
+    workspace.newton.kinks.clear();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
     let mut search = Search { contact, sought, engine, workspace, cost, cells, closed };
@@ -405,6 +406,11 @@ impl<T: Real> Search<'_, '_, T> {
         match fault {
             Some(fault) => take_apart(&mut newton.on, fault, range),
             None => newton.on.clear(),
+        }
+        if let Some(&ContactError::Tension { x, pressure, .. }) = fault
+            && !pressure.is_finite()
+        {
+            newton.kinks.push(x);
         }
         let seeds = &newton.on;
         // As many as have not failed yet.
