@@ -14,6 +14,9 @@ use crate::{ContactError, Interval, Real};
 /// Joints of a contact at which the pressure is looked at, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 64;
 
+/// Places with tension of which it is asked how far they can be trusted.
+const MOST_DOUBTFUL: usize = 256;
+
 /// How often a stretch between two heights is halved in search of its lowest place.
 const MOST_HALVES: usize = 8;
 
@@ -71,16 +74,13 @@ impl<T: Real> Check<'_, T> {
         }
         self.fields(fields)?;
         let hull = self.found.interval;
-        let mut worst: Option<[T; 2]> = None;
+        let mut found: Vec<[T; 2]> = Vec::new();
         let mut meet = |x: T, pressure: T, allowed: T| {
             let is_closed = |&closed: &T| (x - closed).abs() <= T::of(CLOSED) * hull.half_width();
-            if self.closed.iter().any(is_closed) {
-                return;
-            }
-            let deeper = worst.is_none_or(|[_, least]| pressure < least);
             // NaN does not press either.
-            if !(pressure >= -allowed) && deeper {
-                worst = Some([x, pressure]);
+            let presses = pressure >= -allowed;
+            if !presses && !self.closed.iter().any(is_closed) {
+                found.push([x, pressure]);
             }
         };
         for (i, field) in fields.iter().enumerate() {
@@ -153,12 +153,21 @@ impl<T: Real> Check<'_, T> {
             })?;
             look(&places[..count])?;
         }
-        // Beside a kink that nobody declared a value may be all doubt.
-        let Some([x, pressure]) = worst.filter(|[_, pressure]| pressure.is_finite()) else {
-            return Ok(worst);
-        };
-        let estimate = self.engine.estimate(self.gap, &self.pressing(), x, &mut Cost::default())?;
-        Ok((!(pressure + estimate.error >= T::zero())).then_some([x, pressure]))
+        found.sort_by(|one, other| {
+            one[1].partial_cmp(&other[1]).unwrap_or(std::cmp::Ordering::Less)
+        });
+        for &[x, pressure] in found.iter().take(MOST_DOUBTFUL) {
+            if !pressure.is_finite() {
+                return Ok(Some([x, pressure]));
+            }
+            // Beside a kink that nobody declared a value may be all doubt.
+            let cost = &mut Cost::default();
+            let estimate = self.engine.estimate(self.gap, &self.pressing(), x, cost)?;
+            if pressure + estimate.error < T::zero() {
+                return Ok(Some([x, pressure]));
+            }
+        }
+        Ok(None)
     }
 
     /// About where the loaded gap is lowest between two places, at the first of which it falls and at the

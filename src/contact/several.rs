@@ -251,7 +251,7 @@ impl<T: Real> Newton<T> {
     }
 
     /// Whether the gap after a contact is as narrow as rounding.
-    fn is_nothing(&self, i: usize) -> bool {
+    pub fn is_nothing(&self, i: usize) -> bool {
         let [from, to] = [self.on[i].right, self.on[i + 1].left];
         to - from <= T::of(64.0) * T::epsilon() * from.abs().max(to.abs())
     }

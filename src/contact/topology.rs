@@ -269,7 +269,6 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
-            if std::env::var("SHOW").is_ok() {
                 eprintln!("{start:?} {on:?} {fault:?}");
             }
             let last = on.len() - 1;
@@ -300,11 +299,14 @@ impl<T: Real> Search<'_, '_, T> {
                 },
                 Err(outcome) => outcome,
             };
-            // Where the search has led without an end says little.
-            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
-            if let Outcome::Closed(i) = outcome {
+            if let Outcome::Closed(i) = outcome
+                && self.workspace.newton.is_nothing(i)
+            {
+                let on = &self.workspace.newton.on;
                 self.closed.push(T::of(0.5) * (on[i].right + on[i + 1].left));
             }
+            // Where the search has led without an end says little.
+            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             on.clone_from(before);
             let verdict = match outcome {
                 Outcome::Closed(i) => {
@@ -441,10 +443,11 @@ impl<T: Real> Search<'_, '_, T> {
 fn take_apart<T: Real>(contacts: &mut Vec<Interval<T>>, fault: &ContactError<T>, range: [T; 2]) {
     let (half, share) = (T::of(0.5), T::of(CLOSER));
     match *fault {
-        ContactError::Tension { x, .. } => {
+        ContactError::Tension { x, pressure, .. } => {
             let Some(i) = contacts.iter().position(|on| on.contains(x)) else { return };
             let on = contacts[i];
-            let aside = share * on.half_width();
+            // At a kink the gap may be next to nothing.
+            let aside = if pressure.is_finite() { share } else { share * share } * on.half_width();
             let left = (x - aside).max(half * (on.left + x));
             let right = (x + aside).min(half * (on.right + x));
             contacts[i].right = left;

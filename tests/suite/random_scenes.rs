@@ -358,11 +358,7 @@ fn run(numbers: std::ops::Range<u64>) -> [usize; 2] {
     let one = |number: u64| {
         let scene = scene(number);
         let oracle = scene.oracle().unwrap_or_else(|| panic!("{number}: no oracle"));
-        let t = std::time::Instant::now();
-        eprintln!("{number} ...");
-        let r = (number, scene.kind, oracle.contacts.len(), outcome(&scene, &oracle));
-        eprintln!("{number} {:?} {:?}", scene.kind, t.elapsed());
-        r
+        (number, scene.kind, oracle.contacts.len(), outcome(&scene, &oracle))
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     let mut all: Vec<_> = std::thread::scope(|scope| {
@@ -403,9 +399,7 @@ fn run(numbers: std::ops::Range<u64>) -> [usize; 2] {
 
 #[test]
 fn a_hundred_random_scenes() {
-    let a: u64 = std::env::var("FROM").map_or(0, |v| v.parse().unwrap());
-    let b: u64 = std::env::var("TO").map_or(100, |v| v.parse().unwrap());
-    let [refused, wrong] = run(a..b);
+    let [refused, wrong] = run(0..100);
     assert!(wrong == 0 && refused <= 1, "{wrong} wrong, {refused} refused");
 }
 
