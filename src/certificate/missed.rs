@@ -51,7 +51,7 @@ impl<T: Real> Cells<T> {
 }
 
 /// Compares the slopes assumed on an interval, last those of the solver, with those at eight nodes or
-/// more in each cell.
+/// more in each cell; where they differ most is what is named.
 pub(super) fn compare<T: Real>(
     gap: &Gap<'_, T>,
     assumed: [&dyn Assumed<T>; 2],
@@ -62,6 +62,7 @@ pub(super) fn compare<T: Real>(
     let mut cells = Cover::new(T::epsilon().sqrt());
     let mut sampler = Sampler::default();
     let (mut panels, mut doubt) = (Vec::new(), None);
+    let mut missed: Option<(T, ContactError<T>)> = None;
     let mut left = on.left;
     while left < on.right {
         let next = left + spacing;
@@ -80,18 +81,23 @@ pub(super) fn compare<T: Real>(
                         doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
                     }
                     let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
-                    if (cell.value(x) - assumed).abs() <= allowed {
+                    let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
+                    if (cell.value(x) - assumed).abs() <= most {
                         continue;
                     }
                     // The series of the cell may itself be off.
                     let slope = sampler.slope(gap, x)?;
-                    if (slope - assumed).abs() > allowed {
-                        return Err(ContactError::Missed { x, slope, assumed });
+                    let off = (slope - assumed).abs();
+                    if off > most {
+                        missed = Some((off, ContactError::Missed { x, slope, assumed }));
                     }
                 }
             }
         }
         left = right;
+    }
+    if let Some((_, error)) = missed {
+        return Err(error);
     }
     let cost = cells.cost + sampler.cost;
     Ok(Cells { panels, doubt: doubt.unwrap_or(T::zero()), cost })
