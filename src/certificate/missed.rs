@@ -36,9 +36,19 @@ impl<T: Real> Assumed<T> for &dyn Engine<T> {
     }
 }
 
+/// The panels that the solver has one of several contacts on.
+pub(super) struct Solved<'s, T>(pub &'s Cover<T>);
+
+impl<T: Real> Assumed<T> for Solved<'_, T> {
+    fn at(&self, x: T) -> Option<(T, T)> {
+        let (slope, tail) = self.0.at(x)?;
+        Some((slope, tail + self.0.tolerance * self.0.size))
+    }
+}
+
 /// The contact in short cells.
 pub(super) struct Cells<T> {
-    panels: Vec<Panel<T>>,
+    pub panels: Vec<Panel<T>>,
     /// The least error that the panels of the solver claim.
     pub doubt: T,
     pub cost: Cost,
