@@ -20,8 +20,8 @@ use crate::quadrature::panels::{self, Cover, Several, System};
 use crate::quadrature::{Engine, Pressing, Quadrature};
 use crate::{ContactError, Interval, Panels, Real};
 
-/// Points at which the pressure of a contact is summed up.
-const POINTS: usize = 32;
+/// Points at which the pressure of a contact is summed up, at first and at most.
+const POINTS: [usize; 2] = [32, 2048];
 
 /// A limit, with the pressure of all contacts.
 struct Limit<'s, T: Real> {
@@ -151,19 +151,30 @@ pub(super) fn certify<T: Real>(
     Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + cost })
 }
 
-/// The load of one contact.
+/// The load of one contact, to a thousandth or so: a pressure may be infinite at kinks.
 fn borne<T: Real>(
     engine: &dyn Engine<T>,
     gap: &Gap<'_, T>,
     pressing: &Pressing<T>,
     on: Interval<T>,
 ) -> Result<T, ContactError<T>> {
-    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
-    let x: [T; POINTS] = std::array::from_fn(|i| on.at_angle(angle(i)));
-    let mut pressures = [T::zero(); POINTS];
-    engine.pressures(gap, pressing, &x, &mut pressures, &mut Cost::default())?;
-    let term = |sum, (&x, &pressure): (&T, &T)| sum + pressure * on.edge_root(x);
-    Ok(T::pi() * x.iter().zip(&pressures).fold(T::zero(), term) / T::count(POINTS))
+    let [mut points, most] = POINTS;
+    let mut before: Option<T> = None;
+    loop {
+        let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(points);
+        let x: Vec<T> = (0..points).map(|i| on.at_angle(angle(i))).collect();
+        let mut pressures = vec![T::zero(); points];
+        engine.pressures(gap, pressing, &x, &mut pressures, &mut Cost::default())?;
+        let term = |sum, (&x, &pressure): (&T, &T)| {
+            if pressure.is_finite() { sum + pressure * on.edge_root(x) } else { sum }
+        };
+        let sum = T::pi() * x.iter().zip(&pressures).fold(T::zero(), term) / T::count(points);
+        let settled = |before: T| (sum - before).abs() <= T::of(1e-4) * sum.abs();
+        if points >= most || before.is_some_and(settled) {
+            return Ok(sum);
+        }
+        (before, points) = (Some(sum), 2 * points);
+    }
 }
 
 /// Whether the limits are by the cells where they were found to be: the steps that their conditions still ask
@@ -213,4 +224,78 @@ fn balanced<T: Real>(
         }
     }
     fault
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Shape;
+    use crate::profile::{Curve, CurvePoint, Flat};
+    use crate::search::Newton as Inversion;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    const LOAD: f64 = 1.0;
+
+    /// What the conditions of two contacts make of `x⁴ - 2x²` less so many times `exp(-((x - at)/width)²)`.
+    fn certified([height, at, width]: [f64; 3]) -> Result<Certificate<f64>, ContactError<f64>> {
+        let body = Curve::new([-2.5, 2.5], move |k: f64| {
+            let s = (k - at) / width;
+            let bump = height * (-s * s).exp();
+            let (y, dy) = (k.powi(4) - 2.0 * k * k - bump, 4.0 * k.powi(3) - 4.0 * k);
+            CurvePoint { x: k, y, dx: 1.0, dy: dy + 2.0 * s / width * bump }
+        });
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
+        let (kappa, ends, corners) = (FRAC_PI_2, gap.range(), [false; 2]);
+        let mut several = Several::new(16.0 * f64::EPSILON);
+        let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
+        let d = (LOAD / PI).sqrt();
+        let [from, to] = [(1.0 - d).sqrt(), (1.0 + d).sqrt()];
+        let mut limits = [-to, -from, from, to];
+        for _ in 0..30 {
+            let [one, two, three, four] = limits;
+            let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
+            several.set(&gap, &on, corners, ends)?;
+            several.system(LOAD / kappa, &mut system);
+            assert!(linear.factor(&system.jacobian, 4));
+            linear.solve(&system.residual, &mut steps);
+            for (limit, step) in limits.iter_mut().zip(&steps) {
+                *limit -= step.clamp(-0.02, 0.02);
+            }
+        }
+        assert!(steps.iter().all(|step| step.abs() < 1e-12), "{steps:?}");
+        let found = Found {
+            interval: Interval { left: limits[0], right: limits[3] },
+            load: LOAD,
+            strengths: [0.0; 2],
+            free: [true; 2],
+            adhesive: [false; 2],
+            error: Some(1e-14),
+            force: None,
+            trend: None,
+            ends,
+        };
+        certify(&gap, kappa, &found, &several)
+    }
+
+    /// Solutions of the equations that the bodies do not have.
+    #[test]
+    fn what_is_no_contact() {
+        certified([0.0, 0.0, 1.0]).unwrap();
+        certified([-1e-3, 1.0, 0.1]).unwrap();
+        let error = certified([-0.05, 1.0, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Tension { x, pressure, .. }
+                if (x - 1.0).abs() < 0.02 && pressure < 0.0),
+            "{error}"
+        );
+        let near = certified([0.3, 0.1, 0.1]).unwrap().gap.unwrap();
+        assert!((near.x - 0.1).abs() < 0.02 && near.value > 0.0, "{near:?}");
+        let error = certified([0.6, 0.1, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Overlap { x, gap, .. }
+                if (x - 0.1).abs() < 0.02 && gap < 0.0),
+            "{error}"
+        );
+    }
 }

@@ -186,6 +186,41 @@ fn contacts_of_the_files_pass() {
     }
 }
 
+/// A hollow punch touches at its two corners, and a body with corners and a low middle in three places.
+#[test]
+fn two_corners() {
+    let hollow = graph(-1.0, 1.0, |x| [-0.05 * x * x, -0.1 * x]);
+    let wavy = graph(-1.0, 1.0, |x| {
+        let (sin, cos) = (2.0 * PI * x).sin_cos();
+        [-0.02 * cos, 0.04 * PI * sin]
+    });
+    for (body, load, count) in [(hollow, 0.01, 2), (wavy, 0.02, 3)] {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let contact = contact.edges(Edge::UpTo(-1.0), Edge::UpTo(1.0));
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), count, "{solution:?}");
+        assert!(solution.a() == 1.0 && solution.b() == 1.0, "{solution:?}");
+        let certificate = solution.certify().unwrap();
+        assert_eq!(certificate.gap, None);
+        assert!(certificate.pressure.unwrap().value > 0.0);
+    }
+}
+
+#[test]
+fn in_single_precision() {
+    let body = Curve::new([-2.5, 2.5], |k: f32| CurvePoint {
+        x: k,
+        y: k.powi(4) - 2.0 * k * k,
+        dx: 1.0,
+        dy: 4.0 * k.powi(3) - 4.0 * k,
+    });
+    let contact = Contact::new(&Flat, &body).unwrap().certified(true);
+    for load in [0.1, 1.0, 2.0] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+    }
+}
+
 /// `x⁴ - 2x²` under F = 1, E* = 1.
 struct Pair {
     /// Half of β² - α².
