@@ -35,18 +35,20 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// A proof that a solution is a contact.
 ///
 /// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
-/// bodies, up to rounding, and to what the curves do between the points at which they are
+/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the points at which they are
 /// evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate<T> {
     /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
-    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola; with the reciprocal of
+    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
+    /// own limits and load; with the reciprocal of
     /// the root of a distance at an edge that is not free. `None` where the slope of the
-    /// gap rises throughout the contact, which says that `P > 0`, and between adhesive edges.
+    /// gap rises throughout the one contact, which says that `P > 0`, and between adhesive edges.
     pub pressure: Option<Place<T>>,
     /// The least gap at a place outside where the bodies approach each other again, a length, negative
-    /// by no more than rounding; `None` where the gap grows on both sides up to the ends.
+    /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
+    /// contacts has but one largest value.
     pub gap: Option<Place<T>>,
     /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
     pub spacing: T,

@@ -283,7 +283,7 @@ mod tests {
     fn what_is_no_contact() {
         certified([0.0, 0.0, 1.0]).unwrap();
         certified([-1e-3, 1.0, 0.1]).unwrap();
-        let error = certified([-0.05, 1.0, 0.1]).unwrap_err();
+        let error = certified([-0.3, 1.0, 0.1]).unwrap_err();
         assert!(
             matches!(error, ContactError::Tension { x, pressure, .. }
                 if (x - 1.0).abs() < 0.02 && pressure < 0.0),

@@ -40,7 +40,13 @@ fn closed_forms_with_several_contacts_pass() {
     for (name, form, reach) in forms {
         let body = body(&*form, -reach, reach).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-        let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
+        let solution = match contact.solve(Control::Load(form.load(KAPPA))) {
+            Ok(solution) => solution,
+            Err(error) => {
+                faults.push(format!("{name}: not solved: {error}"));
+                continue;
+            }
+        };
         assert!(solution.intervals().len() > 1, "{name}");
         let start = std::time::Instant::now();
         let certificate = match solution.certify() {
@@ -214,7 +220,7 @@ fn in_single_precision() {
         dx: 1.0,
         dy: 4.0 * k.powi(3) - 4.0 * k,
     });
-    let contact = Contact::new(&Flat, &body).unwrap().certified(true);
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA as f32).certified(true);
     for load in [0.1, 1.0, 2.0] {
         let solution = contact.solve(Control::Load(load)).unwrap();
         assert_eq!(solution.intervals().len(), 2);
