@@ -35,15 +35,14 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// A proof that a solution is a contact.
 ///
 /// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
-/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the points at which they are
-/// evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
+/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
+/// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate<T> {
     /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
     /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
-    /// own limits and load; with the reciprocal of
-    /// the root of a distance at an edge that is not free. `None` where the slope of the
+    /// own limits and load; with the reciprocal of the root of a distance at an edge that is not free. `None` where the slope of the
     /// gap rises throughout the one contact, which says that `P > 0`, and between adhesive edges.
     pub pressure: Option<Place<T>>,
     /// The least gap at a place outside where the bodies approach each other again, a length, negative
