@@ -6,21 +6,24 @@
 //! bodies. The signs are those of pieces: bounds on a Chebyshev series by
 //! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
 //! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
+//!
+//! Several contacts at once are looked at [one after the other](several), and the gaps between them.
 
 mod inside;
 mod missed;
 mod outside;
 mod series;
+mod several;
 mod view;
 
 use crate::contact::Found;
 use crate::gap::{Cost, Gap, Sampler};
-use crate::quadrature::panels::{Cover, Panel};
+use crate::quadrature::panels::{self, Cover, Panel};
 use crate::quadrature::{Engine, Pressing, Quadrature};
 use crate::{ContactError, Interval, Panels, Real};
 use inside::Inside;
 use missed::Cells;
-use outside::Side;
+use outside::{Beside, Side};
 use view::View;
 
 /// Evaluations, and samples, after which the certificate is given up.
@@ -32,18 +35,19 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// A proof that a solution is a contact.
 ///
 /// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
-/// bodies, up to rounding, and to what the curves do between the points at which they are
-/// evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
+/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
+/// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at joints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate<T> {
     /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
-    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola; with the reciprocal of
-    /// the root of a distance at an edge that is not free. `None` where the slope of the
-    /// gap rises throughout the contact, which says that `P > 0`, and between adhesive edges.
+    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
+    /// own limits and load; with the reciprocal of the root of a distance at an edge that is not free. `None` where the slope of the
+    /// gap rises throughout the one contact, which says that `P > 0`, and between adhesive edges.
     pub pressure: Option<Place<T>>,
     /// The least gap at a place outside where the bodies approach each other again, a length, negative
-    /// by no more than rounding; `None` where the gap grows on both sides up to the ends.
+    /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
+    /// contacts has but one largest value.
     pub gap: Option<Place<T>>,
     /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
     pub spacing: T,
@@ -71,10 +75,11 @@ pub(crate) fn certify<T: Real>(
     found: &Found<T>,
     solver: &dyn Engine<T>,
 ) -> Result<Certificate<T>, ContactError<T>> {
+    if let Some(solved) = panels::several(solver).filter(|several| several.contacts().len() > 1) {
+        return several::certify(gap, kappa, found, solved);
+    }
     let Found { interval: on, strengths, free, adhesive, ends, .. } = *found;
-    let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
-    let error = T::of(16.0) * found.error.unwrap_or(T::zero());
-    let share = rounding.max(error).min(T::of(0.01));
+    let share = share(found);
     let mean = T::of(0.5) * found.load.abs() / on.half_width();
 
     let mut cover = Cover::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
@@ -97,10 +102,7 @@ pub(crate) fn certify<T: Real>(
             return Err(ContactError::Tension { x, pressure, interval, load });
         }
     }
-    // Bodies without an end, which are given by x itself, are followed for a million half-widths.
-    let reach = T::of(1e6) * on.half_width();
-    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
-    let ends = [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)];
+    let ends = followed(ends, on);
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);
     let mut more = heights(gap, sampled)?;
     let cells = missed::compare(gap, [&cover, &solver], sampled, spacing, view.steepest())?;
@@ -113,7 +115,8 @@ pub(crate) fn certify<T: Real>(
         engine.prepare(gap, on)?;
         more += engine.cost();
         let pressing = Pressing { kappa, load: found.load, free };
-        let inside = Inside { engine: &*engine, gap, pressing, on, allowed: share * mean };
+        let (hull, allowed) = (on, share * mean);
+        let inside = Inside { engine: &*engine, gap, pressing, on, hull, allowed };
         let Place { x, value } = inside.least(&mut more)?;
         Some(Place { x, value: value / mean })
     };
@@ -125,10 +128,6 @@ pub(crate) fn certify<T: Real>(
     let both = [bearing(0), bearing(1)];
     let allowed = share * view.steepest() * on.half_width();
     let (mut worst, mut closest): (Option<Place<T>>, Option<Place<T>>) = (None, None);
-    let nearer = |one: Option<Place<T>>, other: Option<Place<T>>| match (one, other) {
-        (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
-        (one, other) => one.or(other),
-    };
     for right in [false, true] {
         let i = usize::from(right);
         if at_corner[i] {
@@ -136,6 +135,7 @@ pub(crate) fn certify<T: Real>(
         }
         let mut side = Side::new(&view, right, both, allowed);
         side.follow(gap, ends[i], spacing, &mut cover, MOST_EVALUATIONS)?;
+        side.part_again();
         worst = nearer(worst, side.worst);
         closest = nearer(closest, side.closest);
     }
@@ -144,6 +144,28 @@ pub(crate) fn certify<T: Real>(
         return Err(ContactError::Overlap { x, gap, interval, load });
     }
     Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + more })
+}
+
+/// What is taken for nothing beside what is usual in the contact.
+fn share<T: Real>(found: &Found<T>) -> T {
+    let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+    let error = T::of(16.0) * found.error.unwrap_or(T::zero());
+    rounding.max(error).min(T::of(0.01))
+}
+
+/// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.
+fn followed<T: Real>(ends: [T; 2], on: Interval<T>) -> [T; 2] {
+    let reach = T::of(1e6) * on.half_width();
+    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
+    [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)]
+}
+
+/// The lower one.
+fn nearer<T: Real>(one: Option<Place<T>>, other: Option<Place<T>>) -> Option<Place<T>> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
+        (one, other) => one.or(other),
+    }
 }
 
 /// Heights that are not numbers are those of no body, however sound the slopes are.

@@ -47,7 +47,7 @@ pub use involute::Involute;
 pub use line::{Line, wedge};
 pub use parabola::Parabola;
 pub use piece::Piece;
-pub(crate) use piece::{first_turn, turning_point};
+pub(crate) use piece::first_turn;
 pub use piecewise::{Piecewise, PiecewiseError};
 pub use placed::{Placed, Placement};
 pub use rounded_punch::rounded_punch;

@@ -3,13 +3,9 @@
 use linecontact::profile::Piece;
 use linecontact::{Interval, ParametricProfile, Solution};
 
-/// Whether the solver finds several contacts. Until it does, the files that need that are looked at only
-/// where they are asked for, and an error passes where one interval is not enough.
-pub const SOLVED: bool = false;
-
 /// The contacts of a solution, from left to right.
 pub fn contacts(solution: &Solution<f64>) -> Vec<Interval<f64>> {
-    vec![solution.hull()]
+    solution.intervals().to_vec()
 }
 
 /// Where a body begins and ends; NaN if it has no ends.

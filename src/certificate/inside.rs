@@ -36,13 +36,16 @@ pub(super) struct Inside<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
     pub pressing: Pressing<T>,
     pub on: Interval<T>,
+    /// From the first limit of all contacts to the last.
+    pub hull: Interval<T>,
     /// Pressures down to the negative of this are zero.
     pub allowed: T,
 }
 
 impl<T: Real> Inside<'_, T> {
     fn tension(&self, Place { x, value: pressure }: Place<T>) -> ContactError<T> {
-        ContactError::Tension { x, pressure, interval: self.on, load: self.pressing.load }
+        let (interval, load) = (self.hull, self.pressing.load);
+        ContactError::Tension { x, pressure, interval, load }
     }
 
     /// The least pressure found, negative only if it is less than what is allowed for; and where

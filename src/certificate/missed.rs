@@ -36,9 +36,19 @@ impl<T: Real> Assumed<T> for &dyn Engine<T> {
     }
 }
 
+/// The panels that the solver has one of several contacts on.
+pub(super) struct Solved<'s, T>(pub &'s Cover<T>);
+
+impl<T: Real> Assumed<T> for Solved<'_, T> {
+    fn at(&self, x: T) -> Option<(T, T)> {
+        let (slope, tail) = self.0.at(x)?;
+        Some((slope, tail + self.0.tolerance * self.0.size))
+    }
+}
+
 /// The contact in short cells.
 pub(super) struct Cells<T> {
-    panels: Vec<Panel<T>>,
+    pub panels: Vec<Panel<T>>,
     /// The least error that the panels of the solver claim.
     pub doubt: T,
     pub cost: Cost,
@@ -51,7 +61,7 @@ impl<T: Real> Cells<T> {
 }
 
 /// Compares the slopes assumed on an interval, last those of the solver, with those at eight nodes or
-/// more in each cell.
+/// more in each cell; where they differ most is what is named.
 pub(super) fn compare<T: Real>(
     gap: &Gap<'_, T>,
     assumed: [&dyn Assumed<T>; 2],
@@ -62,6 +72,7 @@ pub(super) fn compare<T: Real>(
     let mut cells = Cover::new(T::epsilon().sqrt());
     let mut sampler = Sampler::default();
     let (mut panels, mut doubt) = (Vec::new(), None);
+    let mut missed: Option<(T, ContactError<T>)> = None;
     let mut left = on.left;
     while left < on.right {
         let next = left + spacing;
@@ -80,18 +91,23 @@ pub(super) fn compare<T: Real>(
                         doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
                     }
                     let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
-                    if (cell.value(x) - assumed).abs() <= allowed {
+                    let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
+                    if (cell.value(x) - assumed).abs() <= most {
                         continue;
                     }
                     // The series of the cell may itself be off.
                     let slope = sampler.slope(gap, x)?;
-                    if (slope - assumed).abs() > allowed {
-                        return Err(ContactError::Missed { x, slope, assumed });
+                    let off = (slope - assumed).abs();
+                    if off > most {
+                        missed = Some((off, ContactError::Missed { x, slope, assumed }));
                     }
                 }
             }
         }
         left = right;
+    }
+    if let Some((_, error)) = missed {
+        return Err(error);
     }
     let cost = cells.cost + sampler.cost;
     Ok(Cells { panels, doubt: doubt.unwrap_or(T::zero()), cost })

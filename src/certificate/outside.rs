@@ -12,7 +12,6 @@
 //! only where the gap stops growing.
 
 use super::series::{above, below, integral, least, tail};
-use super::view::View;
 use super::{Place, undecided};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::angles::Gauss;
@@ -27,9 +26,29 @@ const MOST_LEVELS: usize = 40;
 /// Cells on one side.
 const MOST_CELLS: usize = 1 << 16;
 
+/// A contact as seen from beside it, without the strengths of its edges.
+pub(super) trait Beside<T: Real> {
+    fn on(&self) -> Interval<T>;
+
+    /// Beyond these, on the left and on the right, the slope of the bodies is one at which the gap grows
+    /// outward.
+    fn slopes(&self) -> [T; 2];
+
+    /// The largest slope in the contact.
+    fn steepest(&self) -> T;
+
+    /// What the pressure takes off the slope of the gap at a distance from an edge.
+    fn pull(&self, distance: T, right: bool) -> T;
+
+    /// What it leaves of a slope g there.
+    fn left_of(&self, g: T, distance: T, right: bool) -> T {
+        g - self.pull(distance, right)
+    }
+}
+
 /// One side of the contact.
 pub(super) struct Side<'o, T: Real> {
-    pub view: &'o View<T>,
+    pub view: &'o dyn Beside<T>,
     pub right: bool,
     /// π/κ times the strength of this edge, and of the other.
     pub strengths: [T; 2],
@@ -42,20 +61,35 @@ pub(super) struct Side<'o, T: Real> {
     /// Whether the gap has been open: a least gap of nothing at the edge itself is none.
     open: bool,
     cells: usize,
-    /// The deepest overlap, and the least gap at which the bodies come closer again.
+    /// The deepest overlap, and the least gap from which on the bodies part again.
     pub worst: Option<Place<T>>,
     pub closest: Option<Place<T>>,
+    /// Where the last cell ends, if the bodies come closer up to there.
+    pub falling: Option<Place<T>>,
 }
 
 impl<'o, T: Real> Side<'o, T> {
     /// With π/κ times the strengths at -b and at a.
-    pub fn new(view: &'o View<T>, right: bool, [at_b, at_a]: [T; 2], allowed: T) -> Self {
+    pub fn new(view: &'o dyn Beside<T>, right: bool, [at_b, at_a]: [T; 2], allowed: T) -> Self {
         let strengths = if right { [at_a, at_b] } else { [at_b, at_a] };
         let zero = T::zero();
-        let (worst, closest) = (None, None);
         let (height, y, pending) = (zero, zero, zero);
         let (open, cells) = (false, 0);
-        Self { view, right, strengths, allowed, height, y, pending, open, cells, worst, closest }
+        let (worst, closest, falling) = (None, None, None);
+        Self {
+            view,
+            right,
+            strengths,
+            allowed,
+            height,
+            y,
+            pending,
+            open,
+            cells,
+            worst,
+            closest,
+            falling,
+        }
     }
 
     fn sign(&self) -> T {
@@ -63,7 +97,7 @@ impl<'o, T: Real> Side<'o, T> {
     }
 
     fn edge(&self) -> T {
-        if self.right { self.view.on.right } else { self.view.on.left }
+        if self.right { self.view.on().right } else { self.view.on().left }
     }
 
     fn distance(&self, x: T) -> T {
@@ -72,7 +106,7 @@ impl<'o, T: Real> Side<'o, T> {
 
     /// What the strengths add to the slope of the gap, times 2 √d.
     fn singular(&self, distance: T) -> T {
-        let half_width = self.view.on.half_width();
+        let half_width = self.view.on().half_width();
         let share = T::of(0.5) * distance / half_width;
         let [own, other] = self.strengths;
         let by_root = T::of(2.0) * (half_width / (T::of(2.0) + share + share)).sqrt();
@@ -89,7 +123,7 @@ impl<'o, T: Real> Side<'o, T> {
         cover: &mut Cover<T>,
         most: usize,
     ) -> Result<(), ContactError<T>> {
-        let half_width = self.view.on.half_width();
+        let half_width = self.view.on().half_width();
         let (mut reached, reach) = (T::zero(), self.distance(end));
         let mut left_out = T::zero();
         let (edge, sign) = (self.edge(), self.sign());
@@ -162,15 +196,16 @@ impl<'o, T: Real> Side<'o, T> {
         // A straight flank is as steep as in the contact.
         let slack = rounding * self.view.steepest();
         let growing = if self.right {
-            below(series) >= self.view.slopes[1] - slack
+            below(series) >= self.view.slopes()[1] - slack
         } else {
-            above(series) <= self.view.slopes[0] + slack
+            above(series) <= self.view.slopes()[0] + slack
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
         if growing && own <= T::zero() && own <= other {
             let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
             self.pending += self.sign() * sum * panel.half();
+            self.part_again();
             return Ok(());
         }
         if self.pending != T::zero() {
@@ -197,8 +232,7 @@ impl<'o, T: Real> Side<'o, T> {
             for i in 0..rule.n {
                 let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
                 let distance = y * y;
-                let [with, _, root] = self.view.sums(distance, self.right);
-                let pull = (y + y) * self.sign() * with * root * T::frac_1_pi();
+                let pull = (y + y) * self.sign() * self.view.pull(distance, self.right);
                 let weight = half * (top - bottom) * T::of(rule.weights[i]);
                 sum += weight * (pull - self.singular(distance));
             }
@@ -235,8 +269,7 @@ impl<'o, T: Real> Side<'o, T> {
                 let distance = y * y;
                 let x = self.edge() + sign * distance;
                 let g = panel.value(x);
-                let [with, without, root] = self.view.sums(distance, self.right);
-                let opens = sign * (g * without - with) * root * T::frac_1_pi();
+                let opens = sign * self.view.left_of(g, distance, self.right);
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);
                 *value = ((y + y) * opens + self.singular(distance)) * reach;
@@ -254,7 +287,9 @@ impl<'o, T: Real> Side<'o, T> {
             heights[0] += self.height;
             let lowest = below(&heights);
             let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);
-            if below(rate) < T::zero() && !known {
+            if known {
+                self.falling = None;
+            } else if below(rate) < T::zero() {
                 // To what counts, and no further than rounding.
                 let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
                 let rounding = T::of(16.0) * T::epsilon() * rounding;
@@ -262,18 +297,37 @@ impl<'o, T: Real> Side<'o, T> {
                 let [s, value] = least(&heights, enough);
                 let y = middle + s * reach;
                 let here = Place { x: self.edge() + sign * y * y, value };
-                let less = |than: &Option<Place<T>>| than.is_none_or(|than| value < than.value);
-                if value < -(allowed + left_out) && less(&self.worst) {
+                if value < -(allowed + left_out)
+                    && self.worst.is_none_or(|than: Place<T>| value < than.value)
+                {
                     self.worst = Some(here);
                 }
                 let turns = s > -T::one() && (self.open || value.abs() > allowed);
-                if turns && less(&self.closest) {
-                    self.closest = Some(here);
+                if s <= -T::one() {
+                    self.part_again();
+                } else if turns {
+                    self.falling = Some(here);
+                    if s < T::one() {
+                        self.part_again();
+                    }
                 }
+            } else {
+                self.part_again();
             }
             self.height = heights.iter().fold(T::zero(), |sum, &a| sum + a);
+            if !self.height.is_finite() {
+                return Err(undecided(self.edge() + sign * to * to, cost));
+            }
             self.open |= self.height > allowed;
         }
         Ok(())
+    }
+
+    /// Where the bodies have come closer up to now, they part from here on, or end.
+    pub fn part_again(&mut self) {
+        let Some(here) = self.falling.take() else { return };
+        if self.closest.is_none_or(|than| here.value < than.value) {
+            self.closest = Some(here);
+        }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Gauss's rule on arcs of θ, graded towards both edges, so that it serves at any distance from them.
 
+use super::outside::Beside;
 use super::series::{above, below};
 use crate::quadrature::panels::Panel;
 use crate::quadrature::panels::angles::Gauss;
@@ -20,12 +21,12 @@ struct Node<T> {
 
 /// The contact as seen from outside.
 pub(super) struct View<T> {
-    pub on: Interval<T>,
+    on: Interval<T>,
     near: Vec<Node<T>>,
     /// Fewer, for points a half-width away.
     far: Vec<Node<T>>,
     /// The least and largest slope in the contact.
-    pub slopes: [T; 2],
+    slopes: [T; 2],
 }
 
 impl<T: Real> View<T> {
@@ -61,23 +62,11 @@ impl<T: Real> View<T> {
             }
             nodes
         };
-        let bound = |least: [T; 2], panel: &Panel<T>| {
-            let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
-            let (series, n) = panel.over(Interval { left: from, right: to });
-            [least[0].min(below(&series[..n])), least[1].max(above(&series[..n]))]
-        };
-        let infinite = T::one() / T::zero();
-        let slopes = panels.iter().fold([infinite, -infinite], bound);
-        Self { on, near: nodes(GRADES), far: nodes(3), slopes }
-    }
-
-    /// The largest slope in the contact.
-    pub fn steepest(&self) -> T {
-        self.slopes[0].abs().max(self.slopes[1].abs())
+        Self { on, near: nodes(GRADES), far: nodes(3), slopes: extremes(panels, on) }
     }
 
     /// The sum over the contact at a distance outside, of g(t) and of 1, and the root w.
-    pub fn sums(&self, distance: T, right: bool) -> [T; 3] {
+    fn sums(&self, distance: T, right: bool) -> [T; 3] {
         let half_width = self.on.half_width();
         let nodes = if distance < half_width { &self.near } else { &self.far };
         let [mut with, mut without] = [T::zero(); 2];
@@ -90,6 +79,44 @@ impl<T: Real> View<T> {
         let root = distance.sqrt() * (distance + half_width + half_width).sqrt();
         [with, without, root]
     }
+}
+
+impl<T: Real> Beside<T> for View<T> {
+    fn on(&self) -> Interval<T> {
+        self.on
+    }
+
+    fn slopes(&self) -> [T; 2] {
+        self.slopes
+    }
+
+    fn steepest(&self) -> T {
+        self.slopes[0].abs().max(self.slopes[1].abs())
+    }
+
+    fn pull(&self, distance: T, right: bool) -> T {
+        let [with, _, root] = self.sums(distance, right);
+        with * root * T::frac_1_pi()
+    }
+
+    fn left_of(&self, g: T, distance: T, right: bool) -> T {
+        let [with, without, root] = self.sums(distance, right);
+        (g * without - with) * root * T::frac_1_pi()
+    }
+}
+
+/// The least and the largest slope in a contact.
+pub(super) fn extremes<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> [T; 2] {
+    let infinite = T::one() / T::zero();
+    let mut slopes = [infinite, -infinite];
+    for panel in panels {
+        let [left, right] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
+        if left < right {
+            let (series, n) = panel.over(Interval { left, right });
+            slopes = [slopes[0].min(below(&series[..n])), slopes[1].max(above(&series[..n]))];
+        }
+    }
+    slopes
 }
 
 /// Gauss's rule on an arc, whose angles count from one of the edges.

@@ -16,7 +16,7 @@ mod way;
 pub(crate) use knots::Knot;
 
 use super::{Cost, Gap, Side};
-use crate::profile::{Piece, first_turn, turning_point};
+use crate::profile::{Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
@@ -369,9 +369,7 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
     let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
         return error;
     };
-    let [left, right] = piece.k;
-    let first = first_turn(piece.curve, [left.min(right), left.max(right)]);
-    let (k, x) = first.unwrap_or_else(|| turning_point(piece.curve, left.min(k), left.max(k)));
+    let (k, x) = first_turn(piece.curve, piece.k, [piece.k[0], k]);
     ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
 }
 

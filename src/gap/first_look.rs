@@ -5,7 +5,7 @@
 //! distance. So one look at the bodies serves every question of where the gap is low, at any x.
 
 use super::{Cost, Gap, Surface};
-use crate::profile::{Piece, turning_point};
+use crate::profile::{Piece, first_turn};
 use crate::{Body, ContactError, CurvePoint, Interval, ProfileError, Real};
 
 /// Samples of a smooth body, its ends included.
@@ -428,7 +428,7 @@ impl<T: Real> Samples<'_, T> {
                 };
                 let j = (0..self.scratch.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
                 let [k, next] = [self.scratch.k[j], self.scratch.k[j + 1]];
-                let (k, x) = turning_point(piece.curve, k.min(next), k.max(next));
+                let (k, x) = first_turn(piece.curve, piece.k, [k, next]);
                 return Err(ProfileError::TurnsBack { k, x });
             }
             if !y.is_finite() {

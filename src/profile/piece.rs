@@ -88,7 +88,7 @@ impl<'a, T: Real> Piece<'a, T> {
         let slope = (ends[1].x - ends[0].x) / (k[1] - k[0]);
         let back = |end: &CurvePoint<T>| end.dx / slope < -T::epsilon().sqrt();
         if ends.iter().all(back) {
-            let (k, x) = first_turn(curve, k).unwrap_or((k[0], ends[0].x));
+            let (k, x) = first_turn(curve, k, [k[0]; 2]);
             return Err(ProfileError::TurnsBack { k, x });
         }
         if ends[0].x < ends[1].x {
@@ -154,8 +154,7 @@ impl<'a, T: Real> Piece<'a, T> {
                 // the wrong way.
                 let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
                 let j = (0..STEPS).find(turns).unwrap_or(i);
-                let first = first_turn(curve, [from, to]);
-                let (k, x) = first.unwrap_or_else(|| turning_point(curve, k(j), k(j + 1)));
+                let (k, x) = first_turn(curve, [from, to], [k(j), k(j + 1)]);
                 return Err(ProfileError::TurnsBack { k, x });
             }
         }
@@ -200,12 +199,15 @@ fn check_derivatives<T: Real>(
 }
 
 /// The first place, outward from the middle of the domain, where `X'` changes its sign: what lies
-/// between it and the middle is of use.
+/// between it and the middle is of use. One that is too narrow for this lies where it was `met`.
 pub(crate) fn first_turn<T: Real>(
     curve: &dyn ParametricProfile<T>,
-    [from, to]: [T; 2],
-) -> Option<(T, T)> {
+    domain: [T; 2],
+    met: [T; 2],
+) -> (T, T) {
     const STEPS: usize = 2048;
+    let rising = |[one, other]: [T; 2]| [one.min(other), one.max(other)];
+    let [from, to] = rising(domain);
     let half = T::of(0.5);
     let (middle, step) = (half * from + half * to, half * (to - from) / T::count(STEPS));
     let back = |k: T| curve.dx(k) < T::zero();
@@ -216,20 +218,16 @@ pub(crate) fn first_turn<T: Real>(
         let next = [(middle - reach).max(from), (middle + reach).min(to)];
         for (last, next) in last.iter_mut().zip(next) {
             if back(next) != side {
-                return Some(turning_point(curve, last.min(next), last.max(next)));
+                return turning_point(curve, rising([*last, next]));
             }
             *last = next;
         }
     }
-    None
+    turning_point(curve, rising(met))
 }
 
 /// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.
-pub(crate) fn turning_point<T: Real>(
-    curve: &dyn ParametricProfile<T>,
-    mut lo: T,
-    mut hi: T,
-) -> (T, T) {
+fn turning_point<T: Real>(curve: &dyn ParametricProfile<T>, [mut lo, mut hi]: [T; 2]) -> (T, T) {
     let half = T::of(0.5);
     let side = curve.dx(lo) < T::zero();
     if (curve.dx(hi) < T::zero()) == side {

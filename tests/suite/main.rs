@@ -16,6 +16,7 @@ mod kept;
 mod accuracy;
 mod bad_input;
 mod certificate;
+mod certificate_several;
 mod check_derivatives;
 mod closed_forms;
 mod closed_forms_solved;

@@ -28,6 +28,7 @@
 //!
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
+mod beside;
 mod part;
 mod weight;
 

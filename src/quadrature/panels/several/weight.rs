@@ -105,4 +105,24 @@ impl<T: Real> Weight<T> {
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
         sign * near * square.sqrt() / self.from_corners(x)
     }
+
+    /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
+    pub fn beyond(&self, right: bool, x: T, distance: T) -> T {
+        let own = if right { self.on.len() - 1 } else { 0 };
+        let mut size = T::one();
+        for (k, on) in self.on.iter().enumerate() {
+            let [near, far] = if k == own {
+                [distance, distance + (on.right - on.left)]
+            } else {
+                [(x - on.left).abs(), (x - on.right).abs()]
+            };
+            size *= near.sqrt() * far.sqrt();
+            if let Some(&zero) = self.zeros.get(k) {
+                size /= (x - zero).abs();
+            }
+        }
+        let flips = if right { 0 } else { self.on.len() + self.zeros.len() };
+        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
+        sign * size / self.from_corners(x)
+    }
 }

@@ -1,0 +1,351 @@
+//! Certificates of several contacts: they pass, and what is missed in, between or beside them is refused at the
+//! right place with the right value.
+#![allow(missing_docs)]
+
+use crate::common::{Profile, graph, intervals, join, several};
+
+use linecontact::reference::{
+    ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
+};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Place};
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+const KAPPA: f64 = PI / 2.0;
+
+#[test]
+fn closed_forms_with_several_contacts_pass() {
+    let mut forms: Vec<(String, Box<dyn ClosedForm<f64>>, f64)> = Vec::new();
+    for count in [2, 3, 5] {
+        let mut add = |name: &str, form: Box<dyn ClosedForm<f64>>| {
+            forms.push((format!("{name}, {count}"), form, (2.0 / f64::from(count as u32)).cosh()));
+        };
+        for share in [1.1, 3.0, 40.0] {
+            let hertz = Hertz::new(0.7, 0.3).unwrap();
+            let form = PolynomialMap::new(hertz, count, 0.3 * share, 1.0).unwrap();
+            add(&format!("Hertz {share}"), Box::new(form));
+        }
+        let wedge = Wedge::unequal(0.2, 0.3, 0.4).unwrap();
+        add("wedge", Box::new(PolynomialMap::new(wedge, count, 0.7, 1.0).unwrap()));
+        let radii = UnequalRadii::new(1.0, 0.1, 0.4).unwrap();
+        add("radii", Box::new(PolynomialMap::new(radii, count, 1.0, 1.0).unwrap()));
+        let punch = RoundedPunch::new(0.2, 0.7, 0.3).unwrap();
+        add("rounded punch", Box::new(PolynomialMap::new(punch, count, 0.5, 1.0).unwrap()));
+    }
+    for load in [0.01, 1.0, 3.0] {
+        let form = Quartic::under_load(1.0, 1.0, load, KAPPA).unwrap();
+        forms.push((format!("quartic, {load}"), Box::new(form), 2.5));
+    }
+    let mut faults = Vec::new();
+    for (name, form, reach) in forms {
+        let body = body(&*form, -reach, reach).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+        let solution = match contact.solve(Control::Load(form.load(KAPPA))) {
+            Ok(solution) => solution,
+            Err(error) => {
+                faults.push(format!("{name}: not solved: {error}"));
+                continue;
+            }
+        };
+        assert!(solution.intervals().len() > 1, "{name}");
+        let start = std::time::Instant::now();
+        let certificate = match solution.certify() {
+            Ok(certificate) => certificate,
+            Err(error) => {
+                faults.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        println!("{name:20} {:?} {certificate:?}", start.elapsed());
+        // Between two contacts the gap grows, and becomes less again; nowhere does it have a least value.
+        assert_eq!(certificate.gap, None, "{name}");
+        let mut least = f64::INFINITY;
+        for on in form.contacts() {
+            let places: Vec<f64> =
+                (0..400).map(|i| on.at_angle(PI * (f64::from(i) + 0.5) / 400.0)).collect();
+            let weighed = |&x: &f64| form.pressure(x, KAPPA) * on.edge_root(x);
+            let load = PI / 400.0 * places.iter().map(weighed).sum::<f64>();
+            let mean = load / (2.0 * on.half_width());
+            let ratio = |x: f64| form.pressure(x, KAPPA) * on.half_width() / on.edge_root(x) / mean;
+            least = places.iter().fold(least, |least, &x| least.min(ratio(x)));
+        }
+        let Place { x, value } = certificate.pressure.unwrap();
+        assert!((value / least - 1.0).abs() < 0.01, "{name}: {value} at {x}, for {least}");
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn contacts_of_the_files_pass() {
+    let waves = |curvature: f64, waves: &'static [[f64; 3]]| {
+        move |x: f64| {
+            let mut sum = [curvature * x * x / 2.0, curvature * x];
+            for [a, k, phase] in waves {
+                let (sin, cos) = (k * x + phase).sin_cos();
+                sum = [sum[0] + a * cos, sum[1] - a * k * sin];
+            }
+            sum
+        }
+    };
+    let polynomial = |coefficients: &'static [f64]| {
+        move |x: f64| coefficients.iter().fold([0.0; 2], |[y, dy], a| [y * x + a, dy * x + y])
+    };
+    let quartic = || graph(-2.5, 2.5, polynomial(&[1.0, 0.0, -2.0, 0.0, 0.0]));
+    let chebyshev = polynomial(&[0.2, 0.0, -0.2, 0.0, 0.025]);
+    let zeros = [
+        -1.3,
+        -0.9238795325112867,
+        -0.3826834323650898,
+        0.3826834323650898,
+        0.9238795325112867,
+        1.3,
+    ];
+    let pieces = zeros.windows(2).enumerate().map(|(i, pair)| {
+        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        graph(pair[0], pair[1], move |x| chebyshev(x).map(|y| sign * y))
+    });
+    let wave = waves(0.0, &[[-0.02, 7.0, 0.4]]);
+    let cases: [(&str, f64, Profile); 10] = [
+        ("quartic_F0_1", 0.1, quartic()),
+        ("quartic_F3_0", 3.0, quartic()),
+        ("map_T4_wedge", 0.03, join(pieces.collect())),
+        (
+            "map_T5_hertz",
+            0.05,
+            graph(
+                -1.3,
+                1.3,
+                polynomial(&[102.4, 0.0, -256.0, 0.0, 224.0, 0.0, -80.0, 0.0, 10.0, 0.0, 0.0]),
+            ),
+        ),
+        (
+            "map_cubic_hertz",
+            0.4,
+            graph(-2.6, 2.6, polynomial(&[1.0 / 6.0, 0.0, -1.0, 0.1, 1.5, -0.3, 0.015])),
+        ),
+        (
+            "published_quartic",
+            1.0,
+            graph(
+                -2.0,
+                3.0,
+                polynomial(&[
+                    0.22281692032865347,
+                    -0.44563384065730693,
+                    -0.22281692032865347,
+                    0.44563384065730693,
+                    0.0,
+                ]),
+            ),
+        ),
+        (
+            "published_sextic",
+            1.0,
+            graph(
+                -3.4,
+                3.4,
+                polynomial(&[
+                    0.004244131815783876,
+                    0.002122065907891938,
+                    -0.05729577951308232,
+                    -0.027586856802595195,
+                    0.18037560217081472,
+                    0.07639437268410976,
+                    -0.07639437268410976,
+                ]),
+            ),
+        ),
+        (
+            "rough_parabola",
+            0.02,
+            graph(
+                -2.0,
+                2.0,
+                waves(1.0, &[[0.01, 9.0, 0.4], [-0.006, 17.3, 1.9], [0.003, 31.0, 4.0]]),
+            ),
+        ),
+        ("wavy_parabola_5", 0.03, graph(-2.0, 2.0, waves(1.0, &[[0.012, 20.0, 0.3]]))),
+        (
+            "wavy_punch_one_corner",
+            0.05,
+            graph(-1.0, 1.0, move |x| {
+                let [y, dy] = wave(x);
+                [y + 0.02 * x, dy + 0.02]
+            }),
+        ),
+    ];
+    for (name, load, body) in cases {
+        let want = several(name).contacts;
+        let mut contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
+        if name.contains("corner") {
+            contact = contact.edges(Edge::UpTo(-1.0), Edge::UpTo(1.0));
+        }
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let got = intervals(&solution);
+        assert_eq!(got.len(), want.len(), "{name}: {got:?}");
+        for (got, want) in got.iter().zip(&want) {
+            let off = (got.left - want.left).abs().max((got.right - want.right).abs());
+            assert!(off < 1e-9 * (want.right - want.left), "{name}: {got:?}, {want:?}");
+        }
+        let certificate = solution.certify().unwrap_or_else(|error| panic!("{name}: {error}"));
+        println!("{name:24} {certificate:?}");
+    }
+}
+
+/// A hollow punch touches at its two corners, and a body with corners and a low middle in three places.
+#[test]
+fn two_corners() {
+    let hollow = graph(-1.0, 1.0, |x| [-0.05 * x * x, -0.1 * x]);
+    let wavy = graph(-1.0, 1.0, |x| {
+        let (sin, cos) = (2.0 * PI * x).sin_cos();
+        [-0.02 * cos, 0.04 * PI * sin]
+    });
+    for (body, load, count) in [(hollow, 0.01, 2), (wavy, 0.02, 3)] {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let contact = contact.edges(Edge::UpTo(-1.0), Edge::UpTo(1.0));
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), count, "{solution:?}");
+        assert!(solution.a() == 1.0 && solution.b() == 1.0, "{solution:?}");
+        let certificate = solution.certify().unwrap();
+        assert_eq!(certificate.gap, None);
+        assert!(certificate.pressure.unwrap().value > 0.0);
+    }
+}
+
+#[test]
+fn in_single_precision() {
+    let body = Curve::new([-2.5, 2.5], |k: f32| CurvePoint {
+        x: k,
+        y: k.powi(4) - 2.0 * k * k,
+        dx: 1.0,
+        dy: 4.0 * k.powi(3) - 4.0 * k,
+    });
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA as f32).certified(true);
+    for load in [0.1, 1.0, 2.0] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+    }
+}
+
+/// `x⁴ - 2x²` under F = 1, E* = 1.
+struct Pair {
+    /// Half of β² - α².
+    d: f64,
+}
+
+impl Pair {
+    const LOAD: f64 = 1.0;
+
+    fn new() -> Self {
+        Self { d: (4.0 * Self::LOAD / PI).sqrt() / 2.0 }
+    }
+
+    fn limits(&self) -> [f64; 2] {
+        [(1.0 - self.d).sqrt(), (1.0 + self.d).sqrt()]
+    }
+
+    /// The gap opens with the slope `4x sqrt((x² - α²)(x² - β²))`.
+    fn gap(&self, x: f64) -> f64 {
+        let t = (x * x - 1.0).abs();
+        let s = (t * t - self.d * self.d).sqrt();
+        t * s - self.d * self.d * ((t + s) / self.d).ln()
+    }
+}
+
+/// A bump of height 1 and width 1, and its slope.
+fn bump(s: f64) -> [f64; 2] {
+    let t = 1.0 - 4.0 * s * s;
+    if t > 0.0 { [t.powi(4), -32.0 * s * t.powi(3)] } else { [0.0; 2] }
+}
+
+fn with_a_bump(at: f64, width: f64, height: f64) -> Profile {
+    graph(-2.5, 2.5, move |x: f64| {
+        let [y, dy] = bump((x - at) / width);
+        let [y, dy] = [height * y, height * dy / width];
+        [x.powi(4) - 2.0 * x * x - y, 4.0 * x.powi(3) - 4.0 * x - dy]
+    })
+}
+
+#[test]
+fn a_narrow_asperity_between_two_contacts_or_beside_them() {
+    let pair = Pair::new();
+    for (at, width) in
+        [(0.0, 0.01), (0.1234, 0.01), (-0.301, 4e-3), (0.3, 2e-3), (1.9, 0.01), (-2.2, 0.005)]
+    {
+        // Where a bump of some height is nearest to the flat, and the height at which it touches: the least of
+        // the ratio of the gap to the bump.
+        let steps = 20_000;
+        let places = (1..steps).map(|i| at + width * (f64::from(i) / f64::from(steps) - 0.5));
+        let ratio = |x: f64| pair.gap(x) / bump((x - at) / width)[0];
+        let place = places.fold(at, |best, x| if ratio(x) < ratio(best) { x } else { best });
+        let touching = ratio(place);
+        for off in [-1e-2, -1e-5, 1e-5, 1e-2] {
+            let body = with_a_bump(at, width, touching * (1.0 + off));
+            let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
+            let solution = contact.solve(Control::Load(Pair::LOAD)).unwrap();
+            let due = -off * touching;
+            let near = match solution.certify() {
+                Ok(certificate) if off < 0.0 => certificate.gap.expect("it comes near"),
+                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Place { x, value },
+                // The solver has seen it.
+                Ok(_) if solution.intervals().len() > 2 => continue,
+                other => panic!("{at}, {off}: {other:?}"),
+            };
+            println!("{at} {off}: {near:?} for {due:e}, {:?}", solution.intervals().len());
+            assert!((near.x - place).abs() < 0.1 * width, "{near:?} for {place}");
+            assert!((near.value - due).abs() < 0.02 * due.abs() + 1e-11, "{near:?} for {due:e}");
+        }
+    }
+}
+
+/// A bump inside one of two contacts, between two nodes.
+#[test]
+fn what_the_panels_of_one_contact_have_missed() {
+    let pair = Pair::new();
+    let [from, to] = pair.limits();
+    let (mut missed, width) = (0, 0.006);
+    for i in 0..40 {
+        let at = from + (to - from) * (f64::from(i) + 0.5) / 40.0;
+        let at = if i % 2 == 0 { at } else { -at };
+        let body = with_a_bump(at, width, -0.01);
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
+        let Ok(solution) = contact.solve(Control::Load(Pair::LOAD)) else { continue };
+        let unaware = solution.intervals().len() == 2 && (solution.a() - to).abs() < 1e-12;
+        match solution.certify() {
+            Err(ContactError::Missed { x, slope, assumed }) if unaware => {
+                missed += 1;
+                let smooth = 4.0 * x.powi(3) - 4.0 * x;
+                assert!((x - at).abs() < width / 2.0, "{x}, {at}");
+                assert!((assumed - smooth).abs() < 1e-9 && (slope - smooth).abs() > 1e-3);
+            }
+            other => assert!(!unaware || other.is_err(), "{at}: {other:?}"),
+        }
+    }
+    assert!(missed > 5, "{missed}");
+}
+
+/// One half of a body that has sunk since: its slopes are the same, and the gap does not close any more.
+#[test]
+fn heights_that_do_not_go_with_the_contacts() {
+    let sunk = AtomicBool::new(false);
+    let depth = 1e-6;
+    let quartic = Curve::new([-2.5, 2.5], |k: f64| {
+        let depth = if sunk.load(Ordering::Relaxed) && k > 0.0 { depth } else { 0.0 };
+        let [y, dy] = [k.powi(4) - 2.0 * k * k + depth, 4.0 * k.powi(3) - 4.0 * k];
+        CurvePoint { x: k, y, dx: 1.0, dy }
+    });
+    let contact = Contact::new(&Flat, &quartic).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Control::Load(Pair::LOAD)).unwrap();
+    solution.certify().unwrap();
+    sunk.store(true, Ordering::Relaxed);
+    let error = solution.certify().unwrap_err();
+    let ContactError::Unbalanced { x, strength, allowed } = error else { panic!("{error}") };
+    let [_, b] = Pair::new().limits();
+    assert!((x - b).abs() < 1e-12 && allowed < 1e-3 * strength, "{error}");
+    // P = 2x sqrt((x² - α²)(β² - x²)) and a limit that is off by so much leave this strength.
+    let off = (contact.solve(Control::Load(Pair::LOAD)).unwrap().a() - solution.a()).abs();
+    let half_width = solution.intervals()[1].half_width();
+    let factor = 2.0 * b * (2.0 * Pair::new().d * 2.0 * b).sqrt();
+    let due = factor * off / 2.0 * (2.0 / half_width).sqrt();
+    assert!((strength / due - 1.0).abs() < 1e-3, "{strength:e} for {due:e}");
+}
