@@ -87,10 +87,31 @@ impl<'p, T: Real> Integrals<'p, T> {
         x: T,
         kernel: impl Fn(bool, T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
+        self.sum(&self.contacts, least, x, kernel)
+    }
+
+    /// The same over one contact alone, by its number.
+    pub fn over_one<const N: usize>(
+        &self,
+        contact: usize,
+        x: T,
+        kernel: impl Fn(T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        let kernel = |_, distance, strength| kernel(distance, strength);
+        self.sum(&self.contacts[contact..=contact], T::zero(), x, kernel)
+    }
+
+    fn sum<const N: usize>(
+        &self,
+        contacts: &[One<T>],
+        least: T,
+        x: T,
+        kernel: impl Fn(bool, T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
-        let mut views = Vec::with_capacity(self.contacts.len());
-        for one in &self.contacts {
+        let mut views = Vec::with_capacity(contacts.len());
+        for one in contacts {
             views.push((one, View::new(one.on, x), one.kept(&self.pressure)?));
         }
         let panel = |i: usize, ends: [T; 2], known: Option<usize>, part: usize| {

@@ -29,6 +29,7 @@
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
 mod part;
+mod punch;
 mod weight;
 
 use super::conjugate::LANES;
@@ -36,6 +37,7 @@ use super::cover::Cover;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 use part::{Part, gauss};
+pub(crate) use punch::Punch;
 use weight::Weight;
 
 /// The longest stretch of the way through a gap that one Gauss rule takes, in the variable t of
@@ -50,9 +52,6 @@ pub(crate) struct Several<T> {
     count: usize,
     weight: Weight<T>,
     tolerance: T,
-    /// V at the limits, from left to right, and at the zeros of p.
-    at_ends: Vec<T>,
-    at_zeros: Vec<T>,
 }
 
 /// The conditions on the free limits, from left to right, linearised.
@@ -64,24 +63,26 @@ pub(crate) struct System<T> {
     pub open: Vec<T>,
     /// The derivatives by the limits, a row for each condition.
     pub jacobian: Vec<T>,
+    /// Which of the conditions is that of the load.
+    pub load_row: usize,
+    /// V at the limits, from left to right, and at the zeros of p.
+    at_ends: Vec<T>,
+    at_zeros: Vec<T>,
+    /// `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
+    sums: Vec<T>,
 }
 
 impl<T> System<T> {
     pub fn new() -> Self {
-        Self { residual: Vec::new(), open: Vec::new(), jacobian: Vec::new() }
+        let [residual, open, jacobian, at_ends, at_zeros, sums] =
+            std::array::from_fn(|_| Vec::new());
+        Self { residual, open, jacobian, load_row: 0, at_ends, at_zeros, sums }
     }
 }
 
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
-        Self {
-            parts: Vec::new(),
-            count: 0,
-            weight: Weight::new(),
-            tolerance,
-            at_ends: Vec::new(),
-            at_zeros: Vec::new(),
-        }
+        Self { parts: Vec::new(), count: 0, weight: Weight::new(), tolerance }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -131,6 +132,17 @@ impl<T: Real> Several<T> {
         Ok(())
     }
 
+    /// A limit, by its number from left to right, and whether it is free.
+    fn limit(&self, i: usize) -> T {
+        let on = self.parts[i / 2].on;
+        if i.is_multiple_of(2) { on.left } else { on.right }
+    }
+
+    fn is_free(&self, i: usize) -> bool {
+        let corners = self.weight.corners();
+        !(i == 0 && corners[0] || i + 1 == 2 * self.count && corners[1])
+    }
+
     fn parts(&self) -> &[Part<T>] {
         &self.parts[..self.count]
     }
@@ -152,14 +164,13 @@ impl<T: Real> Several<T> {
     }
 
     /// The conditions for a load, that is F/κ.
-    pub fn system(&mut self, load: T, system: &mut System<T>) {
+    pub fn system(&self, load: T, system: &mut System<T>) {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
         let n = self.count;
         let corners = self.weight.corners();
         let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
         let centre = hull.plain().centre();
-        let mut at_ends = std::mem::take(&mut self.at_ends);
-        let mut at_zeros = std::mem::take(&mut self.at_zeros);
+        let System { residual, open, jacobian, load_row, at_ends, at_zeros, sums } = system;
         at_ends.clear();
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
@@ -168,14 +179,10 @@ impl<T: Real> Several<T> {
             }
         }
         at_zeros.extend(self.weight.zeros().iter().map(|&x| self.outside(x, None, None)));
-        let System { residual, open, jacobian } = system;
         residual.clear();
         open.clear();
         jacobian.clear();
-        let is_free = |i: usize| !(i == 0 && corners[0] || i + 1 == 2 * n && corners[1]);
-        let end = |i: usize| {
-            if i % 2 == 0 { self.parts[i / 2].on.left } else { self.parts[i / 2].on.right }
-        };
+        let (is_free, end) = (|i: usize| self.is_free(i), |i: usize| self.limit(i));
         let mut row = |value: T, error: T, by: &mut dyn FnMut(usize) -> T| {
             residual.push(value);
             open.push(error);
@@ -186,11 +193,12 @@ impl<T: Real> Several<T> {
                 .iter()
                 .fold(zero, |sum, part| sum + T::pi() * part.moments.error * share(part))
         };
-        for (&x, &value) in self.weight.zeros().iter().zip(&at_zeros) {
+        for (&x, &value) in self.weight.zeros().iter().zip(&*at_zeros) {
             let away =
                 |part: &Part<T>| one / (x - part.on.right).abs().min((x - part.on.left).abs());
             row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
         }
+        *load_row = at_zeros.len() + usize::from(corners == [false; 2]);
         let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.mean);
         if corners == [false; 2] {
             row(total, error(&|_| one), &mut |i| half * at_ends[i]);
@@ -207,7 +215,8 @@ impl<T: Real> Several<T> {
                 half * at_ends[i] / T::pi()
             });
         }
-        let mut sums = vec![zero; 2 * n];
+        sums.clear();
+        sums.resize(2 * n, zero);
         for k in 0..n - 1 {
             let zero_of_p = self.weight.zeros().get(k).map(|&x| (x, at_zeros[k]));
             sums.fill(zero);
@@ -265,7 +274,6 @@ impl<T: Real> Several<T> {
                 acting / (T::pi() + T::pi()) * sums[i]
             });
         }
-        (self.at_ends, self.at_zeros) = (at_ends, at_zeros);
     }
 
     /// The slope of the gap around a contact.

@@ -243,6 +243,14 @@ fn multiply<T: Real>(
         product.tail = noise + last;
         // What is not finite, no halving mends.
         resolved = last <= half * tolerance * all + noise || !all.is_finite();
+        // So must be what dual numbers carry: a limit that moves bends the weight more than the weight is bent.
+        for part in 1..T::PARTS {
+            let size =
+                |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.part(part).abs()));
+            let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+            resolved &= last <= T::epsilon().sqrt() * T::epsilon().sqrt().sqrt() * all + noise
+                || !all.is_finite();
+        }
         if resolved {
             break;
         }
