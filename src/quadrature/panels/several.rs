@@ -44,6 +44,9 @@ use weight::Weight;
 /// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
 const STRETCH: f64 = 2.0;
 
+/// More than those of any gap and contact whose widths are numbers.
+const MOST_STRETCHES: usize = 1000;
+
 /// Several contacts on their panels.
 #[derive(Clone)]
 pub(crate) struct Several<T> {
@@ -229,10 +232,11 @@ impl<T: Real> Several<T> {
                 let sign = if at_right { -one } else { one };
                 // Half the gap.
                 let last = T::of(2.0) * (width / (T::of(4.0) * from.half_width())).sqrt().asinh();
-                let pieces = (last.part(0) / T::of(STRETCH)).ceil().max(one);
-                let step = last / pieces;
-                let mut start = zero;
-                while start < last * (one - T::epsilon().sqrt()) {
+                let is_enough = |&n: &usize| T::of(STRETCH) * T::count(n) >= last;
+                let pieces = (1..MOST_STRETCHES).find(is_enough).unwrap_or(1);
+                let step = last / T::count(pieces);
+                for piece in 0..pieces {
+                    let start = step * T::count(piece);
                     for (&node, &weight) in
                         gauss().nodes.iter().zip(&gauss().weights).take(gauss().n)
                     {
@@ -261,7 +265,6 @@ impl<T: Real> Several<T> {
                             *sum += scale / away;
                         }
                     }
-                    start += step;
                 }
             }
             let at_left = self.parts[k].height(left.right);
