@@ -84,6 +84,7 @@ fn off(form: &dyn ClosedForm<Dual64>, solution: &Solution<Dual64>, kappa: Dual64
     let mut worst = [0.0f64; 2];
     for (got, want) in solution.intervals().iter().zip(&want) {
         for (got, want) in limits(got).into_iter().zip(limits(want)) {
+            assert!(got.eps.is_finite(), "{got:?}");
             worst[0] = worst[0].max((got.eps - want.eps).abs() / of_limits);
         }
     }
@@ -94,6 +95,7 @@ fn off(form: &dyn ClosedForm<Dual64>, solution: &Solution<Dual64>, kappa: Dual64
             let x = plain(on.at_angle(plain(PI * (f64::from(i) + 0.1) / 12.0)).re);
             let exact = form.pressure(x, kappa);
             let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
+            assert!(got.eps.is_finite(), "P({x}) = {got:?}");
             (most, of_pressures) =
                 (most.max((got.eps - exact.eps).abs()), size(of_pressures, exact.eps));
         }
