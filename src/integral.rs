@@ -100,7 +100,7 @@ impl<'p, T: Real> Integrals<'p, T> {
         let (one, kernel) =
             (&self.contacts[contact..=contact], |_, x, strength| kernel(x, strength));
         let fine = tolerance::<T>().min(T::of(64.0) * T::epsilon());
-        match self.sum(one, fine, T::zero(), x, &kernel) {
+        match self.sum(one, fine, T::zero(), x, kernel) {
             Err(ContactError::Integral { .. }) => self.sum(one, tolerance(), T::zero(), x, kernel),
             result => result,
         }

@@ -159,7 +159,8 @@ fn several_contacts() {
 
 /// Solves, and takes pressures in each of so many contacts.
 fn in_each(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64, count: usize) {
-    let solution = solver.solve(contact, Control::Load(load)).unwrap();
+    let solution = solver.solve(contact, Control::Load(load));
+    let solution = solution.unwrap_or_else(|error| panic!("{count} contacts, F = {load}: {error}"));
     assert_eq!(solution.intervals().len(), count, "F = {load}");
     let pressure = solution.pressure().unwrap();
     for on in solution.intervals() {

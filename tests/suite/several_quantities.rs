@@ -531,7 +531,8 @@ fn pressures_at_limits_and_in_gaps() {
                 let place = from + share * (to - from);
                 let gap = pressure.estimate(place, &mut Cost::default()).unwrap();
                 assert_eq!([gap.value, gap.error], [0.0; 2], "{}", scene.name);
-                (x.push(place), want.push(0.0));
+                x.push(place);
+                want.push(0.0);
             }
         }
         // In any order, whatever lies next to what.
