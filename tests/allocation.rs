@@ -140,7 +140,7 @@ fn several_contacts() {
         [t * t, 2.0 * t * slope]
     });
     let mut solver = Solver::new();
-    for (count, body, [light, heavy]) in [(2, &two, [0.5, 2.5]), (3, &three, [0.1, 1.0])] {
+    for (count, body, [light, heavy]) in [(2, &two, [0.5, 2.5]), (3, &three, [0.1, 0.5])] {
         let contact = Contact::new(&Flat, body).unwrap().contact_modulus(1.0);
         // Down and up again. The panels are not those of the cycle before: after some there is room for all.
         let cycle = |solver: &mut Solver<f64>, [light, heavy]: [f64; 2]| {
