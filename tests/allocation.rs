@@ -127,15 +127,15 @@ fn nothing_is_allocated_after_the_first_solve() {
 
 /// While there are as many of them.
 fn several_contacts() {
-    let bumps = |shape: fn(f64) -> [f64; 2]| {
-        Curve::new([-1.6, 1.6], move |k: f64| {
+    let bumps = |reach: f64, shape: fn(f64) -> [f64; 2]| {
+        Curve::new([-reach, reach], move |k: f64| {
             let [y, dy] = shape(k);
             CurvePoint { x: k, y, dx: 1.0, dy }
         })
     };
-    let two = bumps(|x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
+    let two = bumps(1.6, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
     // T₃²: bumps where T₃ is zero.
-    let three = bumps(|x| {
+    let three = bumps(1.2, |x| {
         let [t, slope] = [4.0 * x.powi(3) - 3.0 * x, 12.0 * x * x - 3.0];
         [t * t, 2.0 * t * slope]
     });
