@@ -62,8 +62,11 @@
 //! [`reference`](mod@crate::reference) they come out to 1e-14, in formulas with noise to the noise of
 //! their derivatives; there is no estimate of their error. A kink or jump of a slope that moves with
 //! the parameter must be declared as a joint: halving finds where it is, not that it moves. Where edges
-//! change their kind ([`Edge::UpTo`](crate::Edge::UpTo)), and where a contact gives way, there is no
-//! derivative, and what comes out is that of one side, or not finite. So is the derivative of a
+//! change their kind ([`Edge::UpTo`](crate::Edge::UpTo)), where a contact gives way, and where contacts are
+//! born or merge, there is no derivative, and what comes out is that of one side, or not finite. (Up to a
+//! merger the inner limits go like the root of the load that is left: their derivatives grow without bound.)
+//! Of several contacts the number and about where they are follow from the values; then all limits take the
+//! steps for the derivatives at once. Not finite is the derivative of a
 //! pressure at the limits, and that of [`Solution::gap_at`](crate::Solution::gap_at) by what moves the
 //! limits. Of [`Solution::peak`](crate::Solution::peak) the value has its derivative, the place has not.
 //!

@@ -87,10 +87,37 @@ impl<'p, T: Real> Integrals<'p, T> {
         x: T,
         kernel: impl Fn(bool, T, T) -> [T; N],
     ) -> Result<[T; N], ContactError<T>> {
+        self.sum(&self.contacts, tolerance(), least, x, kernel)
+    }
+
+    /// The same over one contact alone, by its number: to rounding beside a kink, too, if that can be had.
+    pub fn over_one<const N: usize>(
+        &self,
+        contact: usize,
+        x: T,
+        kernel: impl Fn(T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        let (one, kernel) =
+            (&self.contacts[contact..=contact], |_, x, strength| kernel(x, strength));
+        let fine = tolerance::<T>().min(T::of(64.0) * T::epsilon());
+        match self.sum(one, fine, T::zero(), x, kernel) {
+            Err(ContactError::Integral { .. }) => self.sum(one, tolerance(), T::zero(), x, kernel),
+            result => result,
+        }
+    }
+
+    fn sum<const N: usize>(
+        &self,
+        contacts: &[One<T>],
+        tolerance: T,
+        least: T,
+        x: T,
+        kernel: impl Fn(bool, T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
-        let mut views = Vec::with_capacity(self.contacts.len());
-        for one in &self.contacts {
+        let mut views = Vec::with_capacity(contacts.len());
+        for one in contacts {
             views.push((one, View::new(one.on, x), one.kept(&self.pressure)?));
         }
         let panel = |i: usize, ends: [T; 2], known: Option<usize>, part: usize| {
@@ -109,7 +136,6 @@ impl<'p, T: Real> Integrals<'p, T> {
                 pending.push((i, whole, known));
             }
         }
-        let tolerance = T::epsilon().powf(T::of(0.75));
         // Below the least normal number, which is about that, there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
         let mut left = MOST_PANELS;
@@ -198,6 +224,11 @@ impl<T: Real> One<T> {
         }
         Ok(bounded)
     }
+}
+
+/// The share of an integral to which its panels must agree with their halves.
+fn tolerance<T: Real>() -> T {
+    T::epsilon().powf(T::of(0.75))
 }
 
 fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {

@@ -37,8 +37,8 @@
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Certificate`]: that a solution is a contact in all of the bodies.
-//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with moment, [`LoadRates`], the gap beside
-//!   the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
+//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with [each contact](ContactRegion), moment,
+//!   [`LoadRates`], the gap beside the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
 //!   feature `rayon`, `sweep`: many scenes over all cores.
 //!
 //! # Example
@@ -89,7 +89,7 @@ pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Piecewi
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use quantities::LoadRates;
 pub use real::Real;
-pub use solution::{Peak, Pressure, Report, Solution, Start, Trial, Verdict};
+pub use solution::{ContactRegion, Peak, Pressure, Report, Solution, Start, Trial, Verdict};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;

@@ -8,8 +8,10 @@ use crate::quadrature::{Engine, Estimate, Pressing};
 use crate::{ContactError, Interval, Real};
 use std::sync::Arc;
 
+mod region;
 mod report;
 
+pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
 
 /// A solved contact: its limits, and on request its pressure.
@@ -62,8 +64,7 @@ impl<'b, T: Real> Solution<'b, T> {
 
     /// The intervals in which the bodies touch, from left to right.
     pub fn intervals(&self) -> &[Interval<T>] {
-        let several = panels::several(&*self.engine).map(Several::contacts);
-        several.unwrap_or(std::slice::from_ref(&self.found.interval))
+        self.several().map(Several::contacts).unwrap_or(std::slice::from_ref(&self.found.interval))
     }
 
     /// Load per unit length F, of all contacts.
@@ -83,7 +84,8 @@ impl<'b, T: Real> Solution<'b, T> {
 
     /// `[K_b, K_a]`, the strengths of the singularities at -b and at a, pressures: near `a`,
     /// `P ≈ K_a/sin θ` with `x = c + L cos θ`. Zero to rounding for free edges; at a fixed edge
-    /// a negative strength means that the body lifts off there.
+    /// a negative strength means that the body lifts off there. Of several contacts these are the
+    /// outermost limits, c and L those of the contact there.
     pub fn edge_singularities(&self) -> [T; 2] {
         self.found.strengths
     }
@@ -106,37 +108,47 @@ impl<'b, T: Real> Solution<'b, T> {
         certify(&self.gap, self.kappa, &self.found, &*self.engine)
     }
 
-    /// The largest pressure and its place, as far as a grid of 64 points and the joints show which
-    /// maximum is the largest. The pressure is flat there: its value has all digits, its place half
+    /// The largest pressure and its place, as far as a grid of 64 points in each contact and the joints
+    /// show which maximum is the largest. The pressure is flat there: its value has all digits, its place half
     /// of them.
     ///
     /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
     /// inside.
     ///
-    /// It takes about a hundred pressures, which cost evaluations with [`Midpoint`](crate::Midpoint)
+    /// It takes about a hundred pressures for each contact, which cost evaluations with [`Midpoint`](crate::Midpoint)
     /// only; they are not in [`cost`](Self::cost).
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
-    /// slope of the gap jumps up; those of sampling the gap.
+    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others); those of
+    /// sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
-        let Found { interval: on, strengths, free, .. } = self.found;
         self.engine.complete(&self.gap)?;
-        let (mut x, mut pressure) = (on.left, T::min_value().unwrap_or(-T::one()));
-        for &on in self.intervals() {
-            let (place, Estimate { value, .. }) =
-                peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
-            if !(value <= pressure) {
-                (x, pressure) = (place, value);
+        let last = self.intervals().len() - 1;
+        let mut best = self.peak_in(last)?;
+        for i in (0..last).rev() {
+            let peak = self.peak_in(i)?;
+            if peak.pressure >= best.pressure {
+                best = peak;
             }
         }
+        Ok(best)
+    }
+
+    /// That of one contact, by its number.
+    fn peak_in(&self, contact: usize) -> Result<Peak<T>, ContactError<T>> {
+        let contacts = self.intervals();
+        let (on, last) = (contacts[contact], contacts.len() - 1);
+        let (x, Estimate { value: pressure, .. }) =
+            peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
+        let Found { strengths, free, .. } = self.found;
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // Where both edges are at fault it is the right one that is named.
-        for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
-            if !free[i] && strengths[i] > rounding {
+        for (i, outermost, x) in [(1, contact == last, on.right), (0, contact == 0, on.left)] {
+            if outermost && !free[i] && strengths[i] > rounding {
                 return Err(ContactError::Singular { x });
             }
         }
@@ -179,6 +191,11 @@ impl<'b, T: Real> Solution<'b, T> {
         contacts.get(first).copied().filter(|on| on.contains(x))
     }
 
+    /// The contacts on their panels, if they are several.
+    pub(crate) fn several(&self) -> Option<&Several<T>> {
+        panels::several(&*self.engine)
+    }
+
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
         &self.gap
     }
@@ -197,7 +214,7 @@ impl<'b, T: Real> Solution<'b, T> {
     }
 }
 
-/// The largest pressure of a contact.
+/// A largest pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak<T> {
     /// Where it is.

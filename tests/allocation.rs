@@ -73,6 +73,7 @@ fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
 }
 
 fn main() {
+    several_contacts();
     nothing_is_allocated_after_the_first_solve();
     if std::env::args().any(|argument| argument == "--ignored") {
         nothing_grows_over_a_million_solves();
@@ -122,6 +123,52 @@ fn nothing_is_allocated_after_the_first_solve() {
         }
     });
     assert_eq!(moved, 0, "a body of three pieces on one that moves");
+}
+
+/// While there are as many of them.
+fn several_contacts() {
+    let bumps = |reach: f64, shape: fn(f64) -> [f64; 2]| {
+        Curve::new([-reach, reach], move |k: f64| {
+            let [y, dy] = shape(k);
+            CurvePoint { x: k, y, dx: 1.0, dy }
+        })
+    };
+    let two = bumps(1.6, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
+    // T₃²: bumps where T₃ is zero.
+    let three = bumps(1.2, |x| {
+        let [t, slope] = [4.0 * x.powi(3) - 3.0 * x, 12.0 * x * x - 3.0];
+        [t * t, 2.0 * t * slope]
+    });
+    let mut solver = Solver::new();
+    for (count, body, [light, heavy]) in [(2, &two, [0.5, 2.5]), (3, &three, [0.1, 0.5])] {
+        let contact = Contact::new(&Flat, body).unwrap().contact_modulus(1.0);
+        // Down and up again. The panels are not those of the cycle before: after some there is room for all.
+        let cycle = |solver: &mut Solver<f64>, [light, heavy]: [f64; 2]| {
+            for i in 0..=20 {
+                let share = f64::from(10i32.abs_diff(i)) / 10.0;
+                in_each(solver, &contact, light + share * (heavy - light), count);
+            }
+        };
+        for share in [0.0, 0.01, 0.02, 0.03] {
+            cycle(&mut solver, [light * (1.0 + share), heavy * (1.0 - share)]);
+        }
+        let next = allocations(|| cycle(&mut solver, [1.015 * light, 0.975 * heavy]));
+        assert_eq!(next, 0, "{count} contacts under the next load");
+    }
+}
+
+/// Solves, and takes pressures in each of so many contacts.
+fn in_each(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64, count: usize) {
+    let solution = solver.solve(contact, Control::Load(load));
+    let solution = solution.unwrap_or_else(|error| panic!("{count} contacts, F = {load}: {error}"));
+    assert_eq!(solution.intervals().len(), count, "F = {load}");
+    let pressure = solution.pressure().unwrap();
+    for on in solution.intervals() {
+        let x: [f64; 31] = std::array::from_fn(|i| on.at_angle(0.02 + 0.1 * i as f64));
+        let mut pressures = [0.0; 31];
+        pressure.at_many(&x, &mut pressures).unwrap();
+        assert!(pressures.iter().all(|&p| p > 0.0));
+    }
 }
 
 /// Half a minute: `cargo test --release --test allocation -- --ignored`.

@@ -52,14 +52,17 @@ pub(super) struct Newton<T> {
     /// What the limits move by, and what the widths between them do besides.
     moves: Vec<T>,
     corrections: Vec<T>,
+    /// What the conditions leave open: of one of them, and of what that makes of the limits.
+    unit: Vec<T>,
+    open: Vec<T>,
 }
 
 impl<T: Real> Newton<T> {
     pub fn new() -> Self {
-        let [errors, step, moves, corrections] = std::array::from_fn(|_| Vec::new());
+        let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
         let (on, kinks) = (Vec::new(), Vec::new());
-        Self { on, errors, steps: 0, kinks, system, linear, step, moves, corrections }
+        Self { on, errors, steps: 0, kinks, system, linear, step, moves, corrections, unit, open }
     }
 
     /// Moves the contacts until they bear a load, that is F/κ.
@@ -265,19 +268,20 @@ impl<T: Real> Newton<T> {
     /// What the equations leave open of the limits, and rounding; `left` is what the last step has left.
     fn estimate(&mut self, corners: [bool; 2], left: T) {
         let n = self.step.len();
-        let (mut column, mut unit) = (Vec::new(), vec![T::zero(); n]);
-        let mut open = vec![T::zero(); n];
+        self.open.clear();
+        self.open.resize(n, T::zero());
         for (k, &error) in self.system.open.iter().enumerate() {
-            unit.fill(T::zero());
-            unit[k] = error;
-            self.linear.solve(&unit, &mut column);
-            for (open, step) in open.iter_mut().zip(&column) {
+            self.unit.clear();
+            self.unit.resize(n, T::zero());
+            self.unit[k] = error;
+            self.linear.solve(&self.unit, &mut self.step);
+            for (open, step) in self.open.iter_mut().zip(&self.step) {
                 *open += step.abs();
             }
         }
         self.errors.clear();
         self.errors.resize(2 * self.on.len(), T::zero());
-        for ((i, right), open) in self.free(corners).zip(open) {
+        for ((i, right), &open) in self.free(corners).zip(&self.open) {
             let on = self.on[i];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
             let error = T::of(4.0) * (open + rounding) / on.half_width() + left;

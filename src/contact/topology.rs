@@ -269,8 +269,6 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
-                eprintln!("{start:?} {on:?} {fault:?}");
-            }
             let last = on.len() - 1;
             let corners = [
                 fixed[0] || at_corner[0] && on[0].left <= ends[0],

@@ -34,7 +34,7 @@ use chebyshev::{MOST, SIZES};
 use conjugate::{Conjugate, Edges, LANES};
 pub(crate) use cover::Cover;
 pub(crate) use panel::Panel;
-pub(crate) use several::{Several, System};
+pub(crate) use several::{Punch, Several, System};
 use std::any::Any;
 
 /// Whether the slope of the gap rises all over the contact last prepared, up to a share of itself; `None` for

@@ -59,6 +59,8 @@ pub fn intervals<T: Real>(solution: &Solution<T>) -> Vec<Interval<T>> {
 /// Contacts in several places, from `tests/data/several`.
 pub struct Several {
     pub contacts: Vec<Interval<f64>>,
+    /// What each bears.
+    pub loads: Vec<f64>,
     /// x and P(x).
     pub points: Vec<[f64; 2]>,
 }
@@ -73,7 +75,8 @@ pub fn several(name: &str) -> Several {
         list.iter().map(|pair| [number(&pair[0]), number(&pair[1])]).collect()
     };
     let contacts = pairs("limits").into_iter().map(|[left, right]| Interval { left, right });
-    Several { contacts: contacts.collect(), points: pairs("points") }
+    let loads = json["loads"].as_array().expect("a list").iter().map(number).collect();
+    Several { contacts: contacts.collect(), loads, points: pairs("points") }
 }
 
 /// A scene with a reference solution: its name, its bodies, and the relative accuracy of the

@@ -110,6 +110,8 @@ fn closed_forms() {
         let body = bent(&*form, reach);
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).edges(left, right);
+        // That one has tension inside.
+        let contact = contact.single_interval(name == "cosine 0.7");
         let solution = contact.solve(Control::Load(form.load(kappa))).expect(&name);
         let limits = limits_off(&solution, &*form);
         let pressure = pressure_off(&solution, &*form, kappa);

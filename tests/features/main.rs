@@ -10,4 +10,5 @@ mod formulas;
 
 mod autodiff;
 mod derivatives;
+mod derivatives_several;
 mod sweep;

@@ -47,6 +47,7 @@ mod saturated;
 mod search_counts;
 mod searches;
 mod several_closed_forms;
+mod several_quantities;
 mod several_solved;
 mod shapes;
 mod solver;

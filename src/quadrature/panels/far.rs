@@ -131,8 +131,12 @@ impl<T: Real> Far<T> {
         let [to_left, to_right] = if right { [far, distance] } else { [distance, far] };
         let root = to_left.sqrt() * to_right.sqrt();
         let angle = |t: T| {
-            let root = |from: T, along: T| from.sqrt() * along.max(T::zero()).sqrt();
-            root(to_right, t - on.left).atan2(root(to_left, on.right - t))
+            // At an end it stays nothing wherever the end moves: a root has no derivative there.
+            let root = |from: T, along: T| {
+                if along > T::zero() { from.sqrt() * along.sqrt() } else { T::zero() }
+            };
+            let [y, x] = [root(to_right, t - on.left), root(to_left, on.right - t)];
+            if y <= x { y.atan2(x) } else { T::frac_pi_2() - x.atan2(y) }
         };
         let sign = if right { -T::of(2.0) } else { T::of(2.0) } / root;
         let (zero, mut sum) = (T::zero(), Sum::new());

@@ -30,6 +30,7 @@
 
 mod beside;
 mod part;
+mod punch;
 mod weight;
 
 use super::conjugate::LANES;
@@ -37,11 +38,15 @@ use super::cover::Cover;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 use part::{Part, gauss};
+pub(crate) use punch::Punch;
 use weight::Weight;
 
 /// The longest stretch of the way through a gap that one Gauss rule takes, in the variable t of
 /// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
 const STRETCH: f64 = 2.0;
+
+/// More than those of any gap and contact whose widths are numbers.
+const MOST_STRETCHES: usize = 1000;
 
 /// Several contacts on their panels.
 #[derive(Clone)]
@@ -51,9 +56,6 @@ pub(crate) struct Several<T> {
     count: usize,
     weight: Weight<T>,
     tolerance: T,
-    /// V at the limits, from left to right, and at the zeros of p.
-    at_ends: Vec<T>,
-    at_zeros: Vec<T>,
 }
 
 /// The conditions on the free limits, from left to right, linearised.
@@ -65,24 +67,26 @@ pub(crate) struct System<T> {
     pub open: Vec<T>,
     /// The derivatives by the limits, a row for each condition.
     pub jacobian: Vec<T>,
+    /// Which of the conditions is that of the load.
+    pub load_row: usize,
+    /// V at the limits, from left to right, and at the zeros of p.
+    at_ends: Vec<T>,
+    at_zeros: Vec<T>,
+    /// `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
+    sums: Vec<T>,
 }
 
 impl<T> System<T> {
     pub fn new() -> Self {
-        Self { residual: Vec::new(), open: Vec::new(), jacobian: Vec::new() }
+        let [residual, open, jacobian, at_ends, at_zeros, sums] =
+            std::array::from_fn(|_| Vec::new());
+        Self { residual, open, jacobian, load_row: 0, at_ends, at_zeros, sums }
     }
 }
 
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
-        Self {
-            parts: Vec::new(),
-            count: 0,
-            weight: Weight::new(),
-            tolerance,
-            at_ends: Vec::new(),
-            at_zeros: Vec::new(),
-        }
+        Self { parts: Vec::new(), count: 0, weight: Weight::new(), tolerance }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -132,6 +136,17 @@ impl<T: Real> Several<T> {
         Ok(())
     }
 
+    /// A limit, by its number from left to right, and whether it is free.
+    fn limit(&self, i: usize) -> T {
+        let on = self.parts[i / 2].on;
+        if i.is_multiple_of(2) { on.left } else { on.right }
+    }
+
+    fn is_free(&self, i: usize) -> bool {
+        let corners = self.weight.corners();
+        !(i == 0 && corners[0] || i + 1 == 2 * self.count && corners[1])
+    }
+
     fn parts(&self) -> &[Part<T>] {
         &self.parts[..self.count]
     }
@@ -153,14 +168,13 @@ impl<T: Real> Several<T> {
     }
 
     /// The conditions for a load, that is F/κ.
-    pub fn system(&mut self, load: T, system: &mut System<T>) {
+    pub fn system(&self, load: T, system: &mut System<T>) {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
         let n = self.count;
         let corners = self.weight.corners();
         let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
         let centre = hull.plain().centre();
-        let mut at_ends = std::mem::take(&mut self.at_ends);
-        let mut at_zeros = std::mem::take(&mut self.at_zeros);
+        let System { residual, open, jacobian, load_row, at_ends, at_zeros, sums } = system;
         at_ends.clear();
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
@@ -169,14 +183,10 @@ impl<T: Real> Several<T> {
             }
         }
         at_zeros.extend(self.weight.zeros().iter().map(|&x| self.outside(x, None, None)));
-        let System { residual, open, jacobian } = system;
         residual.clear();
         open.clear();
         jacobian.clear();
-        let is_free = |i: usize| !(i == 0 && corners[0] || i + 1 == 2 * n && corners[1]);
-        let end = |i: usize| {
-            if i % 2 == 0 { self.parts[i / 2].on.left } else { self.parts[i / 2].on.right }
-        };
+        let (is_free, end) = (|i: usize| self.is_free(i), |i: usize| self.limit(i));
         let mut row = |value: T, error: T, by: &mut dyn FnMut(usize) -> T| {
             residual.push(value);
             open.push(error);
@@ -187,11 +197,12 @@ impl<T: Real> Several<T> {
                 .iter()
                 .fold(zero, |sum, part| sum + T::pi() * part.moments.error * share(part))
         };
-        for (&x, &value) in self.weight.zeros().iter().zip(&at_zeros) {
+        for (&x, &value) in self.weight.zeros().iter().zip(&*at_zeros) {
             let away =
                 |part: &Part<T>| one / (x - part.on.right).abs().min((x - part.on.left).abs());
             row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
         }
+        *load_row = at_zeros.len() + usize::from(corners == [false; 2]);
         let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.mean);
         if corners == [false; 2] {
             row(total, error(&|_| one), &mut |i| half * at_ends[i]);
@@ -208,7 +219,8 @@ impl<T: Real> Several<T> {
                 half * at_ends[i] / T::pi()
             });
         }
-        let mut sums = vec![zero; 2 * n];
+        sums.clear();
+        sums.resize(2 * n, zero);
         for k in 0..n - 1 {
             let zero_of_p = self.weight.zeros().get(k).map(|&x| (x, at_zeros[k]));
             sums.fill(zero);
@@ -221,10 +233,11 @@ impl<T: Real> Several<T> {
                 let sign = if at_right { -one } else { one };
                 // Half the gap.
                 let last = T::of(2.0) * (width / (T::of(4.0) * from.half_width())).sqrt().asinh();
-                let pieces = (last.part(0) / T::of(STRETCH)).ceil().max(one);
-                let step = last / pieces;
-                let mut start = zero;
-                while start < last * (one - T::epsilon().sqrt()) {
+                let is_enough = |&n: &usize| T::of(STRETCH) * T::count(n) >= last;
+                let pieces = (1..MOST_STRETCHES).find(is_enough).unwrap_or(1);
+                let step = last / T::count(pieces);
+                for piece in 0..pieces {
+                    let start = step * T::count(piece);
                     for (&node, &weight) in
                         gauss().nodes.iter().zip(&gauss().weights).take(gauss().n)
                     {
@@ -253,7 +266,6 @@ impl<T: Real> Several<T> {
                             *sum += scale / away;
                         }
                     }
-                    start += step;
                 }
             }
             let at_left = self.parts[k].height(left.right);
@@ -266,7 +278,6 @@ impl<T: Real> Several<T> {
                 acting / (T::pi() + T::pi()) * sums[i]
             });
         }
-        (self.at_ends, self.at_zeros) = (at_ends, at_zeros);
     }
 
     /// The slope of the gap around a contact.

@@ -15,6 +15,9 @@ use crate::{ContactError, Interval, Real};
 /// lets it be.
 const MOST_HALVES: usize = 60;
 
+/// How often for derivatives alone, which may be noise.
+const DERIVATIVE_HALVES: usize = 4;
+
 /// Panels of one contact, after which none is halved any more.
 const MOST_PANELS: usize = 1 << 12;
 
@@ -146,7 +149,8 @@ impl<T: Real> Part<T> {
             self.waiting.clear();
             self.waiting.push(([from, to], 0));
             while let Some((x, halved)) = self.waiting.pop() {
-                let (product, resolved) = multiply(panel, x, &weight, tolerance);
+                let (product, resolved, moved) = multiply(panel, x, &weight, tolerance);
+                let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
                 let [from, to] = x;
                 let middle = T::of(0.5) * (from + to);
                 let may = halved < MOST_HALVES && self.panels.len() < MOST_PANELS;
@@ -207,16 +211,17 @@ impl<T: Real> Part<T> {
     }
 }
 
-/// A panel of the product over a stretch, and whether its nodes are enough.
+/// A panel of the product over a stretch, and whether its nodes are enough: for the value, and for the
+/// derivatives that dual numbers carry.
 fn multiply<T: Real>(
     panel: &Panel<T>,
     x: [T; 2],
     weight: &impl Fn(T) -> T,
     tolerance: T,
-) -> (Panel<T>, bool) {
+) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
     let least = size_for((panel.counting + 4).min(MOST)).max(8);
-    let (mut product, mut resolved) = (Panel::new(x), false);
+    let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
     for n in SIZES.into_iter().filter(|&n| n >= least) {
         let table = Table::of(n);
         let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
@@ -243,11 +248,19 @@ fn multiply<T: Real>(
         product.tail = noise + last;
         // What is not finite, no halving mends.
         resolved = last <= half * tolerance * all + noise || !all.is_finite();
-        if resolved {
+        // So must be what dual numbers carry: the weight bends more as a limit moves.
+        let small = T::epsilon().powf(T::of(0.75));
+        moved = (1..T::PARTS).all(|part| {
+            let size =
+                |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.part(part).abs()));
+            let all = size(&product.series[..n]);
+            size(&product.series[n - 2..n]) <= small * all || !all.is_finite()
+        });
+        if resolved && moved {
             break;
         }
     }
-    (product, resolved)
+    (product, resolved, moved)
 }
 
 /// `∫ g ds` from 0 to s on a panel, in its own variable.

@@ -13,7 +13,7 @@
 
 use crate::{Interval, Real};
 
-#[derive(Clone)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
     /// Whether the outermost limits are corners, from left to right.

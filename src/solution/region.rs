@@ -1,0 +1,106 @@
+//! The contacts of a solution, one by one.
+
+use super::{Peak, Solution};
+use crate::integral::Integrals;
+use crate::{ContactError, Interval, Real};
+
+/// One of the intervals in which the bodies touch, and what acts there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRegion<T> {
+    /// From its left limit to its right one.
+    pub interval: Interval<T>,
+    /// The load per unit length that it bears, `∫ P dx` over it.
+    pub load: T,
+    /// The strengths of the singularities at the left and at the right limit, pressures: near the right one
+    /// `P ≈ K/sin θ` with `x = c + L cos θ`, c and L being those of this contact. Zero, or zero to
+    /// rounding, at a free limit.
+    pub edge_singularities: [T; 2],
+    /// The largest pressure; `None` where the pressure is infinite, at a corner or where the slope of the gap
+    /// jumps up.
+    pub peak: Option<Peak<T>>,
+    /// The moment about the centre, by the half-width.
+    turning: T,
+}
+
+impl<T: Real> ContactRegion<T> {
+    /// Half-width L.
+    pub fn half_width(&self) -> T {
+        self.interval.half_width()
+    }
+
+    /// Mean pressure, the load over the width.
+    pub fn mean_pressure(&self) -> T {
+        T::of(0.5) * self.load / self.half_width()
+    }
+
+    /// Moment of the pressure about x = 0, `∫ x P dx` over this contact: force. Not finite where it is beyond
+    /// the numbers.
+    pub fn moment(&self) -> T {
+        self.interval.centre() * self.load + self.half_width() * self.turning
+    }
+
+    /// Centre of pressure, `∫ x P dx/∫ P dx` over this contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Load`] where the load is zero, as it may be with adhesion.
+    pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
+        let load = self.load;
+        if load.is_zero() {
+            return Err(ContactError::Load { load });
+        }
+        Ok(self.interval.centre() + self.half_width() * (self.turning / load))
+    }
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// The contacts one by one, from left to right: what each of them bears, and how.
+    ///
+    /// The loads are good to rounding, beside a kink of the slope to 1e-12 of themselves; they add up to
+    /// [`load`](Self::load). Each contact takes some hundred pressures.
+    ///
+    /// ```
+    /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+    ///
+    /// // Two bumps, at -1 and at 1.
+    /// let body = Curve::new([-2.0, 2.0], |k: f64| {
+    ///     let k2 = k * k;
+    ///     CurvePoint { x: k, y: k2 * (k2 - 2.0), dx: 1.0, dy: 4.0 * k * (k2 - 1.0) }
+    /// });
+    /// let contact = Contact::new(&Flat, &body)?.contact_modulus(1.0);
+    /// let solution = contact.solve(Control::Load(1.0))?;
+    /// let contacts = solution.contacts()?;
+    /// assert_eq!(contacts.len(), 2);
+    /// assert!((contacts[1].load - 0.5).abs() < 1e-13);
+    /// assert!(contacts[1].interval.contains(contacts[1].centre_of_pressure()?));
+    /// # Ok::<(), linecontact::ContactError<f64>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`pressure`](Self::pressure), and [`ContactError::Integral`].
+    pub fn contacts(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
+        let integrals = Integrals::new(self)?;
+        let last = self.intervals().len() - 1;
+        let strengths = self.edge_singularities();
+        let region = |(i, &interval): (usize, &Interval<T>)| {
+            let half_width = interval.half_width();
+            let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
+            let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
+            let peak = match self.peak_in(i) {
+                Ok(peak) => Some(peak),
+                Err(ContactError::Singular { .. }) => None,
+                Err(error) => return Err(error),
+            };
+            let outermost = [i == 0, i == last];
+            let strength = |side: usize| if outermost[side] { strengths[side] } else { T::zero() };
+            Ok(ContactRegion {
+                interval,
+                // Of a single one it is known.
+                load: if last == 0 { self.load() } else { load },
+                edge_singularities: [strength(0), strength(1)],
+                peak,
+                turning,
+            })
+        };
+        self.intervals().iter().enumerate().map(region).collect()
+    }
+}
