@@ -26,14 +26,6 @@ const POINTS: i32 = 600; // on either side, 5 micrometres apart
 const LOADS: [f64; 2] = [1.0, 4000.0];
 const COUNT: usize = 16;
 
-/// Whether the solver finds several contacts.
-const SEVERAL: bool = true;
-
-/// The contacts, from left to right.
-fn intervals(solution: &Solution<f64>) -> Vec<Interval<f64>> {
-    solution.intervals().to_vec()
-}
-
 /// What is kept of a solution.
 struct Pressed {
     load: f64,
@@ -43,10 +35,6 @@ struct Pressed {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    if !SEVERAL {
-        println!("several contacts are not solved yet");
-        return Ok(());
-    }
     let body = Spline::fitted(&measurement(), Fit { noise: NOISE, ..Fit::default() })?;
     let contact = Contact::new(&Flat, &body)?.contact_modulus(MODULUS);
     let mut solver = Solver::new();
@@ -72,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// The pressures of a solution, at places close to one another where a contact ends.
 fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error>> {
     const PLACES: u32 = 200;
-    let (contacts, pressure) = (intervals(solution), solution.pressure()?);
+    let (contacts, pressure) = (solution.intervals().to_vec(), solution.pressure()?);
     let mut pressures = Vec::new();
     for on in &contacts {
         for i in (0..=PLACES).rev() {
