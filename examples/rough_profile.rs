@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The pressures of a solution, at places close to one another where a contact ends.
 fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error>> {
-    const PLACES: u32 = 200;
+    const PLACES: u32 = 800;
     let (contacts, pressure) = (solution.intervals().to_vec(), solution.pressure()?);
     let mut pressures = Vec::new();
     for on in &contacts {
@@ -147,7 +147,8 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<&'static str, Box<dyn Err
         layout.with_x_axis_min(left).with_x_axis_max(right).with_box_axes()
     };
     let layouts = vec![
-        over_x(&pressures, "Pressures under 1 to 4000 N/mm", "P / MPa").with_y_axis_min(0.0),
+        over_x(&pressures, "Pressures under 1 (blue) to 4000 N/mm (red)", "P / MPa")
+            .with_y_axis_min(0.0),
         over_x(&profile, "The profile, over a flat below", "y / µm").with_x_label("x / mm"),
         Layout::auto_from_plots(&counts)
             .with_title("Places of contact")
