@@ -3,8 +3,8 @@
 #
 #   benches/instructions.sh [PIECES...]      default 1 100
 #
-# Each case of benches/embedding.rs and benches/several.rs is run few and many times, and the difference divided, so that
-# neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
+# Each case of benches/embedding.rs and benches/several.rs is run few and many times, and the difference
+# divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
 cd "$(dirname "$0")/.."
