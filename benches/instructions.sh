@@ -3,19 +3,23 @@
 #
 #   benches/instructions.sh [PIECES...]      default 1 100
 #
-# Each case of benches/embedding.rs is run few and many times, and the difference divided, so that
-# neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
+# Each case of benches/embedding.rs and benches/several.rs is run few and many times, and the difference
+# divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
 cd "$(dirname "$0")/.."
 command -v valgrind >/dev/null || { echo "valgrind is not installed: nothing counted"; exit 0; }
 [ $# -gt 0 ] || set -- 1 100
-bench=$(cargo bench --bench embedding --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$/\1/p')
-[ -x "$bench" ] || { echo "the bench does not build: cargo bench --bench embedding --no-run"; exit 1; }
+built() {
+    cargo bench --bench "$1" --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$/\1/p'
+}
+bench=$(built embedding)
+several=$(built several)
+[ -x "$bench" ] && [ -x "$several" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
 
 instructions() {
     valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null \
-        "$bench" repeat "$@" 2>&1 | sed -n 's/.*I *refs: *//p' | tr -d ,
+        "$@" 2>&1 | sed -n 's/.*I *refs: *//p' | tr -d ,
 }
 
 printf 'scalar\tpieces\tcold\tload\tbody\tP1\tP100\tP10k\n'
@@ -25,10 +29,23 @@ for scalar in f64 f32; do
         for case in cold load body P1 P100 P10k; do
             few=3 many=33
             [ "$case" = P10k ] && few=1 many=2
-            less=$(instructions "$case" "$scalar" "$pieces" "$few")
-            more=$(instructions "$case" "$scalar" "$pieces" "$many")
+            less=$(instructions "$bench" repeat "$case" "$scalar" "$pieces" "$few")
+            more=$(instructions "$bench" repeat "$case" "$scalar" "$pieces" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo
     done
+done
+
+printf '\nscene\tcold\twarm\n'
+for scene in word one two ten rough; do
+    printf '%s' "$scene"
+    for way in cold warm; do
+        few=5 many=25
+        [ "$scene" = rough ] && few=1 many=2
+        less=$(instructions "$several" repeat "$scene" "$way" "$few")
+        more=$(instructions "$several" repeat "$scene" "$way" "$many")
+        printf '\t%s' $(((more - less) / (many - few)))
+    done
+    echo
 done

@@ -26,14 +26,6 @@ const POINTS: i32 = 600; // on either side, 5 micrometres apart
 const LOADS: [f64; 2] = [1.0, 4000.0];
 const COUNT: usize = 16;
 
-/// Whether the solver finds several contacts.
-const SEVERAL: bool = true;
-
-/// The contacts, from left to right.
-fn intervals(solution: &Solution<f64>) -> Vec<Interval<f64>> {
-    solution.intervals().to_vec()
-}
-
 /// What is kept of a solution.
 struct Pressed {
     load: f64,
@@ -43,10 +35,6 @@ struct Pressed {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    if !SEVERAL {
-        println!("several contacts are not solved yet");
-        return Ok(());
-    }
     let body = Spline::fitted(&measurement(), Fit { noise: NOISE, ..Fit::default() })?;
     let contact = Contact::new(&Flat, &body)?.contact_modulus(MODULUS);
     let mut solver = Solver::new();
@@ -71,8 +59,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The pressures of a solution, at places close to one another where a contact ends.
 fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error>> {
-    const PLACES: u32 = 200;
-    let (contacts, pressure) = (intervals(solution), solution.pressure()?);
+    const PLACES: u32 = 800;
+    let (contacts, pressure) = (solution.intervals().to_vec(), solution.pressure()?);
     let mut pressures = Vec::new();
     for on in &contacts {
         for i in (0..=PLACES).rev() {
@@ -159,7 +147,8 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<&'static str, Box<dyn Err
         layout.with_x_axis_min(left).with_x_axis_max(right).with_box_axes()
     };
     let layouts = vec![
-        over_x(&pressures, "Pressures under 1 to 4000 N/mm", "P / MPa").with_y_axis_min(0.0),
+        over_x(&pressures, "Pressures under 1 (blue) to 4000 N/mm (red)", "P / MPa")
+            .with_y_axis_min(0.0),
         over_x(&profile, "The profile, over a flat below", "y / µm").with_x_label("x / mm"),
         Layout::auto_from_plots(&counts)
             .with_title("Places of contact")

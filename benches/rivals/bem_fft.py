@@ -10,6 +10,9 @@ with the square of p continued from the outermost cells. Settings: the number of
 import numpy as np
 import tasks
 
+# Of the pressures between two steps, where the search ends.
+CONVERGED = 1e-14
+
 
 def height(body, x):
     out = np.zeros_like(x)
@@ -26,17 +29,15 @@ def height(body, x):
     return out
 
 
-def solve(task, cells):
-    kappa, c_load, (left, right), (lower, upper) = tasks.TASKS[task]
-    load, h = c_load / np.pi, (right - left) / cells
-    x = left + h * (np.arange(cells) + 0.5)
-    f = height(upper, x) - height(lower, x)
+def press(f, h, load, kappa):
+    """Pressures of cells of width h under a load, f being the heights of the gap at their middles."""
+    cells = len(f)
     d = h * np.arange(-cells, cells)
     lobe = lambda u: u * np.log(np.abs(u))
     kernel = np.fft.rfft(np.fft.ifftshift(lobe(d + h / 2) - lobe(d - h / 2) - h))
     deflect = lambda p: -np.fft.irfft(kernel * np.fft.rfft(p, 2 * cells))[:cells] / kappa
 
-    p, direction, old, first = np.full(cells, load / (right - left)), np.zeros(cells), 1.0, True
+    p, direction, old, first = np.full(cells, load / (h * cells)), np.zeros(cells), 1.0, True
     for _ in range(20 * cells):
         gap = f + deflect(p)
         on = p > 0
@@ -53,14 +54,28 @@ def solve(task, cells):
         first = bool(overlap.any())
         p[overlap] -= step * (gap - gap[on].mean())[overlap]
         p *= load / (h * p.sum())
-        if np.abs(p - before).sum() < 1e-14 * p.sum():
+        if np.abs(p - before).sum() < CONVERGED * p.sum():
             break
+    return p
+
+
+def ends(x, p):
+    """The outermost limits."""
     inside = np.flatnonzero(p)
     edge = lambda i, j: x[i] + (x[i] - x[j]) * p[i]**2 / (p[j]**2 - p[i]**2)
-    left, right = edge(inside[1], inside[2]), edge(inside[-2], inside[-3])
+    return edge(inside[1], inside[2]), edge(inside[-2], inside[-3])
+
+
+def solve(task, cells):
+    kappa, c_load, (left, right), (lower, upper) = tasks.TASKS[task]
+    load, h = c_load / np.pi, (right - left) / cells
+    x = left + h * (np.arange(cells) + 0.5)
+    p = press(height(upper, x) - height(lower, x), h, load, kappa)
+    left, right = ends(x, p)
     return left, right, np.interp(tasks.places(left, right), x, p)
 
 
-for task in tasks.TASKS:
-    for cells in (256, 1024, 4096, 16384):
-        tasks.report("BEM FFT", task, f"cells={cells}", lambda: solve(task, cells))
+if __name__ == "__main__":
+    for task in tasks.TASKS:
+        for cells in (256, 1024, 4096, 16384):
+            tasks.report("BEM FFT", task, f"cells={cells}", lambda: solve(task, cells))

@@ -19,9 +19,9 @@ mod boundary_elements;
 
 mod bodies;
 mod noise;
+mod range;
 mod reference;
 mod report;
-mod several;
 
 use bodies::{Body, BodyError};
 use boundary_elements::Oracle;
@@ -45,14 +45,15 @@ fn solve(
     }
     if let Some(Several { corners, .. }) = wanted.several {
         let edge = |corner, x| if corner { Edge::Fixed(x) } else { Edge::Free };
-        let [left, right] = several::range(&*bodies[1]);
+        let [left, right] = range::of(&*bodies[1]);
         contact = contact.edges(edge(corners[0], left), edge(corners[1], right));
     }
     let solution = contact.solve(Control::Load(wanted.c / PI))?;
-    if wanted.kind != Kind::Fixed {
+    // The certificate is of one contact.
+    if wanted.kind != Kind::Fixed && solution.intervals().len() == 1 {
         solution.certify()?;
     }
-    let (contacts, cost) = (several::contacts(&solution), solution.cost());
+    let (contacts, cost) = (solution.intervals().to_vec(), solution.cost());
     let pressure = solution.pressure()?;
     let at = |x| pressure.estimate(x, &mut Cost::default()).map_err(|error| error.to_string());
     let pressures = places.iter().map(|&x| Ok(at(x)?.value)).collect();
@@ -119,7 +120,7 @@ fn is_in(word: &str, shown: &str) -> bool {
 fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
     let [lower, upper] = [&*bodies[0], &*bodies[1]];
     let gap = |x| boundary_elements::height(upper, x) - boundary_elements::height(lower, x);
-    let [one, two] = [several::range(lower), several::range(upper)];
+    let [one, two] = [range::of(lower), range::of(upper)];
     let range = [one[0].max(two[0]), one[1].min(two[1])];
     boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.joints)
 }

@@ -13,7 +13,8 @@
 //! search in each of its two places (`methods.rs`).
 //!
 //! `Midpoint` leaves the search for free edges to adaptive integrals of full accuracy, which take
-//! most of the evaluations at small N; the column `for_limits` tells them apart.
+//! most of the evaluations at small N; the column `for_limits` tells them apart. Evaluations for the heights of
+//! the bodies are in a column of their own.
 //!
 //! A solve starts from the bodies and ends with the pressure at 101 equidistant points: for this
 //! the samples of the slope, the evaluations of the curves and the time are taken. Errors are

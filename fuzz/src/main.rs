@@ -2,6 +2,7 @@
 
 mod nonsense;
 mod oracle;
+mod rough;
 mod scene;
 
 use std::process::ExitCode;
@@ -57,8 +58,10 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|_| {}));
     let (mut findings, mut solved) = (0, 0);
     for seed in from..to {
-        let run = || {
-            if seed % 10 == 9 { nonsense::run(Rng::new(seed)) } else { scene::run(Rng::new(seed)) }
+        let run = || match seed % 10 {
+            9 => nonsense::run(Rng::new(seed)),
+            8 => rough::run(Rng::new(seed)),
+            _ => scene::run(Rng::new(seed)),
         };
         match std::panic::catch_unwind(run) {
             Ok(Ok(found)) => solved += usize::from(found),

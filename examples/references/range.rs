@@ -1,15 +1,10 @@
-//! Contacts in several places.
+//! Where bodies begin and end: corners, and the range of the boundary elements.
 
+use linecontact::ParametricProfile;
 use linecontact::profile::Piece;
-use linecontact::{Interval, ParametricProfile, Solution};
-
-/// The contacts of a solution, from left to right.
-pub fn contacts(solution: &Solution<f64>) -> Vec<Interval<f64>> {
-    solution.intervals().to_vec()
-}
 
 /// Where a body begins and ends; NaN if it has no ends.
-pub fn range(body: &dyn ParametricProfile<f64>) -> [f64; 2] {
+pub fn of(body: &dyn ParametricProfile<f64>) -> [f64; 2] {
     let ends = |piece: Piece<f64>| piece.x();
     let [left, right] = match body.pieces() {
         0 => [0, 1].map(|_| Piece::new(body).ok()),

@@ -1,0 +1,176 @@
+//! What several contacts cost: one, two, ten, and about a hundred of a measured profile.
+//!
+//! ```sh
+//! cargo bench --bench several                      # the table, tab-separated
+//! cargo bench --bench several -- repeat ten cold 100   # only this, 100 times: for instructions.sh
+//! cargo bench --bench several -- heights CELLS     # the profile, for benches/rivals/bem_rough.py
+//! ```
+//!
+//! - `word`: a circle pressed to half its radius, said to bulge; `one`: the same, of which nothing is said,
+//!   so that its heights are looked at and its pressure is checked;
+//! - `two`: `x⁴ - 2x²` at a third of the load at which its two contacts merge;
+//! - `ten`: ten contacts by a polynomial map;
+//! - `rough`: a `Spline` through 10 000 points of a parabola with five waves.
+//!
+//! cold: from the bodies to the limits. warm: with a `Solver`, loads 0, 2, 4 and 6 % above the first.
+//! Each solution is checked once, for the number of its contacts and its load.
+
+#[path = "shared/timing.rs"]
+mod timing;
+
+use linecontact::profile::Spline;
+use linecontact::reference::{ClosedForm, Hertz, PolynomialMap};
+use linecontact::{
+    Contact, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Solver,
+};
+use std::f64::consts::PI;
+use std::hint::black_box;
+use timing::time;
+
+const CASES: [&str; 5] = ["word", "one", "two", "ten", "rough"];
+
+/// Half of the profile, its bend, and how many points.
+const HALF: f64 = 10.0;
+const BEND: f64 = 1e-3;
+const POINTS: i32 = 10_000;
+/// A parabola of this bend would touch on a quarter of it.
+const ROUGH_LOAD: f64 = 0.5 * BEND * HALF * HALF * 0.25;
+
+/// Lengths of the waves, heights and phases.
+const WAVES: [[f64; 3]; 5] = [
+    [0.1, 1.2e-4, 0.3],
+    [0.231, 1.1e-4, 1.7],
+    [0.173, 0.8e-4, 4.1],
+    [0.0613, 0.2e-4, 2.9],
+    [1.37, 3e-4, 5.2],
+];
+
+fn profile() -> Spline<f64> {
+    let point = |i: i32| {
+        let x = HALF * (2.0 * f64::from(i) / f64::from(POINTS - 1) - 1.0);
+        let wave =
+            |[length, height, phase]: [f64; 3]| height * (2.0 * PI * x / length + phase).cos();
+        [x, 0.5 * BEND * x * x + WAVES.into_iter().map(wave).sum::<f64>()]
+    };
+    let points: Vec<[f64; 2]> = (0..POINTS).map(point).collect();
+    Spline::through(&points).expect("the points are in order")
+}
+
+/// The body of a closed form.
+struct Ten(PolynomialMap<f64, Hertz<f64>>);
+
+impl ParametricProfile<f64> for Ten {
+    fn domain(&self) -> [f64; 2] {
+        [-1.2, 1.2]
+    }
+
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        CurvePoint { x: k, y: self.0.height(k), dx: 1.0, dy: self.0.slope(k) }
+    }
+}
+
+struct Case {
+    body: Box<dyn ParametricProfile<f64>>,
+    load: f64,
+    /// The fewest and the most contacts that it may have.
+    contacts: [usize; 2],
+}
+
+/// κ is 1.
+fn case(name: &str) -> Case {
+    let circle = |convexity| {
+        let curve = Curve::new([-1.0, 1.0], |k: f64| {
+            let (half_sin, half_cos) = (0.5 * k).sin_cos();
+            let [y, x] = [2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos];
+            CurvePoint { x, y, dx: 1.0 - y, dy: x }
+        });
+        // π F for a half-width of half the radius: 2 (K(m) - E(m)), m = 1/4.
+        let load = 0.436_576_291_006_337_8 / PI;
+        Case { body: Box::new(curve.bulging(convexity)), load, contacts: [1, 1] }
+    };
+    match name {
+        "word" => circle(Convexity::Convex),
+        "one" => circle(Convexity::Unknown),
+        "two" => {
+            let quartic = Curve::new([-2.0, 2.0], |k: f64| {
+                let (y, dy) = (k * k * (k * k - 2.0), 4.0 * k * (k * k - 1.0));
+                CurvePoint { x: k, y, dx: 1.0, dy }
+            });
+            Case { body: Box::new(quartic), load: 2.0 / 3.0, contacts: [2, 2] }
+        }
+        "ten" => {
+            let form = Hertz::under_load(1.0, 0.05, 1.0).expect("a positive load");
+            let form = PolynomialMap::new(form, 10, 0.9, 1.0).expect("apart");
+            let load = form.load(1.0);
+            Case { body: Box::new(Ten(form)), load, contacts: [10, 10] }
+        }
+        "rough" => Case { body: Box::new(profile()), load: ROUGH_LOAD, contacts: [80, 130] },
+        other => panic!("{other}: one of {CASES:?}"),
+    }
+}
+
+/// Hands over a cold and a warm solve: a call that does it once and returns contacts, samples, evaluations and
+/// heights.
+fn solves(name: &str, visit: &mut dyn FnMut(&str, &mut dyn FnMut() -> [usize; 4])) {
+    let Case { body, load, contacts: [fewest, most] } = case(name);
+    let counts = |solution: linecontact::Solution<f64>| {
+        let (cost, contacts) = (solution.cost(), solution.intervals().len());
+        assert!((fewest..=most).contains(&contacts), "{name}: {contacts} contacts");
+        [contacts, cost.samples, cost.evaluations, cost.heights]
+    };
+    let scene = || Contact::new(&Flat, &*body).expect("they overlap");
+    let done = "the scene has a solution";
+    visit("cold", &mut || counts(scene().solve(Control::Load(black_box(load))).expect(done)));
+    let (contact, mut solver, mut turn) = (scene(), Solver::new(), 0);
+    visit("warm", &mut || {
+        turn += 1;
+        let load = load * (1.0 + 0.02 * f64::from(turn % 4));
+        counts(solver.solve(&contact, Control::Load(black_box(load))).expect(done))
+    });
+}
+
+/// What boundary elements are to solve: κ, F, the ends and the heights at the middles of so many cells.
+fn heights(cells: u32) {
+    let (body, ends) = (profile(), 0.75 * HALF);
+    let solution =
+        Contact::new(&Flat, &body).and_then(|scene| scene.solve(Control::Load(ROUGH_LOAD)));
+    let solution = solution.expect("the profile has a contact");
+    let (on, peak) = (solution.hull(), solution.peak().expect("free edges"));
+    println!("1 {ROUGH_LOAD:?} {:?} {ends:?}", -ends);
+    println!("{:?} {:?} {:?} {}", on.left, on.right, peak.pressure, solution.intervals().len());
+    for i in 0..cells {
+        let x = ends * (2.0 * (f64::from(i) + 0.5) / f64::from(cells) - 1.0);
+        // Near x the parameter of a spline is x itself.
+        println!("{:?}", body.at(x).y);
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["heights", cells] => heights(cells.parse().expect("a number")),
+        ["repeat", name, way, times] => solves(name, &mut |found, call| {
+            if found == way {
+                (0..times.parse().expect("a number")).for_each(|_: u32| {
+                    black_box(call());
+                });
+            }
+        }),
+        [] => {
+            println!("scene\tway\tmicroseconds\tcontacts\tsamples\tevaluations\theights");
+            for name in CASES {
+                solves(name, &mut |way, call| {
+                    // A solver starts with its first solve.
+                    call();
+                    let counts = call().map(|count| count.to_string()).join("\t");
+                    let micros = time(|| {
+                        black_box(call());
+                    });
+                    println!("{name}\t{way}\t{micros:.3}\t{counts}");
+                });
+            }
+        }
+        _ => panic!("nothing, `heights CELLS`, or `repeat SCENE WAY TIMES`"),
+    }
+}
