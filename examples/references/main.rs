@@ -49,8 +49,7 @@ fn solve(
         contact = contact.edges(edge(corners[0], left), edge(corners[1], right));
     }
     let solution = contact.solve(Control::Load(wanted.c / PI))?;
-    // The certificate is of one contact.
-    if wanted.kind != Kind::Fixed && solution.intervals().len() == 1 {
+    if wanted.kind != Kind::Fixed {
         solution.certify()?;
     }
     let (contacts, cost) = (solution.intervals().to_vec(), solution.cost());

@@ -27,6 +27,7 @@ const POINTS: [usize; 2] = [32, 2048];
 struct Limit<'s, T: Real> {
     several: &'s Several<T>,
     contact: usize,
+    system: &'s System<T>,
     on: Interval<T>,
     /// The slope of the gap there.
     slope: T,
@@ -47,7 +48,7 @@ impl<T: Real> Beside<T> for Limit<'_, T> {
     }
 
     fn pull(&self, distance: T, right: bool) -> T {
-        self.several.pull(self.contact, right, distance)
+        self.several.pull(self.system, self.contact, right, distance)
     }
 }
 
@@ -77,9 +78,9 @@ pub(super) fn certify<T: Real>(
     let Some(own) = panels::several_mut(&mut *engine) else {
         return Err(undecided(hull.left, Cost::default()));
     };
-    let mut system = System::new();
+    let (mut own_system, mut system) = (System::new(), System::new());
     own.set(gap, contacts, corners, ends)?;
-    own.system(load / kappa, &mut system);
+    own.system(load / kappa, &mut own_system);
     let mut cost = own.cost();
     let ends = followed(ends, hull);
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);
@@ -132,7 +133,8 @@ pub(super) fn certify<T: Real>(
             };
             let slope = own.cover(i).slope(if right { on.right } else { on.left });
             let slope = slope.unwrap_or(T::zero());
-            let limit = Limit { several: own, contact: i, on, slope, steepest };
+            let limit =
+                Limit { several: own, system: &own_system, contact: i, on, slope, steepest };
             let mut side = Side::new(&limit, right, [T::zero(); 2], allowed);
             side.follow(gap, end, spacing, &mut cover, MOST_EVALUATIONS)?;
             if outer {
@@ -213,7 +215,7 @@ fn balanced<T: Real>(
         let x = if right { on.right } else { on.left };
         let rounding = T::of(64.0) * T::epsilon() * (x.abs() + on.half_width());
         let said = T::of(10.0) * found.error.unwrap_or(T::zero()) * on.half_width();
-        let by_limit = kappa * cells.strength_by_limit(i, right);
+        let by_limit = kappa * cells.strength_by_limit(system, i, right);
         let strength = by_limit * step.abs();
         // An estimate may be off by as much; a tolerance is kept.
         let allowed = by_limit * (said + T::of(16.0) * open + rounding) + kappa * doubt;

@@ -1,8 +1,8 @@
 //! What a certificate asks several contacts for: what the pressure does beside them, and how it grows from
 //! their limits.
 
-use super::Several;
 use super::part::Part;
+use super::{Several, System};
 use crate::Real;
 use crate::quadrature::panels::Panel;
 
@@ -20,8 +20,8 @@ impl<T: Real> Several<T> {
     }
 
     /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
-    /// no further than in the next gap. It takes the conditions to have been looked at.
-    pub fn pull(&self, contact: usize, right: bool, distance: T) -> T {
+    /// no further than in the next gap, given the conditions on these contacts.
+    pub fn pull(&self, system: &System<T>, contact: usize, right: bool, distance: T) -> T {
         let on = self.parts[contact].on;
         let x = if right { on.right + distance } else { on.left - distance };
         let value = self.outside(x, Some((contact, distance)), None);
@@ -36,18 +36,18 @@ impl<T: Real> Several<T> {
         let rest = self.parts[k + 1].on.left - self.parts[k].on.right - distance;
         let distances = if right { [distance, rest] } else { [rest, distance] };
         let without = match self.weight.zeros().get(k) {
-            Some(&zero) => (value - self.at_zeros[k]) / (x - zero),
+            Some(&zero) => (value - system.at_zeros[k]) / (x - zero),
             None => value,
         };
         -self.weight.in_gap(k, x, distances) * without / T::pi()
     }
 
-    /// The strength `K/κ` that a limit would have if it were off by a length, by that length. It takes the
-    /// conditions to have been looked at.
-    pub fn strength_by_limit(&self, contact: usize, right: bool) -> T {
+    /// The strength `K/κ` that a limit would have if it were off by a length, by that length, given the
+    /// conditions on these contacts.
+    pub fn strength_by_limit(&self, system: &System<T>, contact: usize, right: bool) -> T {
         let on = self.parts[contact].on;
         let limit = if right { on.right } else { on.left };
-        let value = self.at_ends[2 * contact + usize::from(right)];
+        let value = system.at_ends[2 * contact + usize::from(right)];
         (value / (T::pi() * T::pi() * self.weight.on_contact(contact, limit))).abs()
     }
 }
