@@ -6,6 +6,7 @@
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Convexity, Piece};
+use crate::real::same;
 use crate::search::{Bracket, Root, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
@@ -51,6 +52,16 @@ impl<T: Real> Sampler<T> {
         x: T,
         side: Side,
     ) -> Result<T, ContactError<T>> {
+        Ok(self.slope_untilted(gap, x, side)? + gap.tilt())
+    }
+
+    /// The slope before the bodies are turned.
+    pub(crate) fn slope_untilted(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: T,
+        side: Side,
+    ) -> Result<T, ContactError<T>> {
         let range = gap.range();
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
@@ -84,7 +95,10 @@ impl<T: Real> Sampler<T> {
                 return Err(ContactError::Profile { body, source });
             }
         }
-        Ok(heights[1] - heights[0])
+        let height = heights[1] - heights[0];
+        let tilt = gap.tilt();
+        // A body may have no end.
+        Ok(if same(tilt, T::zero()) { height } else { height + tilt * x })
     }
 
     fn body_slope(

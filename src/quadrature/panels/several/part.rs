@@ -62,6 +62,7 @@ impl<T: Real> Part<T> {
             moments: Moments {
                 mean: zero,
                 first: zero,
+                second: None,
                 size: zero,
                 error: zero,
                 inversion: zero,
