@@ -22,6 +22,7 @@ pub(crate) use first_look::FirstLook;
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};
+use crate::real::same;
 use crate::search::LimitSearch;
 use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
 use std::sync::Arc;
@@ -202,6 +203,11 @@ impl<'b, T: Real> Gap<'b, T> {
 
     pub(crate) fn tilt(&self) -> T {
         self.tilt
+    }
+
+    /// A height of the gap at x that was taken before the bodies were turned. (A body may have no end.)
+    pub(crate) fn turned(&self, x: T, height: T) -> T {
+        if same(self.tilt, T::zero()) { height } else { height + self.tilt * x }
     }
 
     /// Whether the bodies say of themselves that the gap between them is convex: they touch in one interval.

@@ -50,6 +50,11 @@ impl<T: Real> Workspace<T> {
         }
     }
 
+    /// The contacts last found.
+    pub fn last(&self) -> &[Interval<T>] {
+        &self.last
+    }
+
     /// Forgets the contacts last found.
     pub fn forget(&mut self) {
         self.last.clear();
@@ -69,7 +74,8 @@ impl<T: Real> Workspace<T> {
     ) -> Result<&FirstLook<T>, ContactError<T>> {
         if self.of != Some(gap.number()) {
             self.of = None;
-            self.look.take(gap, cost)?;
+            // It serves whatever the tilt.
+            self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
         }
         Ok(&self.look)
@@ -127,6 +133,19 @@ pub(super) fn find<T: Real>(
         }
     }
     search.several(fault)
+}
+
+/// What a contact that was found as one interval fails by as the contact of its bodies, if anything.
+pub(super) fn fault<T: Real>(
+    contact: &Contact<'_, T>,
+    found: &Found<T>,
+    engine: &mut dyn Engine<T>,
+    workspace: &mut Workspace<T>,
+    cost: &mut Cost,
+) -> Result<Option<ContactError<T>>, ContactError<T>> {
+    let sought = Sought::Peak(T::zero());
+    let convex = contact.gap.is_convex();
+    Search { contact, sought, engine, workspace, cost }.checked(found, convex)
 }
 
 struct Search<'s, 'b, T: Real> {
@@ -221,7 +240,8 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let [left, right] = self.contact.ends();
             let within = |&[x, _]: &[T; 2]| x >= left && x <= right;
-            let heights = look.heights().iter().copied().filter(within);
+            let turned = |&[x, height]: &[T; 2]| [x, gap.turned(x, height)];
+            let heights = look.heights().iter().map(turned).filter(within);
             overlap = check.overlap(fields, heights, self.cost)?;
         }
         if let Some(own) = own {
@@ -372,6 +392,7 @@ impl<T: Real> Search<'_, '_, T> {
             error: Some(error),
             force: None,
             trend: None,
+            tilt: T::zero(),
             ends,
         }))
     }
@@ -414,7 +435,15 @@ impl<T: Real> Search<'_, '_, T> {
             _ => seeds.clear(),
         }
         let cells = FIRST_CELLS;
-        let scene = Scene { kappa, load, range, cells, known: look.heights(), start: &seeds };
+        let turned: Vec<_>;
+        let known = if gap.tilt().is_zero() {
+            look.heights()
+        } else {
+            turned =
+                look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
+            &turned
+        };
+        let scene = Scene { kappa, load, range, cells, known, start: &seeds };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;

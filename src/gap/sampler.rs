@@ -6,7 +6,6 @@
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Convexity, Piece};
-use crate::real::same;
 use crate::search::{Bracket, Root, SearchError};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
@@ -75,6 +74,15 @@ impl<T: Real> Sampler<T> {
     /// The height of the gap `Y₂ - Y₁` between the bodies at `x`, on both of them, before they are
     /// loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+        Ok(gap.turned(x, self.height_untilted(gap, x)?))
+    }
+
+    /// The height before the bodies are turned.
+    pub(crate) fn height_untilted(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: T,
+    ) -> Result<T, ContactError<T>> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
@@ -95,10 +103,7 @@ impl<T: Real> Sampler<T> {
                 return Err(ContactError::Profile { body, source });
             }
         }
-        let height = heights[1] - heights[0];
-        let tilt = gap.tilt();
-        // A body may have no end.
-        Ok(if same(tilt, T::zero()) { height } else { height + tilt * x })
+        Ok(heights[1] - heights[0])
     }
 
     fn body_slope(

@@ -268,6 +268,33 @@ impl<T: Real> Several<T> {
         (self.at_ends, self.at_zeros) = (at_ends, at_zeros);
     }
 
+    /// The moment of `P/κ` about a place, of contacts that meet their conditions: the next coefficient of Φ
+    /// far from the contacts, after the load.
+    pub fn moment(&self, about: T) -> T {
+        let (half, two) = (T::of(0.5), T::of(2.0));
+        let corners = self.weight.corners();
+        let mut powers = [T::zero(); 3];
+        // S/p is x, or with corners 1, plus this, plus what vanishes far away.
+        let mut next = self.weight.zeros().iter().fold(T::zero(), |sum, &x| sum + (x - about));
+        for Part { on, moments, .. } in self.parts() {
+            let (away, half_width) = (on.centre() - about, on.half_width());
+            let arm = half_width * moments.first;
+            let second = moments.second.unwrap_or(T::zero());
+            let square = half * half_width * half_width * (moments.mean + second);
+            powers[0] += moments.mean;
+            powers[1] += away * moments.mean + arm;
+            powers[2] += away * (away * moments.mean + two * arm) + square;
+            next -= away;
+        }
+        let contacts = self.contacts();
+        let ends = [contacts[0].left, contacts[contacts.len() - 1].right];
+        for (_, &end) in corners.iter().zip(&ends).filter(|(corner, _)| **corner) {
+            next += end - about;
+        }
+        let first = if corners == [false; 2] { 1 } else { 0 };
+        powers[first + 1] + next * powers[first]
+    }
+
     /// The slope of the gap around a contact.
     pub fn cover(&self, contact: usize) -> &Cover<T> {
         &self.parts[contact].cover
