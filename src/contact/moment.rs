@@ -198,6 +198,8 @@ impl<T: Real> Trials<'_, '_, T> {
         let mut best: Option<Trial<T>> = None;
         let mut before: Option<Trial<T>> = None;
         let (mut failures, mut poor, mut last_step) = (0, 0, None::<T>);
+        // A tilt under which there is no contact, beyond the best.
+        let mut wall: Option<T> = None;
         for _ in 0..MOST_TRIALS {
             let trial = match self.at(tilt) {
                 Ok(trial) => trial,
@@ -211,6 +213,7 @@ impl<T: Real> Trials<'_, '_, T> {
                         tilt = zero;
                         continue;
                     };
+                    wall = Some(tilt);
                     let next = half * (good.tilt() + tilt);
                     if failures > MOST_FAILURES || next == tilt || next == good.tilt() {
                         break;
@@ -246,6 +249,9 @@ impl<T: Real> Trials<'_, '_, T> {
                     next = half * (from + to);
                     poor = 0;
                 }
+            }
+            if let Some(wall) = wall.filter(|&wall| (wall - tilt) * (wall - next) <= zero) {
+                next = half * (tilt + wall);
             }
             if done || next == tilt || before.is_some_and(|before| next == before.tilt()) {
                 break;

@@ -15,14 +15,17 @@
 //! the limits come with them. The control settles one unknown beforehand, F or `a + b`; two are left.
 //!
 //! Where the load F is to act at a place x̄ the bodies turn by an angle τ, which adds τ to `m₀` and nothing to
-//! `m₁` and `m₂`. It is eliminated: with the forces `Δ = F - κ L m₁` and `E = F (c - x̄)/L + κ L m₂/2`,
+//! `m₁` and `m₂`. It is eliminated: with the forces `Δ = F - κ L m₁` and `E = f (c - x̄)/L + κ L m₂/2`,
 //!
 //! ```text
-//! both free:    Δ + E = 0 at -b,  Δ - E = 0 at a        then  τ = -m₀
-//! a given:      Δ/2 + E = 0 at -b                       then  τ = m₁ - F/(κ L) - m₀
-//! -b given:     Δ/2 - E = 0 at a                        then  τ = F/(κ L) - m₁ - m₀
-//! both given:                                                 τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
+//! both free:    Δ + E = 0 at -b,  Δ - E = 0 at a,   f = κ L m₁     then  τ = -m₀
+//! a given:      Δ/2 + E = 0 at -b,                  f = F          then  τ = m₁ - F/(κ L) - m₀
+//! -b given:     Δ/2 - E = 0 at a,                   f = F          then  τ = F/(κ L) - m₁ - m₀
+//! both given:                                                      τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
 //! ```
+//!
+//! (With the load that a trial carries, and not F, `E` rises with c on every body that bulges, however far the
+//! trial is off: by `κ L/2 (1/π) ∫ g' dθ`, since `m₁ = (L/π) ∫ g' sin² θ dθ`.)
 //!
 //! The derivatives of `m₂` are those of `m₀` and `m₁`: `L² ∂m₂/∂L = (L²/π) ∫ g' cos θ dθ - 2 L m₂`.
 //!
@@ -300,14 +303,13 @@ impl<T: Real> System<T> {
         let weight = stiffness * by_scale;
         let by_half_width = weight * half_width;
         let turning = match conditions.given {
-            Given::Centre { load, at } => Some(Turning::new(load, at, on, stiffness, m)?),
+            Given::Centre { at, .. } => Some(Turning::new(conditions, at, on, m)?),
             _ => None,
         };
-        let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
         let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match (edge.limit(), &turning) {
             (Some(limit), _) => ((x - limit) * by_width, [zero, one], zero),
             (None, Some(turning)) => {
-                let [residual, centre, width] = turning.row(sign, both_free).map(|x| x * by_scale);
+                let [residual, centre, width] = turning.row(sign).map(|x| x * by_scale);
                 let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
                 (residual, [away, own], one)
             }
@@ -384,36 +386,51 @@ impl<T: Real> System<T> {
 /// The conditions of a load that acts at a given place, forces, with their derivatives by the centre and by
 /// the half-width, each times the half-width.
 struct Turning<T> {
-    /// Δ.
+    /// Δ, or Δ/2.
     load: [T; 3],
     /// E.
     moment: [T; 3],
-    /// Δ/2 as one condition with E: both were multiplied by the half-width.
-    with_moment: [T; 3],
 }
 
 impl<T: Real> Turning<T> {
-    fn new(load: T, at: T, on: Interval<T>, stiffness: T, m: &Moments<T>) -> Option<Self> {
+    fn new(
+        conditions: &Conditions<T>,
+        at: T,
+        on: Interval<T>,
+        m: &Moments<T>,
+    ) -> Option<Self> {
         let (half, trend, second) = (T::of(0.5), m.trend?, m.second?);
-        let half_width = on.half_width();
+        let (load, half_width) = (conditions.load(), on.half_width());
+        let stiffness = conditions.kappa * half_width;
         let by_width = stiffness * half_width;
-        let left = load - stiffness * m.first;
-        let [by_centre, by_half_width] =
-            [-by_width * trend.by_1, -stiffness * m.first - by_width * trend.by_2];
+        // κ L m₁.
+        let carried = [
+            stiffness * m.first,
+            by_width * trend.by_1,
+            stiffness * m.first + by_width * trend.by_2,
+        ];
+        let left = load - carried[0];
+        let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let (acting, load) = if both_free {
+            (carried, [left, -carried[1], -carried[2]])
+        } else {
+            // A condition that was multiplied by the half-width.
+            let row = [half * left, -half * carried[1], half * (left - carried[2])];
+            ([load, T::zero(), T::zero()], row)
+        };
+        let arm = (on.centre() - at) / half_width;
         Some(Self {
-            load: [left, by_centre, by_half_width],
+            load,
             moment: [
-                load * ((on.centre() - at) / half_width) + half * stiffness * second,
-                load + by_width * (trend.by_2 - half * trend.by_0),
-                half * by_width * trend.by_1,
+                acting[0] * arm + half * stiffness * second,
+                acting[0] + acting[1] * arm + by_width * (trend.by_2 - half * trend.by_0),
+                acting[2] * arm + half * by_width * trend.by_1,
             ],
-            with_moment: [half * left, half * by_centre, half * (left + by_half_width)],
         })
     }
 
     /// What is asked of a free edge, positive where that must move outward: -b (negative sign) or a.
-    fn row(&self, sign: T, both_free: bool) -> [T; 3] {
-        let load = if both_free { &self.load } else { &self.with_moment };
-        std::array::from_fn(|i| load[i] - sign * self.moment[i])
+    fn row(&self, sign: T) -> [T; 3] {
+        std::array::from_fn(|i| self.load[i] - sign * self.moment[i])
     }
 }
