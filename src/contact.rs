@@ -94,7 +94,7 @@ pub enum Control<T> {
     ///
     /// For one contact M is one more equation of the same search (Johnson, *Contact Mechanics*, 1985, §2.7,
     /// has the flat punch under an eccentric load). Where the bodies touch in several places, or one interval
-    /// is not found at once, solves of bodies turned by trial values of the tilt lead to it, from the same samples.
+    /// is not found at once, contacts of bodies turned by trial values of the tilt lead to it.
     Moment {
         /// The load per unit length F = ∫ P dx: force/length.
         load: T,

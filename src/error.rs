@@ -333,7 +333,9 @@ pub enum ContactError<T: Real> {
         interval: Interval<T>,
     },
     /// A moment, or the place where a load acts, is not finite.
-    #[error("the moment, the place it is about, or the place where the load acts is {value:?}: it must be finite")]
+    #[error(
+        "the moment, the place it is about, or the place where the load acts is {value:?}: it must be finite"
+    )]
     Moment {
         /// The value.
         value: T,

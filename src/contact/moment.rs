@@ -2,11 +2,13 @@
 //!
 //! A contact in one interval is found by Newton's method on its limits, from which the tilt has been
 //! [eliminated](super::newton). Several contacts, and one that is not found like this, are found through
-//! contacts of bodies turned by trial values of the tilt. The load then acts the further to the left the
+//! contacts of bodies turned by trial values of the tilt; where a trial has several contacts, Newton's method
+//! takes over with all limits and the tilt as unknowns. The load then acts the further to the left the
 //! more body 2 is turned counter-clockwise: without adhesion the place x̄ falls with τ, as a derivative of a
 //! convex energy does. So τ is the one root of a falling function. A change of τ samples nothing.
 
 use super::edges::{Conditions, Edge, Given};
+use super::several::Outcome;
 use super::topology::{self, Sought, Workspace};
 use super::{Contact, Found, approach};
 use crate::gap::Cost;
@@ -19,6 +21,9 @@ const MOST_TRIALS: usize = 100;
 
 /// Of these so many may fail: beyond some tilt the contact leaves the bodies.
 const MOST_FAILURES: usize = 24;
+
+/// Of several contacts, attempts to find the tilt with all limits.
+const MOST_TOGETHER: usize = 8;
 
 /// By how much one step may be longer than the one before.
 const MOST_GROWTH: f64 = 8.0;
@@ -115,14 +120,18 @@ pub(super) fn find<T: Real>(
             Err(_) => workspace.report.add(start, Verdict::NotFound),
         }
     }
-    let start = match first {
-        Some((tilt, on)) => {
-            workspace.keep(&[on]);
-            tilt
-        }
-        None => T::zero(),
-    };
-    Trials { contact, line, engine, workspace, cost }.find(start)
+    let (warm, mut start) = (workspace.last().len() > 1, T::zero());
+    if let Some((tilt, on)) = first {
+        workspace.keep(&[on]);
+        start = tilt;
+    } else if warm {
+        start = workspace.newton().tilt.part(0);
+    }
+    let mut trials = Trials { contact, line, engine, workspace, cost };
+    if let Some(found) = if warm { trials.together(start)? } else { None } {
+        return Ok(found);
+    }
+    trials.find(start)
 }
 
 /// Whether a search may fail like this under one tilt, and not under another.
@@ -167,7 +176,7 @@ impl<T: Real> Trials<'_, '_, T> {
         let off = match panels::several(self.engine) {
             Some(several) => {
                 self.workspace.keep(several.contacts());
-                by_load * several.moment(at)
+                by_load * several.moment(at, load / turned.kappa)
             }
             None => {
                 self.workspace.keep(&[on]);
@@ -181,6 +190,35 @@ impl<T: Real> Trials<'_, '_, T> {
             return Err(ContactError::Overflow { interval: on });
         }
         Ok(Trial { found: Found { tilt, ..found }, off })
+    }
+
+    /// All limits of several contacts and the tilt at once, from the contacts last found; `None` where that fails.
+    fn together(&mut self, tilt: T) -> Result<Option<Found<T>>, ContactError<T>> {
+        let Line { load, at, rounding } = self.line;
+        let (contact, ends) = (self.contact, self.contact.ends());
+        let Some(several) = panels::several_mut(self.engine) else { return Ok(None) };
+        let (corners, kappa) = (several.corners(), contact.kappa);
+        let newton = self.workspace.from_last(tilt);
+        let outcome =
+            newton.settle(several, &contact.gap, load / kappa, corners, ends, Some(at))?;
+        if outcome != Outcome::Found {
+            return Ok(None);
+        }
+        let found = newton.found(several, kappa, load, corners, ends);
+        let narrowest = |least: T, on: &Interval<T>| least.min(on.half_width());
+        let narrowest = newton.on.iter().fold(found.interval.half_width(), narrowest);
+        let error = found.error.map(|error| error + rounding / narrowest);
+        let found = Found { tilt: newton.tilt, error, ..found };
+        let turned = turned(contact, found.tilt);
+        // A corner that pulls does not hold the contact.
+        let pulls = |side: usize| corners[side] && found.strengths[side] < T::zero();
+        let is_found = !pulls(0)
+            && !pulls(1)
+            && topology::fault(&turned, &found, self.engine, self.workspace, self.cost)?.is_none();
+        if is_found {
+            self.workspace.report.add(Start::Trial, Verdict::Passed);
+        }
+        Ok(is_found.then_some(found))
     }
 
     /// About how the place where the load acts moves with the tilt: exactly, where both limits are given.
@@ -197,6 +235,7 @@ impl<T: Real> Trials<'_, '_, T> {
         let mut sides: [Option<Trial<T>>; 2] = [None; 2];
         let mut best: Option<Trial<T>> = None;
         let mut before: Option<Trial<T>> = None;
+        let mut together = 0;
         let (mut failures, mut poor, mut last_step) = (0, 0, None::<T>);
         // A tilt under which there is no contact, beyond the best.
         let mut wall: Option<T> = None;
@@ -224,6 +263,12 @@ impl<T: Real> Trials<'_, '_, T> {
                 }
                 Err(error) => return Err(error),
             };
+            if panels::several(self.engine).is_some() && together < MOST_TOGETHER {
+                together += 1;
+                if let Some(found) = self.together(tilt)? {
+                    return Ok(found);
+                }
+            }
             let (on, off) = (trial.found.interval, trial.off);
             let known = best.map(|best| best.off.abs());
             let better = known.is_none_or(|known| off.abs() < known);

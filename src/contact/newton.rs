@@ -393,12 +393,7 @@ struct Turning<T> {
 }
 
 impl<T: Real> Turning<T> {
-    fn new(
-        conditions: &Conditions<T>,
-        at: T,
-        on: Interval<T>,
-        m: &Moments<T>,
-    ) -> Option<Self> {
+    fn new(conditions: &Conditions<T>, at: T, on: Interval<T>, m: &Moments<T>) -> Option<Self> {
         let (half, trend, second) = (T::of(0.5), m.trend?, m.second?);
         let (load, half_width) = (conditions.load(), on.half_width());
         let stiffness = conditions.kappa * half_width;

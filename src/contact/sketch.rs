@@ -26,6 +26,7 @@ pub(super) fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T
     let quarter = T::of(0.5) * whole.half_width();
     let (centre, reach) = match conditions.given {
         Given::Centre { at, .. } => {
+            let at = at.part(0);
             let reach = quarter.min(T::of(0.5) * (at - left).min(right - at));
             if reach > T::zero() { (at, reach) } else { (whole.centre(), quarter) }
         }

@@ -50,6 +50,17 @@ impl<T: Real> Workspace<T> {
         }
     }
 
+    pub fn newton(&mut self) -> &mut Newton<T> {
+        &mut self.newton
+    }
+
+    /// Newton's method at the contacts last found, of bodies turned by so much.
+    pub fn from_last(&mut self, tilt: T) -> &mut Newton<T> {
+        self.newton.on.clone_from(&self.last);
+        self.newton.tilt = tilt;
+        &mut self.newton
+    }
+
     /// The contacts last found.
     pub fn last(&self) -> &[Interval<T>] {
         &self.last
@@ -361,14 +372,14 @@ impl<T: Real> Search<'_, '_, T> {
         };
         let load = conditions.load();
         let outcome =
-            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends)?;
+            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends, None)?;
         if outcome != Outcome::Found {
             return Ok(Err(outcome));
         }
-        let strengths = [false, true].map(|right| conditions.kappa * several.strength(right));
+        let found = newton.found(several, conditions.kappa, load, corners, ends);
         // A corner that pulls does not hold the contact.
         for (side, edge) in conditions.edges.iter().enumerate() {
-            if corners[side] && strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
+            if corners[side] && found.strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
                 let last = newton.on.len() - 1;
                 let inward =
                     T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
@@ -380,21 +391,7 @@ impl<T: Real> Search<'_, '_, T> {
                 return self.settle(conditions, corners, ends);
             }
         }
-        let on = &newton.on;
-        let interval = Interval { left: on[0].left, right: on[on.len() - 1].right };
-        let error = newton.errors.iter().fold(T::zero(), |max, &error| max.max(error));
-        Ok(Ok(Found {
-            interval,
-            load,
-            strengths,
-            free: corners.map(|corner| !corner),
-            adhesive: [false; 2],
-            error: Some(error),
-            force: None,
-            trend: None,
-            tilt: T::zero(),
-            ends,
-        }))
+        Ok(Ok(found))
     }
 
     /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
@@ -439,8 +436,7 @@ impl<T: Real> Search<'_, '_, T> {
         let known = if gap.tilt().is_zero() {
             look.heights()
         } else {
-            turned =
-                look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
+            turned = look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
             &turned
         };
         let scene = Scene { kappa, load, range, cells, known, start: &seeds };

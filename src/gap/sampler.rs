@@ -78,11 +78,7 @@ impl<T: Real> Sampler<T> {
     }
 
     /// The height before the bodies are turned.
-    pub(crate) fn height_untilted(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: T,
-    ) -> Result<T, ContactError<T>> {
+    pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;

@@ -119,9 +119,8 @@ impl<T: Real> Part<T> {
     /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
     /// the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
-        self.height.map_or(T::zero(), |[place, height]| {
-            height + self.tilt * place + self.rise(place, x)
-        })
+        self.height
+            .map_or(T::zero(), |[place, height]| height + self.tilt * place + self.rise(place, x))
     }
 
     /// `∫ g dx` from one place to another.
