@@ -50,12 +50,12 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    pub fn newton(&mut self) -> &mut Newton<T> {
+    pub(super) fn newton(&mut self) -> &mut Newton<T> {
         &mut self.newton
     }
 
     /// Newton's method at the contacts last found, of bodies turned by so much.
-    pub fn from_last(&mut self, tilt: T) -> &mut Newton<T> {
+    pub(super) fn from_last(&mut self, tilt: T) -> &mut Newton<T> {
         self.newton.on.clone_from(&self.last);
         self.newton.tilt = tilt;
         &mut self.newton

@@ -223,7 +223,11 @@ impl<T: Real> Several<T> {
                 let sign = if at_right { -one } else { one };
                 // Half the gap.
                 let last = T::of(2.0) * (width / (T::of(4.0) * from.half_width())).sqrt().asinh();
-                let pieces = (last.part(0) / T::of(STRETCH)).ceil().max(one);
+                // (A dual number has no `ceil`.)
+                let mut pieces = one;
+                while pieces * T::of(STRETCH) < last.part(0) {
+                    pieces += one;
+                }
                 let step = last / pieces;
                 let mut start = zero;
                 while start < last * (one - T::epsilon().sqrt()) {
