@@ -12,6 +12,8 @@
 //! - cold: from the bodies to the limits;
 //! - load: with a `Solver`, the same scene under a load up to 2 % less;
 //! - body: with a `Solver`, a body up to 0.2 % larger, already made, and its scene;
+//! - moment: as cold, under a moment that turns the bodies by a tenth;
+//! - turned: as cold, with a body that is turned by so much already;
 //! - P1, P100, P10k: pressures at so many points.
 //!
 //! `cargo bench --bench embedding -- repeat cold f64 1 1000` only does one of these, 1000 times, and
@@ -27,21 +29,24 @@ use linecontact::{
 use std::hint::black_box;
 use timing::time;
 
-const CASES: [&str; 6] = ["cold", "load", "body", "P1", "P100", "P10k"];
+const CASES: [&str; 8] = ["cold", "load", "body", "moment", "turned", "P1", "P100", "P10k"];
 const PIECES: [usize; 5] = [1, 10, 100, 1_000, 10_000];
 
 /// π F for a half-width of half the radius, κ = 1: 2 (K(m) - E(m)), m = 1/4.
 const C: f64 = 0.436_576_291_006_337_8;
 
-fn roller<T: Real>(radius: f64, pieces: usize) -> Box<dyn ParametricProfile<T>> {
-    let radius = T::of(radius);
+/// By how much the slope of a turned body is larger.
+const TILT: f64 = 0.1;
+
+fn roller<T: Real>(radius: f64, tilt: f64, pieces: usize) -> Box<dyn ParametricProfile<T>> {
+    let (radius, tilt) = (T::of(radius), T::of(tilt));
     let arc = move |from: f64, to: f64| {
         Curve::new([T::of(from), T::of(to)], move |k: T| {
             // Not 1 - cos k, which would be nothing but rounding in narrow arcs of `f32`.
             let (half_sin, half_cos) = (T::of(0.5) * k).sin_cos();
             let double = radius + radius;
             let [y, x] = [double * half_sin * half_sin, double * half_sin * half_cos];
-            CurvePoint { x, y, dx: radius - y, dy: x }
+            CurvePoint { x, y: y + tilt * x, dx: radius - y, dy: x + tilt * (radius - y) }
         })
         .bulging(Convexity::Convex)
     };
@@ -56,7 +61,7 @@ fn roller<T: Real>(radius: f64, pieces: usize) -> Box<dyn ParametricProfile<T>> 
 /// Hands over each case: its name, and a call that does it once and returns the evaluations of the
 /// curves while solving.
 fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() -> usize)) {
-    let bodies = [1.0, 1.001, 1.002].map(|radius| roller::<T>(radius, pieces));
+    let bodies = [1.0, 1.001, 1.002].map(|radius| roller::<T>(radius, 0.0, pieces));
     let scene = |turn: usize| Contact::new(&Flat, &*bodies[turn % 3]).expect("they overlap");
     let load = |turn: usize| Control::Load(T::of(C * (1.0 - 0.01 * (turn % 3) as f64)) / T::pi());
     let done = "the scene has a solution";
@@ -73,6 +78,14 @@ fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() ->
         turn += 1;
         solver.solve(&scene(turn), black_box(load(0))).expect(done).cost().evaluations
     });
+
+    let turned = roller::<T>(1.0, TILT, pieces);
+    let turned = || Contact::new(&Flat, &*turned).expect("they overlap");
+    let solution = turned().solve(load(0)).expect(done);
+    let at = solution.centre_of_pressure().expect("there is a load");
+    let moment = Control::CentreOfPressure { load: solution.load(), at };
+    visit("moment", &mut || scene(0).solve(black_box(moment)).expect(done).cost().evaluations);
+    visit("turned", &mut || turned().solve(black_box(load(0))).expect(done).cost().evaluations);
 
     let solution = contact.solve(load(0)).expect(done);
     for (name, count) in [("P1", 1u32), ("P100", 100), ("P10k", 10_000)] {

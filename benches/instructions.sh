@@ -22,11 +22,11 @@ instructions() {
         "$@" 2>&1 | sed -n 's/.*I *refs: *//p' | tr -d ,
 }
 
-printf 'scalar\tpieces\tcold\tload\tbody\tP1\tP100\tP10k\n'
+printf 'scalar\tpieces\tcold\tload\tbody\tmoment\tturned\tP1\tP100\tP10k\n'
 for scalar in f64 f32; do
     for pieces in "$@"; do
         printf '%s\t%s' "$scalar" "$pieces"
-        for case in cold load body P1 P100 P10k; do
+        for case in cold load body moment turned P1 P100 P10k; do
             few=3 many=33
             [ "$case" = P10k ] && few=1 many=2
             less=$(instructions "$bench" repeat "$case" "$scalar" "$pieces" "$few")

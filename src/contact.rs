@@ -11,6 +11,7 @@ mod first_contact;
 mod further;
 mod goal;
 mod limits;
+mod moment;
 mod newton;
 mod peak;
 mod pull;
@@ -86,6 +87,31 @@ pub enum Control<T> {
     HalfWidth(T),
     /// The largest pressure p₀ = max P(x), between edges where the pressure is bounded: a pressure.
     PeakPressure(T),
+    /// A load, and the moment of the pressures about a given place. The bodies turn until it is that: by
+    /// [`Solution::tilt`].
+    ///
+    /// Body 2 may turn freely, as one that is held by a hinge; what is turned is the gap, so that it does
+    /// not matter which body turns, nor about which point. The load must be positive, and the moment such
+    /// that the load acts at a place of the bodies, `x₀ + M/F`.
+    ///
+    /// For one contact M is one more equation of the same search (Johnson, *Contact Mechanics*, 1985, §2.7,
+    /// has the flat punch under an eccentric load). Where the bodies touch in several places, or one interval
+    /// is not found at once, contacts of bodies turned by trial values of the tilt lead to it.
+    Moment {
+        /// The load per unit length F = ∫ P dx: force/length.
+        load: T,
+        /// M = ∫ P (x - x₀) dx, a force; positive where the load acts at the right of x₀.
+        moment: T,
+        /// x₀, a length.
+        about: T,
+    },
+    /// A load, and the place where it acts, `x̄ = ∫ x P dx/F`: as a [`Moment`](Self::Moment) F x̄ about x = 0.
+    CentreOfPressure {
+        /// The load per unit length F: force/length.
+        load: T,
+        /// x̄, a length.
+        at: T,
+    },
 }
 
 /// A contact that was found.
@@ -105,6 +131,8 @@ pub(crate) struct Found<T> {
     pub force: Option<T>,
     /// How the edge integrals change with the limits, where that is known.
     pub trend: Option<Trend<T>>,
+    /// By how much body 2 was turned counter-clockwise.
+    pub tilt: T,
     /// Where the bodies end: at corners, or with their common range.
     pub ends: [T; 2],
 }
@@ -119,13 +147,15 @@ impl<T: Real> Found<T> {
     ) -> Self {
         let kappa = conditions.kappa;
         let mean_pressure = load / interval.half_width();
+        let tilt = conditions.tilt(interval, m);
+        let mean = m.mean + tilt;
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = [strength(m.first - m.mean), strength(m.first + m.mean)];
+        let strengths = [strength(m.first - mean), strength(m.first + mean)];
         let free = conditions.edges.map(|edge| edge.is_free());
         let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
         let ends = [interval.left, interval.right];
         let (force, trend) = (None, m.trend);
-        Self { interval, load, strengths, free, adhesive, error, force, trend, ends }
+        Self { interval, load, strengths, free, adhesive, error, force, trend, tilt, ends }
     }
 
     /// A corner that is said to hold the contact, and would have to pull at it.
@@ -279,7 +309,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search; where [`certified`](Self::certified), those of
+    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search;
+    /// [`ContactError::Moment`], [`ContactError::NoTilt`], [`ContactError::TooTilted`] with a given moment; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut engine, mut workspace) = (self.quadrature.engine()?, Workspace::new());
@@ -295,7 +326,8 @@ impl<'b, T: Real> Contact<'b, T> {
         cost: Cost,
         report: Report,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
-        let solution = Solution::new(self.gap.clone(), engine, self.kappa, found, cost, report);
+        let gap = self.gap.tilted(found.tilt);
+        let solution = Solution::new(gap, engine, self.kappa, found, cost, report);
         if self.certified {
             solution.certify()?;
         }
@@ -353,6 +385,14 @@ impl<'b, T: Real> Contact<'b, T> {
                 }
                 topology::find(self, Sought::Peak(pressure), engine, workspace, &mut cost)?
             }
+            (Control::Moment { load, moment, about }, _) => {
+                let line = moment::Line::of_moment(load, moment, about)?;
+                moment::find(self, line, engine, workspace, &mut cost)?
+            }
+            (Control::CentreOfPressure { load, at }, _) => {
+                let line = moment::Line::through(load, at)?;
+                moment::find(self, line, engine, workspace, &mut cost)?
+            }
         };
         // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
@@ -367,7 +407,7 @@ impl<'b, T: Real> Contact<'b, T> {
         match panels::several(engine) {
             Some(several) => workspace.keep(several.contacts()),
             None => {
-                engine.prepare(&self.gap, found.interval)?;
+                engine.prepare(&self.gap.tilted(found.tilt), found.interval)?;
                 workspace.keep(&[found.interval]);
             }
         }

@@ -332,6 +332,38 @@ pub enum ContactError<T: Real> {
         /// The limits.
         interval: Interval<T>,
     },
+    /// A moment, or the place where a load acts, is not finite.
+    #[error(
+        "the moment, the place it is about, or the place where the load acts is {value:?}: it must be finite"
+    )]
+    Moment {
+        /// The value.
+        value: T,
+    },
+    /// A moment, or the place where the load acts, was asked for where the bodies cannot be turned.
+    #[error(
+        "a moment, or the place where the load acts, can be given with the default quadrature Panels and          search, between edges that are Free, Fixed or UpTo: {why}"
+    )]
+    NoTilt {
+        /// What stands in the way.
+        why: &'static str,
+    },
+    /// No tilt is found under which the load acts at the place asked for: the contact would leave the bodies.
+    #[error(
+        "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt          {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load          inward, lower it, or extend the domain", ends[0], ends[1]
+    )]
+    TooTilted {
+        /// Load per unit length asked for.
+        load: T,
+        /// Where it was to act: `x₀ + M/F`.
+        at: T,
+        /// The nearest place at which a contact was found that bears it.
+        reached: T,
+        /// The tilt of that contact.
+        tilt: T,
+        /// Where the bodies end.
+        ends: [T; 2],
+    },
     /// The bodies come apart: the pull is more than adhesion can bear.
     #[error(
         "no contact under the load {load:?}: the pull is more than the adhesion can bear; the \
@@ -424,7 +456,7 @@ pub enum ContactError<T: Real> {
     },
     /// Conditions at the edges by the paper's Eq. (6) leave nothing else to be asked for than a load.
     #[error(
-        "with edge pressures by Eq. (6) the load must be given, not the half-width or the peak: give \
+        "with edge pressures by Eq. (6) the load must be given, not the half-width, the peak or a moment: give \
          it, or use edges()"
     )]
     EdgePressureLoad,

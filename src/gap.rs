@@ -22,6 +22,7 @@ pub(crate) use first_look::{FirstLook, LowPlace};
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};
+use crate::real::same;
 use crate::search::LimitSearch;
 use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
 use std::sync::Arc;
@@ -44,6 +45,8 @@ pub struct Gap<'b, T: Real> {
     /// another.
     number: u64,
     convex: bool,
+    /// By how much body 2 is turned counter-clockwise: what is added to the slope, and times x to the height.
+    tilt: T,
 }
 
 /// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
@@ -186,11 +189,25 @@ impl<'b, T: Real> Gap<'b, T> {
             return Err(ContactError::Apart { lower, upper });
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
-        Ok(Self { bodies, inversion, range, number, convex })
+        Ok(Self { bodies, inversion, range, number, convex, tilt: T::zero() })
     }
 
     pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
         Self { inversion, ..self }
+    }
+
+    /// The same bodies, so turned: the samples of one are those of the other.
+    pub(crate) fn tilted(&self, tilt: T) -> Self {
+        Self { tilt, ..self.clone() }
+    }
+
+    pub(crate) fn tilt(&self) -> T {
+        self.tilt
+    }
+
+    /// A height of the gap at x that was taken before the bodies were turned. (A body may have no end.)
+    pub(crate) fn turned(&self, x: T, height: T) -> T {
+        if same(self.tilt, T::zero()) { height } else { height + self.tilt * x }
     }
 
     /// Whether the bodies say of themselves that the gap between them is convex: they touch in one interval.

@@ -201,6 +201,9 @@ pub struct Moments<T> {
     pub mean: T,
     /// `m₁ = (1/π) ∫ g cos θ dθ`; `L m₁` is the load of a contact with two free edges.
     pub first: T,
+    /// `m₂ = (1/π) ∫ g cos 2θ dθ`, where that is known: the moment of the pressure about the centre is
+    /// `κ L² (m₂ - m₀)/2`.
+    pub second: Option<T>,
     /// `(1/π) ∫ |g| dθ`, against which the rounding of the other two is measured.
     pub size: T,
     /// Estimated error of the first two.

@@ -72,6 +72,16 @@ impl<'b, T: Real> Solution<'b, T> {
         self.found.load
     }
 
+    /// The tilt τ, an angle: by how much body 2 has been turned counter-clockwise (or body 1 clockwise) for the
+    /// load to act where [`Control::Moment`](crate::Control::Moment) or
+    /// [`Control::CentreOfPressure`](crate::Control::CentreOfPressure) has it; 0 with all other controls.
+    ///
+    /// The angle is small: the slope of the gap is larger by τ, its height at x by τ x. All that is asked of
+    /// the solution is answered for the turned bodies, rates at a fixed tilt.
+    pub fn tilt(&self) -> T {
+        self.found.tilt
+    }
+
     /// Estimated error of the limits, relative to the half-width, where they were sought: what
     /// rounding, the noise of the profiles' formulas and the quadrature leave open of the
     /// conditions at the edges. `None` where both limits were given.

@@ -275,6 +275,7 @@ mod tests {
             error: Some(1e-14),
             force: None,
             trend: None,
+            tilt: 0.0,
             ends,
         };
         certify(&gap, kappa, &found, &several)

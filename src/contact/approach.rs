@@ -34,7 +34,7 @@ pub(super) fn find<T: Real>(
     // A corner holds the contact as long as it presses there; a width may be had without it, unless
     // it held the last one. It cannot hold both edges.
     let range = contact.gap.range();
-    let by_load = matches!(conditions.given, Given::Load(_));
+    let by_load = !matches!(conditions.given, Given::HalfWidth(_));
     let mut one_held = false;
     for (i, edge) in conditions.edges.iter_mut().enumerate() {
         if let Edge::UpTo(x) = *edge {
@@ -159,6 +159,11 @@ pub(super) fn with_edges<T: Real>(
         engine.forget();
         return with_edges(contact, conditions, engine, None, cost);
     }
+    if let (None, Given::Centre { at, .. }) = (settled, conditions.given) {
+        // A search of one limit at a time knows no tilt.
+        let half_width = start(contact, conditions).half_width();
+        return Err(ContactError::NoBalance { half_width, near: at });
+    }
     if settled.is_none() {
         engine.forget();
         let found = nested(contact, conditions, engine, contact.start, cost);
@@ -278,7 +283,8 @@ impl<T: Real> Refused<'_, T> {
     /// Refuses more than the bodies bear.
     pub fn check(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let Self { contact, conditions, .. } = *self;
-        if !contact.bears_as_one {
+        // Turned, they bear another load.
+        if !contact.bears_as_one || matches!(conditions.given, Given::Centre { .. }) {
             return Ok(());
         }
         let range = contact.gap.range();
@@ -328,7 +334,7 @@ pub(super) fn contact_of<T: Real>(
 ) -> Result<Found<T>, ContactError<T>> {
     let m = engine.moments(&contact.gap, on)?;
     let load = match conditions.given {
-        Given::Load(_) => load,
+        Given::Load(_) | Given::Centre { .. } => load,
         Given::HalfWidth(_) => load_of(conditions, on, load, &m),
     };
     Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
@@ -372,7 +378,7 @@ fn nested<T: Real>(
     let load = conditions.load();
     let goal = Goal::Strength { conditions: *conditions, load };
     match conditions.given {
-        Given::Load(load) => {
+        Given::Load(load) | Given::Centre { load, .. } => {
             let nested = limits::find(contact, load, goal, engine, start, cost)?;
             Ok((nested, Some(load)))
         }

@@ -38,6 +38,11 @@ impl<T: Real> Edge<T> {
 pub(super) enum Given<T> {
     Load(T),
     HalfWidth(T),
+    /// A load, and where it acts: the bodies turn.
+    Centre {
+        load: T,
+        at: T,
+    },
 }
 
 /// What a contact has to meet.
@@ -53,7 +58,7 @@ impl<T: Real> Conditions<T> {
     /// The load, or zero where it is not known.
     pub fn load(&self) -> T {
         match self.given {
-            Given::Load(load) => load,
+            Given::Load(load) | Given::Centre { load, .. } => load,
             Given::HalfWidth(_) => T::zero(),
         }
     }
@@ -65,6 +70,24 @@ impl<T: Real> Conditions<T> {
             Edge::Adhesive(work) => self.kappa.sqrt() * work.sqrt() * half_width.sqrt(),
             _ => T::zero(),
         })
+    }
+
+    /// By how much body 2 has to be turned counter-clockwise for the load to act where it is given to, once
+    /// the limits are right: what is asked of the edges then holds with `m₀ + τ` in place of `m₀`.
+    pub fn tilt(&self, on: Interval<T>, m: &Moments<T>) -> T {
+        let Given::Centre { load, at } = self.given else { return T::zero() };
+        let half_width = on.half_width();
+        let by_load = load / (self.kappa * half_width);
+        match self.edges.map(|edge| edge.limit()) {
+            [None, None] => -m.mean,
+            [Some(_), None] => by_load - m.first - m.mean,
+            [None, Some(_)] => m.first - by_load - m.mean,
+            [Some(_), Some(_)] => {
+                let second = m.second.unwrap_or(T::zero());
+                let away = (on.centre() - at) / half_width;
+                second - m.mean + (by_load + by_load) * away
+            }
+        }
     }
 
     /// The load under which the edges that are not fixed are as they should be, on an average;

@@ -14,6 +14,21 @@
 //! has it, *J. Adhesion* 26 (1988) 1.) The Jacobian is exact: the derivatives of `m₀` and `m₁` by
 //! the limits come with them. The control settles one unknown beforehand, F or `a + b`; two are left.
 //!
+//! Where the load F is to act at a place x̄ the bodies turn by an angle τ, which adds τ to `m₀` and nothing to
+//! `m₁` and `m₂`. It is eliminated: with the forces `Δ = F - κ L m₁` and `E = f (c - x̄)/L + κ L m₂/2`,
+//!
+//! ```text
+//! both free:    Δ + E = 0 at -b,  Δ - E = 0 at a,   f = κ L m₁     then  τ = -m₀
+//! a given:      Δ/2 + E = 0 at -b,                  f = F          then  τ = m₁ - F/(κ L) - m₀
+//! -b given:     Δ/2 - E = 0 at a,                   f = F          then  τ = F/(κ L) - m₁ - m₀
+//! both given:                                                      τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
+//! ```
+//!
+//! (With the load that a trial carries, and not F, `E` rises with c on every body that bulges, however far the
+//! trial is off: by `κ L/2 (1/π) ∫ g' dθ`, since `m₁ = (L/π) ∫ g' sin² θ dθ`.)
+//!
+//! The derivatives of `m₂` are those of `m₀` and `m₁`: `L² ∂m₂/∂L = (L²/π) ∫ g' cos θ dθ - 2 L m₂`.
+//!
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
 //! long one as in the power of L that the load is seen to go with.
 
@@ -112,7 +127,8 @@ pub(super) fn settle<T: Real>(
         let next = share * share * size;
         if effort == Effort::Sketch {
             if size <= T::of(0.03) || on.half_width() < T::of(1e-6) * start.half_width() {
-                let sound = opens(engine, conditions, on) && system.is_stable(conditions);
+                let sound =
+                    opens(engine, conditions, on, system.tilt) && system.is_stable(conditions);
                 return Ok(sound.then_some(Settled { on, load, error: size, force: size }));
             }
             before = certain(size);
@@ -130,7 +146,7 @@ pub(super) fn settle<T: Real>(
             let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
             let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
             if done || stalled {
-                if !(opens(engine, conditions, on) && system.is_stable(conditions)) {
+                if !(opens(engine, conditions, on, system.tilt) && system.is_stable(conditions)) {
                     return Ok(None);
                 }
                 let left_over = (if stalled { one } else { share * share }) * half;
@@ -205,7 +221,8 @@ fn opening<T: Real>(
     to: Interval<T>,
 ) -> Interval<T> {
     let (zero, half) = (T::zero(), T::of(0.5));
-    if is_pulled(conditions) {
+    // Where the bodies turn, their slope is not known before they have.
+    if is_pulled(conditions) || matches!(conditions.given, Given::Centre { .. }) {
         return to;
     }
     let cut = |from: T, to: T, sign: T| {
@@ -232,9 +249,15 @@ fn is_pulled<T: Real>(conditions: &Conditions<T>) -> bool {
     conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
 }
 
-/// Whether the bodies open at those edges of a contact that are free.
-fn opens<T: Real>(engine: &dyn Engine<T>, conditions: &Conditions<T>, on: Interval<T>) -> bool {
-    let opens = |x: T, sign: T| engine.slope(x).is_none_or(|slope| slope * sign >= T::zero());
+/// Whether the bodies, turned by so much, open at those edges of a contact that are free.
+fn opens<T: Real>(
+    engine: &dyn Engine<T>,
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    tilt: T,
+) -> bool {
+    let opens =
+        |x: T, sign: T| engine.slope(x).is_none_or(|slope| (slope + tilt) * sign >= T::zero());
     let [left, right] = &conditions.edges;
     is_pulled(conditions)
         || (!left.is_free() || opens(on.left, -T::one()))
@@ -260,6 +283,8 @@ struct System<T> {
     /// A force per unit length.
     scale: T,
     stiffness: T,
+    /// By how much the bodies turn.
+    tilt: T,
 }
 
 impl<T: Real> System<T> {
@@ -277,9 +302,18 @@ impl<T: Real> System<T> {
         let (by_scale, by_width) = (one / scale, one / half_width);
         let weight = stiffness * by_scale;
         let by_half_width = weight * half_width;
-        let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match edge.limit() {
-            Some(limit) => ((x - limit) * by_width, [zero, one], zero),
-            None => {
+        let turning = match conditions.given {
+            Given::Centre { at, .. } => Some(Turning::new(conditions, at, on, m)?),
+            _ => None,
+        };
+        let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match (edge.limit(), &turning) {
+            (Some(limit), _) => ((x - limit) * by_width, [zero, one], zero),
+            (None, Some(turning)) => {
+                let [residual, centre, width] = turning.row(sign).map(|x| x * by_scale);
+                let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
+                (residual, [away, own], one)
+            }
+            (None, None) => {
                 let carried = m.first + sign * m.mean;
                 let residual = (load + pull + pull) * by_scale - weight * carried;
                 let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
@@ -293,13 +327,14 @@ impl<T: Real> System<T> {
         let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
         let (jacobian, residual) = ([[bb, ba], [ab, aa]], [at_b, at_a]);
         let (matrix, wider) = match conditions.given {
-            Given::Load(_) => (Matrix2::new(bb, ba, ab, aa), None),
+            Given::Load(_) | Given::Centre { .. } => (Matrix2::new(bb, ba, ab, aa), None),
             Given::HalfWidth(wanted) => {
                 let wider = (wanted - half_width) * by_width;
                 (Matrix2::new(ba + bb, force_b, aa + ab, force_a), Some(wider + wider))
             }
         };
-        Some(Self { jacobian, residual, matrix, wider, scale, stiffness })
+        let tilt = conditions.tilt(on, m);
+        Some(Self { jacobian, residual, matrix, wider, scale, stiffness, tilt })
     }
 
     /// The steps of -b and of a, in half-widths, and that of the load.
@@ -317,10 +352,10 @@ impl<T: Real> System<T> {
     fn is_stable(&self, conditions: &Conditions<T>) -> bool {
         let [[bb, ba], [ab, aa]] = self.jacobian;
         match (conditions.given, conditions.edges.map(|edge| edge.limit())) {
-            (Given::Load(_), [None, None]) => aa * bb < ab * ba,
-            (Given::Load(_), [Some(_), None]) => aa < T::zero(),
-            (Given::Load(_), [None, Some(_)]) => bb > T::zero(),
-            _ => true,
+            (Given::HalfWidth(_), _) | (_, [Some(_), Some(_)]) => true,
+            (_, [None, None]) => aa * bb < ab * ba,
+            (_, [Some(_), None]) => aa < T::zero(),
+            (_, [None, Some(_)]) => bb > T::zero(),
         }
     }
 
@@ -345,5 +380,52 @@ impl<T: Real> System<T> {
             None => [row(0), row(1)],
             Some(_) => [row(0); 2],
         }
+    }
+}
+
+/// The conditions of a load that acts at a given place, forces, with their derivatives by the centre and by
+/// the half-width, each times the half-width.
+struct Turning<T> {
+    /// Δ, or Δ/2.
+    load: [T; 3],
+    /// E.
+    moment: [T; 3],
+}
+
+impl<T: Real> Turning<T> {
+    fn new(conditions: &Conditions<T>, at: T, on: Interval<T>, m: &Moments<T>) -> Option<Self> {
+        let (half, trend, second) = (T::of(0.5), m.trend?, m.second?);
+        let (load, half_width) = (conditions.load(), on.half_width());
+        let stiffness = conditions.kappa * half_width;
+        let by_width = stiffness * half_width;
+        // κ L m₁.
+        let carried = [
+            stiffness * m.first,
+            by_width * trend.by_1,
+            stiffness * m.first + by_width * trend.by_2,
+        ];
+        let left = load - carried[0];
+        let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let (acting, load) = if both_free {
+            (carried, [left, -carried[1], -carried[2]])
+        } else {
+            // A condition that was multiplied by the half-width.
+            let row = [half * left, -half * carried[1], half * (left - carried[2])];
+            ([load, T::zero(), T::zero()], row)
+        };
+        let arm = (on.centre() - at) / half_width;
+        Some(Self {
+            load,
+            moment: [
+                acting[0] * arm + half * stiffness * second,
+                acting[0] + acting[1] * arm + by_width * (trend.by_2 - half * trend.by_0),
+                acting[2] * arm + half * by_width * trend.by_1,
+            ],
+        })
+    }
+
+    /// What is asked of a free edge, positive where that must move outward: -b (negative sign) or a.
+    fn row(&self, sign: T) -> [T; 3] {
+        std::array::from_fn(|i| self.load[i] - sign * self.moment[i])
     }
 }

@@ -4,6 +4,7 @@
 //! gap would lose more than two thirds of its width at once. A gap that shrinks step after step is one that
 //! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
 
+use super::Found;
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
@@ -39,6 +40,8 @@ type Place = usize;
 
 #[derive(Clone)]
 pub(super) struct Newton<T> {
+    /// By how much body 2 is turned.
+    pub tilt: T,
     /// The contacts, from left to right.
     pub on: Vec<Interval<T>>,
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
@@ -61,11 +64,26 @@ impl<T: Real> Newton<T> {
     pub fn new() -> Self {
         let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, kinks) = (Vec::new(), Vec::new());
-        Self { on, errors, steps: 0, kinks, system, linear, step, moves, corrections, unit, open }
+        let (on, kinks, tilt) = (Vec::new(), Vec::new(), T::zero());
+        let steps = 0;
+        Self {
+            tilt,
+            on,
+            errors,
+            steps,
+            kinks,
+            system,
+            linear,
+            step,
+            moves,
+            corrections,
+            unit,
+            open,
+        }
     }
 
-    /// Moves the contacts until they bear a load, that is F/κ.
+    /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
+    /// if one is given.
     pub fn settle(
         &mut self,
         several: &mut Several<T>,
@@ -73,15 +91,20 @@ impl<T: Real> Newton<T> {
         load: T,
         corners: [bool; 2],
         ends: [T; 2],
+        at: Option<T>,
     ) -> Result<Outcome, ContactError<T>> {
+        let mut turned = gap.tilted(if at.is_some() { self.tilt } else { gap.tilt() });
         let (one, half) = (T::one(), T::of(0.5));
         let mut before: Option<T> = None;
         let mut cut: Option<(Place, usize)> = None;
         let mut more_steps = None;
         for _ in 0..MOST_STEPS {
             self.steps += 1;
-            several.set(gap, &self.on, corners, ends)?;
+            several.set(&turned, &self.on, corners, ends)?;
             several.system(load, &mut self.system);
+            if let Some(at) = at {
+                several.turning(load, at, &mut self.system);
+            }
             if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
                 return Ok(Outcome::Failed);
             }
@@ -89,12 +112,16 @@ impl<T: Real> Newton<T> {
             if !self.step.iter().all(|step| step.is_finite()) {
                 return Ok(Outcome::Failed);
             }
+            if let (Some(_), Some(&step)) = (at, self.step.last()) {
+                self.tilt -= step;
+                turned = turned.tilted(self.tilt);
+            }
             // For the derivatives of dual numbers, beyond the convergence of the value.
             if let Some(left) = &mut more_steps {
                 self.advance(corners, None);
                 *left -= 1;
                 if *left == 0 {
-                    several.set(gap, &self.on, corners, ends)?;
+                    several.set(&turned, &self.on, corners, ends)?;
                     return Ok(Outcome::Found);
                 }
                 continue;
@@ -147,7 +174,7 @@ impl<T: Real> Newton<T> {
             if done || stalled {
                 self.estimate(corners, if stalled { size } else { T::zero() });
                 if T::MORE_STEPS == 0 {
-                    several.set(gap, &self.on, corners, ends)?;
+                    several.set(&turned, &self.on, corners, ends)?;
                     return Ok(Outcome::Found);
                 }
                 more_steps = Some(T::MORE_STEPS);
@@ -155,6 +182,30 @@ impl<T: Real> Newton<T> {
             before = Some(size);
         }
         Ok(Outcome::Failed)
+    }
+
+    /// What was found.
+    pub fn found(
+        &self,
+        several: &Several<T>,
+        kappa: T,
+        load: T,
+        corners: [bool; 2],
+        ends: [T; 2],
+    ) -> Found<T> {
+        let on = &self.on;
+        Found {
+            interval: Interval { left: on[0].left, right: on[on.len() - 1].right },
+            load,
+            strengths: [false, true].map(|right| kappa * several.strength(right)),
+            free: corners.map(|corner| !corner),
+            adhesive: [false; 2],
+            error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
+            force: None,
+            trend: None,
+            tilt: T::zero(),
+            ends,
+        }
     }
 
     /// The free limits, by the number of their contact and whether they are right ones.
@@ -308,7 +359,7 @@ mod tests {
         let mut several = Several::new(16.0 * f64::EPSILON);
         let mut newton = Newton::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
-        let outcome = newton.settle(&mut several, &gap, load, corners, gap.range()).unwrap();
+        let outcome = newton.settle(&mut several, &gap, load, corners, gap.range(), None).unwrap();
         assert_eq!(outcome, Outcome::Found, "{:?}", newton.on);
         (newton.on, newton.errors, several)
     }

@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::approach::Refused;
-use super::edges::Conditions;
+use super::edges::{Conditions, Given};
 use super::newton::{Effort, Settled, settle};
 use super::stretch::{beyond, with_corners};
 use crate::gap::Cost;
@@ -19,12 +19,20 @@ const MOST_SKETCHES: usize = 120;
 /// Of which so many may reach for an end of the bodies before it is asked what these bear.
 const MOST_AT_END: usize = 40;
 
-/// The start, or the middle half of the bodies.
+/// The start, or the middle half of the bodies; where the load acts at a given place, around that.
 pub(super) fn start<T: Real>(contact: &Contact<'_, T>, conditions: &Conditions<T>) -> Interval<T> {
     let [left, right] = contact.gap.range();
     let whole = Interval { left, right };
     let quarter = T::of(0.5) * whole.half_width();
-    let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
+    let (centre, reach) = match conditions.given {
+        Given::Centre { at, .. } => {
+            let at = at.part(0);
+            let reach = quarter.min(T::of(0.5) * (at - left).min(right - at));
+            if reach > T::zero() { (at, reach) } else { (whole.centre(), quarter) }
+        }
+        _ => (whole.centre(), quarter),
+    };
+    let middle = Interval { left: centre - reach, right: centre + reach };
     let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
     let on = conditions.with_given_limits(contact.start.filter(inside).unwrap_or(middle));
     // A given limit may be closer to the end of the bodies than that is wide.

@@ -50,6 +50,22 @@ impl<T: Real> Workspace<T> {
         }
     }
 
+    pub(super) fn newton(&mut self) -> &mut Newton<T> {
+        &mut self.newton
+    }
+
+    /// Newton's method at the contacts last found, of bodies turned by so much.
+    pub(super) fn from_last(&mut self, tilt: T) -> &mut Newton<T> {
+        self.newton.on.clone_from(&self.last);
+        self.newton.tilt = tilt;
+        &mut self.newton
+    }
+
+    /// The contacts last found.
+    pub fn last(&self) -> &[Interval<T>] {
+        &self.last
+    }
+
     /// Forgets the contacts last found.
     pub fn forget(&mut self) {
         self.last.clear();
@@ -69,7 +85,8 @@ impl<T: Real> Workspace<T> {
     ) -> Result<&FirstLook<T>, ContactError<T>> {
         if self.of != Some(gap.number()) {
             self.of = None;
-            self.look.take(gap, cost)?;
+            // It serves whatever the tilt.
+            self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
         }
         Ok(&self.look)
@@ -133,6 +150,20 @@ pub(super) fn find<T: Real>(
         }
     }
     search.several(fault)
+}
+
+/// What a contact that was found as one interval fails by as the contact of its bodies, if anything.
+pub(super) fn fault<T: Real>(
+    contact: &Contact<'_, T>,
+    found: &Found<T>,
+    engine: &mut dyn Engine<T>,
+    workspace: &mut Workspace<T>,
+    cost: &mut Cost,
+) -> Result<Option<ContactError<T>>, ContactError<T>> {
+    let sought = Sought::Peak(T::zero());
+    let convex = contact.gap.is_convex();
+    let (cells, closed) = (FIRST_CELLS, Vec::new());
+    Search { contact, sought, engine, workspace, cost, cells, closed }.checked(found, convex)
 }
 
 struct Search<'s, 'b, T: Real> {
@@ -231,7 +262,9 @@ impl<T: Real> Search<'_, '_, T> {
             }
             let [left, right] = self.contact.ends();
             let within = |low: &LowPlace<T>| low.x >= left && low.x <= right;
-            let heights = look.low_places().filter(within);
+            let turned =
+                |low: LowPlace<T>| LowPlace { height: gap.turned(low.x, low.height), ..low };
+            let heights = look.low_places().map(turned).filter(within);
             overlap = check.overlap(fields, heights, self.cost)?;
         }
         if let Some(own) = own {
@@ -357,14 +390,14 @@ impl<T: Real> Search<'_, '_, T> {
         };
         let load = conditions.load();
         let outcome =
-            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends)?;
+            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends, None)?;
         if outcome != Outcome::Found {
             return Ok(Err(outcome));
         }
-        let strengths = [false, true].map(|right| conditions.kappa * several.strength(right));
+        let found = newton.found(several, conditions.kappa, load, corners, ends);
         // A corner that pulls does not hold the contact.
         for (side, edge) in conditions.edges.iter().enumerate() {
-            if corners[side] && strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
+            if corners[side] && found.strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
                 let last = newton.on.len() - 1;
                 let inward =
                     T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
@@ -376,20 +409,7 @@ impl<T: Real> Search<'_, '_, T> {
                 return self.settle(conditions, corners, ends);
             }
         }
-        let on = &newton.on;
-        let interval = Interval { left: on[0].left, right: on[on.len() - 1].right };
-        let error = newton.errors.iter().fold(T::zero(), |max, &error| max.max(error));
-        Ok(Ok(Found {
-            interval,
-            load,
-            strengths,
-            free: corners.map(|corner| !corner),
-            adhesive: [false; 2],
-            error: Some(error),
-            force: None,
-            trend: None,
-            ends,
-        }))
+        Ok(Ok(found))
     }
 
     /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
@@ -416,7 +436,14 @@ impl<T: Real> Search<'_, '_, T> {
         // As many as have not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(16 * FIRST_CELLS);
-        let scene = Scene { kappa, load, range, cells, known: look.heights(), start: seeds };
+        let turned: Vec<_>;
+        let known = if gap.tilt().is_zero() {
+            look.heights()
+        } else {
+            turned = look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
+            &turned
+        };
+        let scene = Scene { kappa, load, range, cells, known, start: seeds };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;

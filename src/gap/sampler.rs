@@ -51,6 +51,16 @@ impl<T: Real> Sampler<T> {
         x: T,
         side: Side,
     ) -> Result<T, ContactError<T>> {
+        Ok(self.slope_untilted(gap, x, side)? + gap.tilt())
+    }
+
+    /// The slope before the bodies are turned.
+    pub(crate) fn slope_untilted(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: T,
+        side: Side,
+    ) -> Result<T, ContactError<T>> {
         let range = gap.range();
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
@@ -64,6 +74,11 @@ impl<T: Real> Sampler<T> {
     /// The height of the gap `Y₂ - Y₁` between the bodies at `x`, on both of them, before they are
     /// loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+        Ok(gap.turned(x, self.height_untilted(gap, x)?))
+    }
+
+    /// The height before the bodies are turned.
+    pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;

@@ -80,7 +80,7 @@ pub(super) fn moments<T: Real>(
         panel.plateau() * T::of(if panel.change > small * size { 4.0 } else { 1.0 })
     };
     let error = total(&panels, left_open).max(T::of(4.0) * T::epsilon() * size);
-    Ok(Moments { mean, first, size, error, inversion: sampler.missed, trend: None })
+    Ok(Moments { mean, first, second: None, size, error, inversion: sampler.missed, trend: None })
 }
 
 fn total<T: Real>(panels: &[Panel<T>], part: impl Fn(&Panel<T>) -> T) -> T {

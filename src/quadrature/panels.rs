@@ -228,6 +228,9 @@ impl<T: Real> Engine<T> for AtWork<T> {
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
         self.is_several = false;
+        if self.cover.turn(gap.tilt()) {
+            self.moments = None;
+        }
         let range = gap.range();
         let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());

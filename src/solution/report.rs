@@ -33,6 +33,8 @@ pub enum Start {
     LowestGap,
     /// Where the user said, by [`Contact::start`](crate::Contact::start).
     Given,
+    /// Around the line in which the load is to act.
+    LineOfLoad,
     /// Where the solver found them last.
     Last,
     /// Where a coarse active set on cells of constant pressure has them.

@@ -55,5 +55,6 @@ mod spline;
 mod starts;
 mod stress;
 mod threads;
+mod tilt;
 mod undeclared;
 mod wrong_answers;

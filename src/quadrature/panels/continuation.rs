@@ -40,7 +40,7 @@ pub(super) fn continued<T: Real>(
 ) -> bool {
     let zero = T::zero();
     let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
-    let count = size_for(most) + 1;
+    let count = size_for(most) + 2;
     let (mut most_bulk, mut largest) = (zero, zero);
     let mut start = HalfAngle::of(on, on.left);
     let mut left = ([zero; MOST + 2], [T::pi(), zero]);

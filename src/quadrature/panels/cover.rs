@@ -6,7 +6,8 @@ mod trial;
 
 use super::chebyshev::{size_for, value_at};
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, Sampler, Trace};
+use crate::gap::{Cost, Gap, Sampler, Side, Trace};
+use crate::real::same;
 use crate::{ContactError, Interval, Real};
 use sampling::Seen;
 use trial::{LEVELS_OF_A_WAVE, MOST_LEVELS, Trial, is_long};
@@ -51,6 +52,8 @@ pub(crate) struct Cover<T> {
     /// first.
     derivatives: Vec<Seen<T>>,
     derivative_sizes: Vec<T>,
+    /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
+    tilt: T,
 }
 
 impl<T: Real> Cover<T> {
@@ -67,6 +70,7 @@ impl<T: Real> Cover<T> {
             held: [None; 2],
             derivatives: Vec::new(),
             derivative_sizes: Vec::new(),
+            tilt: T::zero(),
         }
     }
 
@@ -92,7 +96,7 @@ impl<T: Real> Cover<T> {
         let inward = fine * limit.abs().max((to - from).min(T::one() / fine));
         let x = if end == 0 { limit + inward } else { limit - inward };
         let mut sampler = Sampler::default();
-        let slope = sampler.slope(gap, x);
+        let slope = sampler.slope_untilted(gap, x, Side::Left);
         self.cost += sampler.cost;
         slope.ok().map(|slope| Held { limit, x, slope })
     }
@@ -129,8 +133,34 @@ impl<T: Real> Cover<T> {
         Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
     }
 
+    /// Turns the panels with the bodies, which costs no sample; whether anything has changed.
+    pub fn turn(&mut self, tilt: T) -> bool {
+        if same(tilt, self.tilt) {
+            return false;
+        }
+        for panel in &mut self.panels {
+            panel.turn(self.tilt, tilt);
+        }
+        self.tilt = tilt;
+        true
+    }
+
     /// Covers an interval, sampling only what is missing.
     pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        let covers = |have: Interval<T>| have.left <= on.left && have.right >= on.right;
+        if !self.interval().is_some_and(covers) {
+            self.turn(T::zero());
+            self.extend_untilted(gap, on)?;
+        }
+        self.turn(gap.tilt());
+        Ok(())
+    }
+
+    fn extend_untilted(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<(), ContactError<T>> {
         let Some(have) = self.interval() else {
             return self.sample(gap, on, 0, None);
         };
@@ -170,7 +200,7 @@ impl<T: Real> Cover<T> {
     ) -> Result<(), ContactError<T>> {
         self.clear(true);
         self.initial = 8;
-        self.sample(gap, on, 0, None)
+        self.extend(gap, on)
     }
 
     /// Samples an interval; its panels are put last. They should meet those from number `known` on, and

@@ -12,10 +12,10 @@ use crate::quadrature::{Moments, Trend};
 use crate::real::Sum;
 use crate::{Interval, Real};
 
-/// `∫ g cosⁱθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
+/// `∫ g cos iθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
 struct Sums<T> {
-    g: [Sum<T>; 2],
+    g: [Sum<T>; 3],
     size: T,
     slope: [T; 3],
     error: T,
@@ -24,7 +24,7 @@ struct Sums<T> {
 impl<T: Real> Sums<T> {
     fn new() -> Self {
         let zero = T::zero();
-        Self { g: [Sum::new(); 2], size: zero, slope: [zero; 3], error: zero }
+        Self { g: [Sum::new(); 3], size: zero, slope: [zero; 3], error: zero }
     }
 
     fn scale(&mut self, share: T) {
@@ -51,6 +51,7 @@ pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: boo
     Moments {
         mean: sums.g[0].value(),
         first: sums.g[1].value(),
+        second: Some(sums.g[2].value()),
         size: sums.size,
         error: sums.error.max(rounding),
         inversion: T::zero(),
@@ -96,6 +97,7 @@ fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
     let by_x = T::one() / on.half_width();
     sums.g[0].add(series[0]);
     sums.g[1].add(half * series[1]);
+    sums.g[2].add(half * series[2]);
     let [h0, h1, h2] = [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])];
     sums.slope = [by_x * h0, by_x * h1, by_x * h2];
     let squares = series[1..counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
@@ -131,21 +133,23 @@ fn stretch_of<const N: usize, T: Real>(
 ) {
     let (half, by_x) = (T::of(0.5), T::one() / on.half_width());
     let slopes = derivative::<N, T>(series);
-    let (mut g, mut h) = ([T::zero(); 2], [T::zero(); 3]);
+    let (mut g, mut h) = ([T::zero(); 3], [T::zero(); 3]);
     for k in 0..N {
         // Times cos θ, and times its square.
         let once = half * (integrals[k.abs_diff(1)] + integrals[k + 1]);
         g[0] += series[k] * integrals[k];
         g[1] += series[k] * once;
+        let twice = half * (integrals[k.abs_diff(2)] + integrals[k + 2]);
+        g[2] += series[k] * twice;
         if k + 1 < N {
-            let twice = half * (integrals[k.abs_diff(2)] + integrals[k + 2]);
             h[0] += slopes[k] * integrals[k];
             h[1] += slopes[k] * once;
             h[2] += slopes[k] * half * (integrals[k] + twice);
         }
     }
-    sums.g[0].add(g[0]);
-    sums.g[1].add(g[1]);
+    for (sum, g) in sums.g.iter_mut().zip(g) {
+        sum.add(g);
+    }
     for (sum, h) in sums.slope.iter_mut().zip(h) {
         *sum += by_x * h;
     }
@@ -178,7 +182,7 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
     let by_x = T::one() / panel.half();
     let from = panel.local(from);
     let by_half_width = T::of(2.0) / arc.width();
-    let mut lanes = [[T::zero(); W]; 6];
+    let mut lanes = [[T::zero(); W]; 7];
     for block in 0..rule.n / W {
         let mut s = [T::zero(); W];
         let mut cosine = s;
@@ -199,12 +203,14 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
             lanes[3][i] += slope;
             lanes[4][i] += cosine[i] * slope;
             lanes[5][i] += cosine[i] * (cosine[i] * slope);
+            lanes[6][i] += cosine[i] * (cosine[i] * g);
         }
     }
     let total = |lane: [T; W]| lane.into_iter().fold(T::zero(), |sum, term| sum + term);
-    let [g0, g1, size, h0, h1, h2] = lanes.map(|lane| total(lane) * arc.tangent);
+    let [g0, g1, size, h0, h1, h2, square] = lanes.map(|lane| total(lane) * arc.tangent);
     sums.g[0].add(g0);
     sums.g[1].add(g1);
+    sums.g[2].add(square + square - g0);
     sums.size += size;
     for (sum, term) in sums.slope.iter_mut().zip([h0, h1, h2]) {
         *sum += term * by_x;

@@ -16,12 +16,15 @@ pub(crate) struct Panel<T> {
     pub counting: usize,
     /// Estimated largest error of the series.
     pub tail: T,
+    /// The first coefficient before the bodies were turned.
+    pub(super) untilted: T,
 }
 
 impl<T: Real> Panel<T> {
     /// Not sampled yet.
     pub fn new(x: [T; 2]) -> Self {
-        Self { x, n: 0, series: [T::zero(); MOST], counting: 0, tail: T::zero() }
+        let zero = T::zero();
+        Self { x, n: 0, series: [zero; MOST], counting: 0, tail: zero, untilted: zero }
     }
 
     /// Takes the series for that of a panel with n nodes.
@@ -38,6 +41,14 @@ impl<T: Real> Panel<T> {
         // In derivatives the noise is another.
         let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
         self.counting = counting(self.coefficients(), 1..T::PARTS, rounding).max(by_value);
+    }
+
+    /// Turns it from one tilt to another. Back and forth it is what it was.
+    pub fn turn(&mut self, from: T, to: T) {
+        if same(from, T::zero()) {
+            self.untilted = self.series[0];
+        }
+        self.series[0] = self.untilted + to;
     }
 
     /// The place of `x` in the panel, from -1 to 1; exact at both ends.

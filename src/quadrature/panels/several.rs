@@ -72,15 +72,26 @@ pub(crate) struct System<T> {
     /// V at the limits, from left to right, and at the zeros of p.
     at_ends: Vec<T>,
     at_zeros: Vec<T>,
+    /// `∫ S/p dx` over the last gap, where that has no zero of p.
+    over_last: T,
     /// `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
     sums: Vec<T>,
 }
 
-impl<T> System<T> {
+impl<T: Real> System<T> {
     pub fn new() -> Self {
         let [residual, open, jacobian, at_ends, at_zeros, sums] =
             std::array::from_fn(|_| Vec::new());
-        Self { residual, open, jacobian, load_row: 0, at_ends, at_zeros, sums }
+        Self {
+            residual,
+            open,
+            jacobian,
+            load_row: 0,
+            at_ends,
+            at_zeros,
+            sums,
+            over_last: T::zero(),
+        }
     }
 }
 
@@ -174,7 +185,8 @@ impl<T: Real> Several<T> {
         let corners = self.weight.corners();
         let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
         let centre = hull.plain().centre();
-        let System { residual, open, jacobian, load_row, at_ends, at_zeros, sums } = system;
+        let System { residual, open, jacobian, load_row, at_ends, at_zeros, sums, over_last } =
+            system;
         at_ends.clear();
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
@@ -221,6 +233,7 @@ impl<T: Real> Several<T> {
         }
         sums.clear();
         sums.resize(2 * n, zero);
+        *over_last = zero;
         for k in 0..n - 1 {
             let zero_of_p = self.weight.zeros().get(k).map(|&x| (x, at_zeros[k]));
             sums.fill(zero);
@@ -254,6 +267,9 @@ impl<T: Real> Several<T> {
                         let without =
                             zero_of_p.map_or(value, |(zero, at)| (value - at) / (x - zero));
                         closed -= scale * without / T::pi();
+                        if zero_of_p.is_none() {
+                            *over_last += scale;
+                        }
                         size += (scale * without).abs() / T::pi();
                         for (i, sum) in sums.iter_mut().enumerate() {
                             let away = if i == 2 * k + 1 {
@@ -278,6 +294,114 @@ impl<T: Real> Several<T> {
                 acting / (T::pi() + T::pi()) * sums[i]
             });
         }
+    }
+
+    /// `(1/π) ∫ w p (x - x₀)ⁱ g dx`, i from 0 to 2.
+    fn powers(&self, about: T) -> [T; 3] {
+        let (half, two) = (T::of(0.5), T::of(2.0));
+        let mut powers = [T::zero(); 3];
+        for Part { on, moments, .. } in self.parts() {
+            let (away, half_width) = (on.centre() - about, on.half_width());
+            let arm = half_width * moments.first;
+            let second = moments.second.unwrap_or(T::zero());
+            let square = half * half_width * half_width * (moments.mean + second);
+            powers[0] += moments.mean;
+            powers[1] += away * moments.mean + arm;
+            powers[2] += away * (away * moments.mean + two * arm) + square;
+        }
+        powers
+    }
+
+    /// Far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from
+    /// x₀: the two numbers.
+    fn afar(&self, about: T) -> [T; 2] {
+        let half = T::of(0.5);
+        let [mut first, mut second] = [T::zero(); 2];
+        let mut add = |x: T, share: T| {
+            let x = x - about;
+            first += share * x;
+            second += share * half * x * x;
+        };
+        for on in self.contacts() {
+            add(on.left, half);
+            add(on.right, half);
+        }
+        self.weight.zeros().iter().for_each(|&x| add(x, -T::one()));
+        let contacts = self.contacts();
+        let ends = [contacts[0].left, contacts[contacts.len() - 1].right];
+        for (corner, end) in self.weight.corners().into_iter().zip(ends) {
+            if corner {
+                add(end, -T::one());
+            }
+        }
+        [first, second + half * first * first]
+    }
+
+    /// Whether the outermost limits are corners.
+    pub fn corners(&self) -> [bool; 2] {
+        self.weight.corners()
+    }
+
+    /// The moment of `P/κ` about a place, of contacts that meet their conditions under a load F/κ: far away
+    /// Φ is `F/x + M/x²`.
+    pub fn moment(&self, about: T, load: T) -> T {
+        let powers = self.powers(about);
+        let borne = powers[if self.corners() == [false; 2] { 2 } else { 1 }];
+        borne - self.afar(about)[0] * load
+    }
+
+    /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:
+    ///
+    /// ```text
+    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0        by a limit e:  (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
+    /// ```
+    ///
+    /// All conditions are linear in g, so the column of the tilt is what they are for g = 1 and a gap that
+    /// rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
+    pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
+        let (zero, half) = (T::zero(), T::of(0.5));
+        let corners = self.corners();
+        let none = corners == [false; 2];
+        let n = self.count;
+        let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
+        let System { residual, open, jacobian, at_ends, over_last, .. } = system;
+        let (rows, columns) = (residual.len(), jacobian.len() / residual.len());
+        let zeros = self.weight.zeros().len();
+        let by_tilt = |row: usize| {
+            if row < zeros {
+                if none { zero } else { T::pi() }
+            } else if none && row == zeros {
+                T::pi()
+            } else if row == zeros + usize::from(none) {
+                self.afar(if none { hull.plain().centre() } else { at })[0]
+            } else if row + 1 == rows {
+                -*over_last
+            } else {
+                zero
+            }
+        };
+        for row in (0..rows).rev() {
+            jacobian.insert((row + 1) * columns, by_tilt(row));
+        }
+        let powers = self.powers(at);
+        let (borne, before, last) =
+            if none { (powers[2], powers[1], powers[0]) } else { (powers[1], powers[0], zero) };
+        let [first, second] = self.afar(at);
+        residual.push(borne - first * load);
+        let reach = (hull.left - at).abs().max((hull.right - at).abs());
+        let power = if none { reach * reach } else { reach };
+        let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error);
+        open.push(error * power);
+        let limits = self.contacts().iter().flat_map(|on| [on.left, on.right]);
+        for (i, (x, &value)) in limits.zip(&*at_ends).enumerate() {
+            if i == 0 && corners[0] || i + 1 == 2 * n && corners[1] {
+                continue;
+            }
+            let away = x - at;
+            let acting = if none { away * away } else { away } * value / T::pi();
+            jacobian.push(half * (acting + away * last + before - load));
+        }
+        jacobian.push(second);
     }
 
     /// The slope of the gap around a contact.

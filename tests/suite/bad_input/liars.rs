@@ -193,6 +193,7 @@ impl Engine<f64> for Same {
     ) -> Result<Moments<f64>, ContactError<f64>> {
         let Self(value) = *self;
         Ok(Moments {
+            second: None,
             mean: value,
             first: value,
             size: value,

@@ -32,8 +32,9 @@ pub(super) struct Part<T> {
     pub on: Interval<T>,
     /// The slope of the gap around the contact.
     pub cover: Cover<T>,
-    /// A place in the contact, and the height of the gap there.
+    /// A place in the contact, and the height of the gap there before the bodies are turned.
     height: Option<[T; 2]>,
+    tilt: T,
     /// `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
     /// Stretches still to be looked at, with how often each has been halved.
@@ -56,6 +57,7 @@ impl<T: Real> Part<T> {
             on: Interval { left: zero, right: zero },
             cover: Cover::new(tolerance),
             height: None,
+            tilt: zero,
             panels: Vec::new(),
             waiting: Vec::new(),
             size: zero,
@@ -65,6 +67,7 @@ impl<T: Real> Part<T> {
             moments: Moments {
                 mean: zero,
                 first: zero,
+                second: None,
                 size: zero,
                 error: zero,
                 inversion: zero,
@@ -105,19 +108,22 @@ impl<T: Real> Part<T> {
             };
             self.cover.extend(gap, stretch)?;
         }
+        self.cover.turn(gap.tilt());
         if self.height.is_none() {
             let (place, mut sampler) = (plain.centre(), Sampler::default());
-            let height = sampler.height(gap, place)?;
+            let height = sampler.height_untilted(gap, place)?;
             self.cover.cost += sampler.cost;
             self.height = Some([place, height]);
         }
+        self.tilt = gap.tilt();
         Ok(())
     }
 
     /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
     /// the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
-        self.height.map_or(T::zero(), |[place, height]| height + self.rise(place, x))
+        self.height
+            .map_or(T::zero(), |[place, height]| height + self.tilt * place + self.rise(place, x))
     }
 
     /// `∫ g dx` from one place to another.
