@@ -147,6 +147,17 @@ pub enum ContactError<T: Real> {
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
     },
+    /// The contact reaches the end of the bodies, where nothing is said of a corner.
+    #[error(
+        "under the load {load:?} the contact reaches the end of the bodies at x = {end:?}: extend the \
+         domain, lower the load, or give Edge::UpTo({end:?}) if the bodies have a sharp corner there"
+    )]
+    RunsOut {
+        /// The end that it reaches.
+        end: T,
+        /// The load asked for.
+        load: T,
+    },
     /// No position of a contact of some width balances the pressures at its two edges.
     #[error(
         "a contact of half-width {half_width:?} finds no balance anywhere near x = {near:?}: the gap \

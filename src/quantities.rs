@@ -65,7 +65,7 @@ impl<T: Real> LoadRates<T> {
             }),
             Some(on) if x == on.left || x == on.right => Err(ContactError::Singular { x }),
             // NaN is nowhere.
-            Some(&interval) if !(x < interval.left) => {
+            Some(&interval) if x >= interval.left || x.partial_cmp(&x).is_none() => {
                 Err(ContactError::Misplaced { x, inside: true, interval })
             }
             _ => Ok(T::zero()),

@@ -247,7 +247,8 @@ impl<T: Real> Check<'_, T> {
             };
             let height = sampler.height(self.gap, x)?;
             let gap = height - at_edge - (total(x) - taken) / self.kappa;
-            if !(gap >= -allowed) && worst.is_none_or(|[_, least]| gap < least) {
+            let is_open = gap >= -allowed;
+            if !is_open && worst.is_none_or(|[_, least]| gap < least) {
                 worst = Some([x, gap]);
             }
         }

@@ -198,7 +198,7 @@ impl<T: Real> Trials<'_, '_, T> {
         let (contact, ends) = (self.contact, self.contact.ends());
         let Some(several) = panels::several_mut(self.engine) else { return Ok(None) };
         let (corners, kappa) = (several.corners(), contact.kappa);
-        let newton = self.workspace.from_last(tilt);
+        let newton = self.workspace.start_from_last(tilt);
         let outcome =
             newton.settle(several, &contact.gap, load / kappa, corners, ends, Some(at))?;
         if outcome != Outcome::Found {
@@ -310,7 +310,8 @@ impl<T: Real> Trials<'_, '_, T> {
             return Err(ContactError::NoBalance { half_width, near });
         };
         let found = &best.found;
-        if !(best.off.abs() <= T::epsilon().sqrt() * found.interval.half_width()) {
+        let met = best.off.abs() <= T::epsilon().sqrt() * found.interval.half_width();
+        if !met {
             let Line { load, at, .. } = self.line;
             let (reached, tilt, ends) = (at + best.off, best.tilt(), self.contact.ends());
             return Err(ContactError::TooTilted { load, at, reached, tilt, ends });

@@ -55,7 +55,7 @@ impl<T: Real> Workspace<T> {
     }
 
     /// Newton's method at the contacts last found, of bodies turned by so much.
-    pub(super) fn from_last(&mut self, tilt: T) -> &mut Newton<T> {
+    pub(super) fn start_from_last(&mut self, tilt: T) -> &mut Newton<T> {
         self.newton.on.clone_from(&self.last);
         self.newton.tilt = tilt;
         &mut self.newton
@@ -117,7 +117,8 @@ pub(super) fn find<T: Real>(
     workspace.newton.kinks.clear();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
-    let mut search = Search { contact, sought, engine, workspace, cost, cells, closed };
+    let mut search =
+        Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None };
     if contact.single_interval || given {
         let start = search.first_start(true)?;
         let found = search.one(start)?;
@@ -163,7 +164,8 @@ pub(super) fn fault<T: Real>(
     let sought = Sought::Peak(T::zero());
     let convex = contact.gap.is_convex();
     let (cells, closed) = (FIRST_CELLS, Vec::new());
-    Search { contact, sought, engine, workspace, cost, cells, closed }.checked(found, convex)
+    Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None }
+        .checked(found, convex)
 }
 
 struct Search<'s, 'b, T: Real> {
@@ -176,6 +178,8 @@ struct Search<'s, 'b, T: Real> {
     cells: usize,
     /// Where gaps have closed.
     closed: Vec<T>,
+    /// The error where the active set reaches the end of the bodies.
+    runs_out: Option<ContactError<T>>,
 }
 
 impl<T: Real> Search<'_, '_, T> {
@@ -361,7 +365,7 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.report.add(start, verdict);
             start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
         }
-        Err(first.or(fault).unwrap_or(no_balance))
+        Err(first.or(self.runs_out.take()).or(fault).unwrap_or(no_balance))
     }
 
     /// Moves the contacts at hand to where they bear the load.
@@ -451,6 +455,10 @@ impl<T: Real> Search<'_, '_, T> {
             // It does not see what has failed a check, as between two contacts at a kink: the checks do.
             Ok(coarse) if coarse.intervals.len() == before && seeds.len() > before => Ok(()),
             Ok(coarse) => {
+                let corner =
+                    self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
+                let side = (0..2).find(|&side| coarse.reaches[side] && !corner[side]);
+                self.runs_out = side.map(|side| ContactError::RunsOut { end: range[side], load });
                 newton.on = coarse.intervals;
                 Ok(())
             }

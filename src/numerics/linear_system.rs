@@ -40,7 +40,8 @@ impl<T: Real> LinearSystem<T> {
             let larger = |best: usize, row: usize| if size(row) > size(best) { row } else { best };
             let pivot = (column..n).fold(column, larger);
             // NaN is no pivot either.
-            if !(size(pivot) > zero) {
+            let usable = size(pivot) > zero;
+            if !usable {
                 return false;
             }
             if pivot != column {

@@ -106,7 +106,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
             let change = if (after - before).abs() <= size {
                 Convexity::Straight
-            } else if after > before || after < before {
+            } else if (after - before).abs() > size {
                 Convexity::of_sign(after - before)
             } else {
                 Convexity::Unknown

@@ -51,7 +51,7 @@ impl<T: Real> Weight<T> {
     }
 
     /// `Π (x - z)` over the corners.
-    fn from_corners(&self, x: T) -> T {
+    fn corner_factor(&self, x: T) -> T {
         let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
         let [left, right] = self.corners;
         (if left { x - first } else { T::one() }) * (if right { x - last } else { T::one() })
@@ -59,7 +59,7 @@ impl<T: Real> Weight<T> {
 
     /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
     pub fn on_contact(&self, i: usize, x: T) -> T {
-        self.smooth(i, x) * self.from_corners(x)
+        self.smooth(i, x) * self.corner_factor(x)
     }
 
     /// That without the corners.
@@ -103,7 +103,7 @@ impl<T: Real> Weight<T> {
         let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
         let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * near * square.sqrt() / self.from_corners(x)
+        sign * near * square.sqrt() / self.corner_factor(x)
     }
 
     /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
@@ -123,6 +123,6 @@ impl<T: Real> Weight<T> {
         }
         let flips = if right { 0 } else { self.on.len() + self.zeros.len() };
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * size / self.from_corners(x)
+        sign * size / self.corner_factor(x)
     }
 }
