@@ -282,7 +282,7 @@ impl<'b, T: Real> Gap<'b, T> {
 
     /// By how much the slope jumps at a joint, from the ends of the pieces, which are known; and
     /// how large it is there.
-    fn jump(&self, joint: T) -> [T; 2] {
+    pub(crate) fn jump(&self, joint: T) -> [T; 2] {
         let [mut jump, mut size] = [T::zero(); 2];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
             let (i, left) = self.piece_at(body, joint, Side::Left);

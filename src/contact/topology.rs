@@ -122,9 +122,6 @@ pub(super) fn find<T: Real>(
     if contact.single_interval || given {
         let start = search.first_start(true)?;
         let found = search.one(start)?;
-        if let Some(error) = found.lifts_off(&edges).filter(|_| !contact.single_interval) {
-            return Err(error);
-        }
         search.workspace.report.add(start.0, Verdict::Unchecked);
         return Ok(found);
     }
@@ -257,6 +254,9 @@ impl<T: Real> Search<'_, '_, T> {
         let (interval, load) = (found.interval, found.load);
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields)? {
+            if pressure.partial_cmp(&pressure).is_none() {
+                return Err(ContactError::Overflow { interval });
+            }
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
         let mut overlap = None;

@@ -103,7 +103,7 @@ fn in_single_precision_too() {
 
 fn two_contacts_merge_and_part() {
     let kappa = PI / 2.0;
-    let quartic = graph(-2.5, 2.5, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
+    let quartic = graph(-4.0, 4.0, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
     let contact = Contact::new(&Flat, &*quartic).unwrap().kappa(kappa);
     let mut solver = Solver::new();
     let mut loads: Vec<f64> = (0..40).map(|i| PI * 0.02 * 1.2f64.powi(i)).collect();

@@ -88,11 +88,17 @@ fn a_superellipse_in_a_groove() {
 
 fn corners_that_the_load_does_not_reach() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
-    let contact = Contact::new(&Flat, &body).unwrap().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let error = contact.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
-    assert!(error.to_string().contains("UpTo"), "{error}");
-    let enough = contact.solve(Control::Load(0.2)).unwrap();
-    assert_eq!(enough.hull(), Interval { left: -0.5, right: 0.5 });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for edges in [[Edge::Fixed(-0.5), Edge::Free], [Edge::Free, Edge::Fixed(0.5)]] {
+        let held = contact.clone().edges(edges[0], edges[1]);
+        let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+        assert!(error.to_string().contains("UpTo"), "{error}");
+    }
+    // Between two limits that are given it is the solution of the equation, and said not to be checked.
+    let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
+    let solution = given.solve(Control::Load(0.01)).unwrap();
+    assert!(!solution.report().is_checked() && solution.edge_singularities()[0] < 0.0);
     let up_to = contact.clone().edges(Edge::UpTo(-0.5), Edge::UpTo(0.5));
     let solution = up_to.solve(Control::Load(0.01)).unwrap();
     assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
