@@ -49,6 +49,9 @@ const MOST_STEPS: usize = 300;
 /// How much finer than a contact the cells at a narrow gap in it may become.
 const FINEST: f64 = 1.0 / 40.0;
 
+/// The share of the wider of two runs that the gap between them must have.
+const LEAST_GAP: f64 = 1e-3;
+
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T> {
     pub kappa: T,
@@ -567,6 +570,15 @@ impl<T: Real> ActiveSet<T> {
             intervals[i].right = intervals[i].right.min(from + third);
             intervals[i + 1].left = intervals[i + 1].left.max(to - third);
         }
+        // Where the pressure all but vanishes rounding parts cells: as close as that, runs are one.
+        intervals.dedup_by(|next, on| {
+            let wider = (next.right - next.left).max(on.right - on.left);
+            let one = next.left - on.right < T::of(LEAST_GAP) * wider;
+            if one {
+                on.right = next.right;
+            }
+            one
+        });
         let reaches = [
             runs.first().is_some_and(|run| run[0] == 0),
             runs.last().is_some_and(|run| run[1] == last),
