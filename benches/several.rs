@@ -111,7 +111,10 @@ fn case(name: &str) -> Case {
 
 /// Hands over a cold and a warm solve: a call that does it once and returns contacts, samples, evaluations and
 /// heights.
-fn solves(name: &str, visit: &mut dyn FnMut(&str, &mut dyn FnMut() -> [usize; 4])) {
+/// Shows a case by its name, and what one solve of it takes.
+type Visit<'v> = dyn FnMut(&str, &mut dyn FnMut() -> [usize; 4]) + 'v;
+
+fn solves(name: &str, visit: &mut Visit<'_>) {
     let Case { body, load, contacts: [fewest, most] } = case(name);
     let counts = |solution: linecontact::Solution<f64>| {
         let (cost, contacts) = (solution.cost(), solution.intervals().len());
