@@ -343,6 +343,12 @@ impl<T: Real> Samples<'_, T> {
         cost: &mut Cost,
     ) -> Result<(), ProfileError<T>> {
         let [from, to] = piece.x();
+        // As many as there may be, so that bodies that move allocate nothing.
+        self.rows.reserve(OF_A_BODY + 2);
+        let Scratch { k, points, right } = &mut *self.scratch;
+        k.reserve((OF_A_BODY + 2).saturating_sub(k.len()));
+        points.reserve((OF_A_BODY + 2).saturating_sub(points.len()));
+        right.reserve((4 * MOST_ZOOMS).saturating_sub(right.len()));
         self.scratch.k.clear();
         self.scratch.k.push(piece.k[0]);
         self.scratch.points.clear();
