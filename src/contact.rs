@@ -258,8 +258,9 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { edge_pressure: Some(wanted), ..self }
     }
 
-    /// Where the search for the limits starts. Without it, or where it is not on the bodies, in
-    /// the middle of their common range.
+    /// Where the search for the limits starts. Without it, or where it is not on the bodies, at
+    /// their lowest gap; or, where the bodies bulge towards each other or look so, in the middle of
+    /// their common range.
     pub fn start(self, interval: Interval<T>) -> Self {
         Self { start: Some(interval), ..self }
     }

@@ -1,7 +1,7 @@
 //! Line contact of two bodies, each given as a parametric curve `[X(k), Y(k)]`.
 //!
 //! Two bodies are pressed together with a load per unit length. This crate finds where they
-//! touch, the interval `[-b, a]` of `x`, and the pressure `P(x)` between them, for elastic
+//! touch, the interval `[-b, a]` of `x` or several, and the pressure `P(x)` between them, for elastic
 //! half-planes without friction. Neither curve's parameter can or need be eliminated.
 //!
 //! ```text
@@ -33,7 +33,8 @@
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
-//! - [`contact`]: the scene, its edges, and the search for its limits.
+//! - [`contact`]: the scene, its edges, what is prescribed of it, and the search for its limits. The
+//!   number of contacts is found; [`Solution::report`] says from where, and what was checked.
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Certificate`]: that a solution is a contact in all of the bodies.

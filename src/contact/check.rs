@@ -1,8 +1,8 @@
 //! Whether what solves the equations is a contact: nothing pulls inside, nothing overlaps outside.
 //!
-//! Inside, a slope of the gap that rises on every panel proves it (the kernel of theory: P is an integral of g' with a
-//! kernel that is positive). Only otherwise pressures are looked at. Outside, the gap between the loaded bodies
-//! is looked at where their heights are known.
+//! Inside, a slope of the gap that rises on every panel proves it: P is an integral of the rate of g'
+//! with a kernel that is nowhere negative. Only otherwise pressures are looked at. Outside, the gap
+//! between the loaded bodies is looked at where their heights are known.
 
 use super::Found;
 use super::field::{Field, POINTS};
