@@ -11,13 +11,10 @@
 //! abscissae, and aim instead: see `aim.rs`.
 
 mod aim;
-// Until the solver starts from it.
-#[allow(dead_code)]
 mod first_look;
 mod sampler;
 
 pub(crate) use aim::{Knot, Trace, aim};
-#[allow(unused_imports)]
 pub(crate) use first_look::{FirstLook, LowPlace};
 pub use sampler::Sampler;
 

@@ -404,7 +404,7 @@ fn a_hundred_random_scenes() {
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes a minute; bug: a tension in scene 308 is not seen"]
 fn a_thousand_random_scenes() {
     let [refused, wrong] = run(0..1000);
     assert!(wrong == 0 && refused <= 10, "{wrong} wrong, {refused} refused");
