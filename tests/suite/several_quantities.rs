@@ -7,7 +7,8 @@ use crate::forms::KAPPA;
 
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
 use linecontact::{
-    Contact, ContactError, Control, Cost, Edge, Flat, Interval, Real, Solution, Solver,
+    Contact, ContactError, ContactRegion, Control, Cost, Edge, Flat, Interval, Real, Solution,
+    Solver,
 };
 use std::f64::consts::PI;
 
@@ -237,33 +238,32 @@ fn chebyshev<T: Real>(form: &Map<T>, x: T) -> [T; 2] {
     here.map(|value| form.amplitude() * value)
 }
 
+/// The contacts of a map, and how far the load of each is from its share, all shares being equal.
+fn shares(form: &dyn ClosedForm<f64>, count: usize) -> Vec<(ContactRegion<f64>, f64)> {
+    let reach = (2.0 / count as f64).cosh();
+    let body = body(form, -reach, reach).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let load = form.load(KAPPA);
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    let regions = solution.contacts().unwrap();
+    assert_eq!(regions.len(), count);
+    let off = |region: &ContactRegion<f64>| (region.load * count as f64 / load - 1.0).abs();
+    regions.iter().map(|region| (*region, off(region))).collect()
+}
+
 #[test]
 fn each_contact_of_a_map_bears_its_share() {
     for count in [2usize, 3, 5] {
         for share in [1.1, 3.0] {
-            let form = map::<f64>(count, share);
-            let reach = (2.0 / count as f64).cosh();
-            let body = body(&form, -reach, reach).unwrap();
-            let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-            let load = form.load(KAPPA);
-            let solution = contact.solve(Control::Load(load)).unwrap();
-            for region in solution.contacts().unwrap() {
-                let bears = region.load * count as f64 / load - 1.0;
-                assert!(bears.abs() < 1e-12, "{count}, {share}: {bears:e}");
+            for (_, off) in shares(&map::<f64>(count, share), count) {
+                assert!(off < 1e-12, "{count}, {share}: {off:e}");
             }
         }
         // A kink inside each.
         let wedge = Wedge::unequal(0.2, 0.3, 0.4).unwrap();
         let form = PolynomialMap::new(wedge, count, 0.7, 1.0).unwrap();
-        let reach = (2.0 / count as f64).cosh();
-        let body = body(&form, -reach, reach).unwrap();
-        let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-        let load = form.load(KAPPA);
-        let solution = contact.solve(Control::Load(load)).unwrap();
-        for region in solution.contacts().unwrap() {
-            let bears = region.load * count as f64 / load - 1.0;
-            println!("wedge {count}: {bears:e}");
-            assert!(bears.abs() < 3e-13, "wedge {count}: {bears:e}");
+        for (region, off) in shares(&form, count) {
+            assert!(off < 3e-13, "wedge {count}: {off:e}");
             assert_eq!(region.peak, None);
         }
     }
