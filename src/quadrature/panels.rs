@@ -34,6 +34,7 @@ use chebyshev::{MOST, SIZES};
 use conjugate::{Conjugate, Edges, LANES};
 pub(crate) use cover::Cover;
 pub(crate) use panel::Panel;
+use panel::Series;
 pub(crate) use several::{Punch, Several, System};
 use std::any::Any;
 
@@ -100,8 +101,17 @@ impl<T: Real> Quadrature<T> for Panels {
         let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
         let (cover, conjugate) = (Cover::new(tolerance), Conjugate::new());
         let several = Several::new(tolerance);
-        let (moments, fall, is_several) = (None, None, false);
-        Ok(Box::new(AtWork { rule: *self, cover, conjugate, moments, fall, several, is_several }))
+        let (moments, over, fall, is_several) = (None, None, None, false);
+        Ok(Box::new(AtWork {
+            rule: *self,
+            cover,
+            conjugate,
+            moments,
+            over,
+            fall,
+            several,
+            is_several,
+        }))
     }
 
     fn serves(&self, engine: &dyn Engine<T>) -> bool {
@@ -112,7 +122,7 @@ impl<T: Real> Quadrature<T> for Panels {
 
 /// The edge integrals over an interval that the panels cover.
 pub(crate) fn edge_integrals<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
-    integrals::moments(panels, on, false)
+    integrals::moments(panels, on, false).0
 }
 
 #[derive(Clone)]
@@ -122,6 +132,8 @@ struct AtWork<T> {
     conjugate: Conjugate<T>,
     /// The interval last integrated over: in the end that of the conjugate.
     moments: Option<(Interval<T>, Moments<T>)>,
+    /// Where one panel holds it, the series of that.
+    over: Option<Series<T>>,
     /// Of a sketch: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
     /// Several contacts at once, and whether they are what was last turned to.
@@ -152,7 +164,8 @@ pub(crate) fn several<T: Real>(engine: &dyn Engine<T>) -> Option<&Several<T>> {
 
 impl<T: Real> AtWork<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
-        let m = integrals::moments(&self.cover.panels, on, false);
+        let m;
+        (m, self.over) = integrals::moments(&self.cover.panels, on, false);
         self.moments = Some((on, m));
         m
     }
@@ -243,17 +256,16 @@ impl<T: Real> Engine<T> for AtWork<T> {
             return Ok(m);
         }
         if self.fall.is_some() {
-            return Ok(integrals::moments(&self.cover.panels, on, true));
+            return Ok(integrals::moments(&self.cover.panels, on, true).0);
         }
         let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         self.cover.extend(gap, sampled)?;
-        let m = integrals::moments(&self.cover.panels, on, false);
+        let m = self.remember(on);
         // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
         if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
             return self.sample_anew(gap, on);
         }
-        self.moments = Some((on, m));
         Ok(m)
     }
 
@@ -264,7 +276,8 @@ impl<T: Real> Engine<T> for AtWork<T> {
         if self.fall.is_none() && self.is_poor(&m) && self.cover.overshoots(gap, on) {
             self.sample_anew(gap, on)?;
         }
-        self.conjugate.set(&self.cover.panels, on, self.cover.size, self.cover.tolerance);
+        let Cover { panels, size, tolerance, .. } = &self.cover;
+        self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
         Ok(())
     }
 

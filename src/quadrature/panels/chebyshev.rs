@@ -218,19 +218,41 @@ pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
 }
 
-/// The coefficients, as many as there are or a few more, of the same polynomial on the range from
-/// `left` to `right`, which need not lie between -1 and 1.
-pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
-    by_size!(size_for(coefficients.len()), N => expanded::<N, T>(coefficients, left, right))
-}
+/// Coefficients treated together; [`MOST`] is a multiple of it.
+const ABREAST: usize = 4;
 
-fn expanded<const N: usize, T: Real>(coefficients: &[T], left: T, right: T) -> Row<T> {
+/// The coefficients of the same polynomial on the range from `left` to `right`, which need not lie
+/// between -1 and 1.
+///
+/// Clenshaw's recurrence for `s = middle + reach t`, each number of which is a series in t itself, one
+/// term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
+pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
-    let table = Table::of(N);
-    let s: [T; N] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
+    // From T_{-1} = T_1 on, all twice, so that every term is as the next.
+    let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
+    let (mut b1, mut b2) = (&mut one, &mut other);
+    for (length, &a) in coefficients.iter().rev().enumerate() {
+        // The last step has half of what the others have.
+        let is_last = length + 1 == coefficients.len();
+        let [by_middle, by_reach] =
+            if is_last { [middle, half * reach] } else { [middle + middle, reach] };
+        let count = (length / ABREAST + 1) * ABREAST;
+        let [before, here, after] = [0, 1, 2].map(|from| b1[from..].as_chunks::<ABREAST>().0);
+        let next = b2[1..=count].as_chunks_mut::<ABREAST>().0;
+        for (((next, before), here), after) in next.iter_mut().zip(before).zip(here).zip(after) {
+            for i in 0..ABREAST {
+                let beside = fma(by_reach, before[i] + after[i], -next[i]);
+                next[i] = fma(by_middle, here[i], beside);
+            }
+        }
+        b2[1] += a + a;
+        b2[0] = b2[2];
+        std::mem::swap(&mut b1, &mut b2);
+    }
     let mut row = [T::zero(); MOST];
-    row[..N].copy_from_slice(&table.coefficients(&values(coefficients, &s)));
+    row.copy_from_slice(&b1[1..=MOST]);
+    row[0] *= half;
     row
 }
 

@@ -33,7 +33,7 @@ use super::angles::Sines;
 use super::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
 use super::continuation::{Stretch, continued};
 use super::far::{Far, Seen};
-use super::panel::{Panel, within};
+use super::panel::{Panel, Series, within};
 use crate::real::fma;
 use crate::{Interval, Real};
 
@@ -122,31 +122,43 @@ impl<T: Real> Conjugate<T> {
         }
     }
 
-    /// Sets it to a contact that the panels cover, with slopes up to `size`.
-    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, size: T, tolerance: T) {
+    /// Sets it to a contact that the panels cover, with slopes up to `size`; or that one panel alone holds, of
+    /// this series.
+    pub fn set(
+        &mut self,
+        panels: &[Panel<T>],
+        over: Option<&Series<T>>,
+        on: Interval<T>,
+        size: T,
+        tolerance: T,
+    ) {
         self.on = on;
         let panels = within(panels, on);
         let tail = panels.iter().fold(T::zero(), |max, panel| max.max(panel.tail));
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MOST_CHANGES || !self.continued(panels, on);
+        self.is_far = panels.len() > MOST_CHANGES || !self.continued(panels, over, on);
         if self.is_far {
             self.far.set(panels, on);
         }
     }
 
     /// The series, continued over the contact; `false` if one of several grows too much on the way.
-    fn continued(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
+    fn continued(
+        &mut self,
+        panels: &[Panel<T>],
+        over: Option<&Series<T>>,
+        on: Interval<T>,
+    ) -> bool {
         let zero = T::zero();
         (self.smooth, self.terms) = ([zero; MOST], 1);
         self.changes.clear();
-        if let [panel] = panels {
+        if let Some((series, terms)) = over {
             // Over the whole contact only the cosine of zero times the angle has an integral.
-            let (series, terms) = panel.over(on);
             let share = T::pi() / on.half_width();
             self.terms = terms - 1;
-            for k in 1..terms {
+            for k in 1..*terms {
                 self.smooth[k - 1] = share * series[k];
             }
             return true;

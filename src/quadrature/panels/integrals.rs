@@ -7,7 +7,7 @@
 use super::angles::{Arc, Gauss, HalfAngle, Sines};
 use super::chebyshev::{MOST, Row, by_size, evaluate, size_for};
 use super::continuation::{Stretch, continued};
-use super::panel::{Panel, within};
+use super::panel::{Panel, Series, within};
 use crate::quadrature::{Moments, Trend};
 use crate::real::Sum;
 use crate::{Interval, Real};
@@ -35,12 +35,18 @@ impl<T: Real> Sums<T> {
     }
 }
 
-/// The edge integrals over a contact that the panels cover, or sketch.
-pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: bool) -> Moments<T> {
+/// The edge integrals over a contact that the panels cover, or sketch; and where one panel alone holds it,
+/// the [series](Panel::over) of that.
+pub(super) fn moments<T: Real>(
+    panels: &[Panel<T>],
+    on: Interval<T>,
+    sketch: bool,
+) -> (Moments<T>, Option<Series<T>>) {
     let within = within(panels, on);
     let mut sums = Sums::new();
+    let mut over = None;
     if let [panel] = within {
-        whole(&mut sums, panel, on);
+        whole(&mut sums, over.insert(panel.over(on)), panel.tail, on);
     } else if !by_cosines(&mut sums, within, on) {
         sums = Sums::new();
         by_gauss(&mut sums, within, on, sketch);
@@ -48,7 +54,7 @@ pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: boo
     // A formula of a few terms is good to a few units in the last place.
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
     let [by_0, by_1, by_2] = sums.slope;
-    Moments {
+    let moments = Moments {
         mean: sums.g[0].value(),
         first: sums.g[1].value(),
         second: Some(sums.g[2].value()),
@@ -56,7 +62,8 @@ pub(super) fn moments<T: Real>(panels: &[Panel<T>], on: Interval<T>, sketch: boo
         error: sums.error.max(rounding),
         inversion: T::zero(),
         trend: Some(Trend { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
-    }
+    };
+    (moments, over)
 }
 
 /// The coefficients of the derivative by z.
@@ -90,19 +97,23 @@ pub(super) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
 }
 
 /// One panel holds the contact: over half a turn every cosine vanishes.
-fn whole<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, on: Interval<T>) {
+fn whole<T: Real>(
+    sums: &mut Sums<T>,
+    (series, counting): &Series<T>,
+    tail: T,
+    on: Interval<T>,
+) {
     let half = T::of(0.5);
-    let (series, counting) = panel.over(on);
-    let slopes = by_size!(size_for(counting), N => derivative::<N, T>(&series));
+    let slopes = by_size!(size_for(*counting), N => derivative::<N, T>(series));
     let by_x = T::one() / on.half_width();
     sums.g[0].add(series[0]);
     sums.g[1].add(half * series[1]);
     sums.g[2].add(half * series[2]);
     let [h0, h1, h2] = [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])];
     sums.slope = [by_x * h0, by_x * h1, by_x * h2];
-    let squares = series[1..counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
+    let squares = series[1..*counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
     sums.size = (series[0] * series[0] + half * squares).sqrt();
-    sums.error = panel.tail;
+    sums.error = tail;
 }
 
 /// Several panels hold it between them, and their series can be continued over it; `false` if not.

@@ -78,8 +78,8 @@ impl<T: Real> Panel<T> {
         value_at(self.coefficients(), self.local(x))
     }
 
-    /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`, and how many of the coefficients count.
-    pub fn over(&self, on: Interval<T>) -> (Row<T>, usize) {
+    /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`.
+    pub fn over(&self, on: Interval<T>) -> Series<T> {
         if same(self.x[0], on.left) && same(self.x[1], on.right) {
             return (self.series, self.counting);
         }
@@ -87,6 +87,9 @@ impl<T: Real> Panel<T> {
         (expand(self.coefficients(), ends), size_for(self.counting))
     }
 }
+
+/// The coefficients of a series, and how many of them count.
+pub(super) type Series<T> = (Row<T>, usize);
 
 /// How many coefficients there are, two at least, up to the last that is more than nothing in any of
 /// these parts, given what is nothing beside the largest.

@@ -1,12 +1,12 @@
 //! One of several contacts: the slope of the gap times the weight, and what follows from it.
 
 use super::super::angles::Gauss;
-use super::super::chebyshev::{MOST, Row, SIZES, Table, by_size, size_for};
+use super::super::chebyshev::{MOST, SIZES, Table, by_size, size_for};
 use super::super::conjugate::{Conjugate, Edges, LANES};
 use super::super::cover::Cover;
 use super::super::far::Far;
 use super::super::integrals;
-use super::super::panel::{Panel, within};
+use super::super::panel::{Panel, Series, within};
 use crate::gap::{Gap, Sampler};
 use crate::quadrature::Moments;
 use crate::{ContactError, Interval, Real};
@@ -42,8 +42,8 @@ pub(super) struct Part<T> {
     /// The largest |H|.
     size: T,
     conjugate: Conjugate<T>,
-    /// Of a single panel: its series over the contact, and how many of the coefficients count.
-    series: Option<(Row<T>, usize)>,
+    /// Of a single panel: its series over the contact.
+    series: Option<Series<T>>,
     /// Of several.
     far: Far<T>,
     /// Of H.
@@ -170,15 +170,11 @@ impl<T: Real> Part<T> {
                 self.panels.push(product);
             }
         }
-        self.conjugate.set(&self.panels, on, self.size, tolerance);
-        self.moments = integrals::moments(&self.panels, on, false);
-        self.series = match &self.panels[..] {
-            [panel] => Some(panel.over(on)),
-            panels => {
-                self.far.set_seen_from_outside(panels, on);
-                None
-            }
-        };
+        (self.moments, self.series) = integrals::moments(&self.panels, on, false);
+        self.conjugate.set(&self.panels, self.series.as_ref(), on, self.size, tolerance);
+        if self.series.is_none() {
+            self.far.set_seen_from_outside(&self.panels, on);
+        }
     }
 
     /// `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a distance from its
