@@ -1,24 +1,18 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod active_set;
-mod approach;
 mod capacity;
 mod check;
 mod edge_pressure;
 mod edges;
+mod equations;
 mod field;
-mod first_contact;
-mod further;
-mod goal;
-mod limits;
 mod moment;
+mod nested;
 mod newton;
 mod peak;
-mod pull;
 mod several;
-mod sketch;
-mod stretch;
-mod stride;
+mod single;
 mod topology;
 
 pub use edge_pressure::EdgePressure;
@@ -32,7 +26,7 @@ use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{Report, Solution, Start, Verdict};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
-use goal::Goal;
+use equations::Equations;
 use std::sync::Arc;
 use topology::Sought;
 pub(crate) use topology::Workspace;
@@ -73,8 +67,6 @@ pub struct Contact<'b, T: Real> {
     quadrature: &'b dyn Quadrature<T>,
     certified: bool,
     single_interval: bool,
-    /// Whether what one contact bears is what the bodies bear.
-    bears_as_one: bool,
 }
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
@@ -231,7 +223,6 @@ impl<'b, T: Real> Contact<'b, T> {
             quadrature: &Panels::FULL,
             certified: false,
             single_interval: false,
-            bears_as_one: true,
         })
     }
 
@@ -429,8 +420,8 @@ impl<'b, T: Real> Contact<'b, T> {
         if !(load.is_finite() && load > T::zero()) {
             return Err(ContactError::Load { load });
         }
-        let goal = Goal::Pressure { kappa, load, wanted };
-        let nested = limits::find(self, load, goal, engine, self.start, cost)?;
+        let equations = Equations::Pressure { kappa, load, wanted };
+        let nested = nested::find(self, equations, engine, self.start, cost)?;
         let m = engine.moments(&self.gap, nested.on)?;
         let given = Given::Load(load);
         let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };

@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::edges::{Conditions, Edge};
-use super::goal::Goal;
+use super::equations::Equations;
 use super::peak::peak;
 use crate::gap::Cost;
 use crate::quadrature::{Engine, Panels, Pressing, Quadrature};
@@ -84,8 +84,8 @@ pub(super) fn capacity<T: Real>(
 ) -> Option<Capacity<T>> {
     let mut engine = Panels::FULL.engine().ok()?;
     let fixed = conditions.edges.map(|edge| edge.limit());
-    let goal = Goal::Strength { conditions: *conditions, load: T::zero() };
-    let mut pinned = Pinned { contact, goal, engine: &mut *engine };
+    let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
+    let mut pinned = Pinned { contact, equations, engine: &mut *engine };
     let found = LEFT_OUT.into_iter().find_map(|share| {
         let out = T::of(share) * T::epsilon() * (right - left);
         let [left, right] = [fixed[0].unwrap_or(left + out), fixed[1].unwrap_or(right - out)];
@@ -114,7 +114,7 @@ pub(super) fn capacity<T: Real>(
 /// Contacts that reach an end.
 struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
-    goal: Goal<T>,
+    equations: Equations<T>,
     engine: &'s mut dyn Engine<T>,
 }
 
@@ -122,7 +122,7 @@ impl<T: Real> Pinned<'_, T> {
     /// The balanced one, and which end it reaches.
     fn widest(&mut self, whole: Interval<T>) -> Option<(Interval<T>, usize)> {
         let Interval { left, right } = whole;
-        match self.goal.limits() {
+        match self.equations.limits() {
             [Some(_), _] => return Some((whole, 1)),
             [_, Some(_)] => return Some((whole, 0)),
             [None, None] => {}
@@ -165,8 +165,8 @@ impl<T: Real> Pinned<'_, T> {
         if covered > T::of(2.0 * NARROWER) * on.half_width() {
             self.engine.forget();
         }
-        let (goal, gap) = (&self.goal, &self.contact.gap);
-        let excess = goal.excess(gap, on, self.engine, &mut Cost::default()).ok()?;
-        excess.is_finite().then(|| excess.shift())
+        let (equations, gap) = (&self.equations, &self.contact.gap);
+        let residual = equations.residual(gap, on, self.engine, &mut Cost::default()).ok()?;
+        residual.is_finite().then(|| residual.shift())
     }
 }

@@ -1,6 +1,6 @@
 //! Edges by the paper's conditions, Eq. (6).
 
-use super::goal::Excess;
+use super::equations::Residual;
 use crate::{ContactError, Interval, Real};
 
 /// The paper's conditions at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
@@ -46,10 +46,10 @@ impl<T: Real> EdgePressure<T> {
     }
 
     /// Whether a contact meets the conditions, given by how much it misses them.
-    pub(super) fn met(&self, on: Interval<T>, excess: &Excess<T>) -> Result<(), ContactError<T>> {
+    pub(super) fn met(&self, on: Interval<T>, residual: &Residual<T>) -> Result<(), ContactError<T>> {
         let [x_b, x_a] = self.places(on);
-        let at_a = excess.at_a / (T::pi() * on.edge_root(x_a));
-        let at_b = excess.at_b / (T::pi() * on.edge_root(x_b));
+        let at_a = residual.at_a / (T::pi() * on.edge_root(x_a));
+        let at_b = residual.at_b / (T::pi() * on.edge_root(x_b));
         if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {
             Ok(())
         } else {

@@ -10,7 +10,8 @@
 use super::edges::{Conditions, Edge, Given};
 use super::several::Outcome;
 use super::topology::{self, Sought, Workspace};
-use super::{Contact, Found, approach};
+use super::single::Single;
+use super::{Contact, Found};
 use crate::gap::Cost;
 use crate::quadrature::{Engine, panels};
 use crate::solution::{Start, Verdict};
@@ -97,7 +98,12 @@ pub(super) fn find<T: Real>(
             (None, Some(_)) => Start::Given,
             (None, None) => Start::LineOfLoad,
         };
-        match approach::find(contact, conditions, engine, last, cost) {
+        let (look, bears) = (None, None);
+        let found = {
+            let start = contact.start;
+            Single { contact, conditions, start, look, engine, cost, bears }.find(last)
+        };
+        match found {
             Ok(mut found) => {
                 let doubt = rounding / found.interval.half_width();
                 found.error = found.error.map(|error| error + doubt);

@@ -32,7 +32,7 @@
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
 //! long one as in the power of L that the load is seen to go with.
 
-use super::approach::MOST_DOUBT;
+use super::single::MOST_DOUBT;
 use super::edges::{Conditions, Edge, Given};
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};

@@ -6,8 +6,9 @@
 
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
-use super::{Contact, Found, approach};
-use crate::gap::{Cost, Gap};
+use super::single::Single;
+use super::{Contact, Found};
+use crate::gap::{Cost, FirstLook, Gap};
 use crate::quadrature::{Engine, Estimate, Pressing, complete};
 use crate::search::{Bracket, Newton};
 use crate::{ContactError, Interval, Real};
@@ -78,6 +79,7 @@ pub(crate) fn peak<T: Real>(
 struct Trials<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     wanted: T,
+    look: Option<&'s FirstLook<T>>,
     engine: &'s mut dyn Engine<T>,
     cost: &'s mut Cost,
     /// Where the next contact is looked for first.
@@ -94,7 +96,10 @@ impl<T: Real> Trials<'_, T> {
 
     fn at(&mut self, given: Given<T>) -> Result<Trial<T>, ContactError<T>> {
         let (contact, conditions) = (self.contact, self.conditions(given));
-        let found = approach::find(contact, conditions, self.engine, self.last, self.cost)?;
+        let (start, look, bears) = (contact.start, self.look, None);
+        let (engine, cost) = (&mut *self.engine, &mut *self.cost);
+        let found =
+            Single { contact, conditions, start, look, engine, cost, bears }.find(self.last)?;
         let on = found.interval;
         let rounding = T::of(8.0) * T::epsilon() * on.half_width();
         super::check_within(on, contact.ends(), rounding)?;
@@ -133,12 +138,13 @@ fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>>
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     wanted: T,
+    look: Option<&FirstLook<T>>,
     engine: &mut dyn Engine<T>,
     warm: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     check_edges(contact)?;
-    let mut trials = Trials { contact, wanted, engine, cost, last: warm };
+    let mut trials = Trials { contact, wanted, look, engine, cost, last: warm };
     let found = by_search(&mut trials, warm)?;
     if T::MORE_STEPS == 0 {
         return Ok(found);

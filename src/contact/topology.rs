@@ -11,7 +11,8 @@ use super::check::Check;
 use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
 use super::several::{Newton, Outcome};
-use super::{Contact, Found, approach, peak};
+use super::single::Single;
+use super::{Contact, Found, peak};
 use crate::gap::{Cost, FirstLook, Gap, LowPlace, Sampler};
 use crate::quadrature::{Engine, Panels, Quadrature, panels};
 use crate::solution::{Report, Start, Verdict};
@@ -120,29 +121,28 @@ pub(super) fn find<T: Real>(
     let mut search =
         Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None };
     if contact.single_interval || given {
-        let start = search.first_start(true)?;
-        let found = search.one(start)?;
-        search.workspace.report.add(start.0, Verdict::Unchecked);
-        return Ok(found);
+        let (start, found) = search.one(false);
+        search.workspace.report.add(start, Verdict::Unchecked);
+        return found;
     }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
-        let start = search.first_start(convex)?;
-        match search.one(start) {
+        let (start, found) = search.one(!convex);
+        match found {
             Ok(found) => match search.checked(&found, convex)? {
                 None => {
-                    search.workspace.report.add(start.0, Verdict::Passed);
+                    search.workspace.report.add(start, Verdict::Passed);
                     return Ok(found);
                 }
                 Some(error) => {
-                    search.workspace.report.add(start.0, Verdict::of(&error));
+                    search.workspace.report.add(start, Verdict::of(&error));
                     fault = Some(error);
                 }
             },
             Err(error) if convex || !error.may_be_several() => return Err(error),
             Err(error) if search.workspace.look(gap, search.cost)?.bulges() => return Err(error),
             Err(error) => {
-                search.workspace.report.add(start.0, Verdict::NotFound);
+                search.workspace.report.add(start, Verdict::NotFound);
                 fault = Some(error);
             }
         }
@@ -180,48 +180,34 @@ struct Search<'s, 'b, T: Real> {
 }
 
 impl<T: Real> Search<'_, '_, T> {
-    /// Where one contact is sought: where it was, where the user says, or at the lowest gap.
-    fn first_start(
-        &mut self,
-        convex: bool,
-    ) -> Result<(Start, Option<Interval<T>>), ContactError<T>> {
-        if let [last] = self.workspace.last[..] {
-            return Ok((Start::Last, Some(last)));
-        }
-        if self.contact.start.is_some() {
-            return Ok((Start::Given, None));
-        }
-        if !convex {
-            let look = self.workspace.look(&self.contact.gap, self.cost)?;
-            if !look.bulges() && !look.is_one_valley() {
-                return Ok((Start::LowestGap, None));
+    /// Seeks one contact: where it was, where the user says, or at the lowest gap. Without a
+    /// look at the bodies it starts in their middle.
+    fn one(&mut self, looks: bool) -> (Start, Result<Found<T>, ContactError<T>>) {
+        let (contact, cost) = (self.contact, &mut *self.cost);
+        let last = self.workspace.last.first().copied();
+        let mut start = Start::Middle;
+        let mut look = None;
+        if looks {
+            start = Start::LowestGap;
+            match self.workspace.look(&contact.gap, cost) {
+                Ok(seen) => look = Some(seen),
+                Err(error) => return (start, Err(error)),
             }
         }
-        Ok((Start::Middle, None))
-    }
-
-    /// Seeks one contact.
-    fn one(
-        &mut self,
-        (start, last): (Start, Option<Interval<T>>),
-    ) -> Result<Found<T>, ContactError<T>> {
-        let mut contact = self.contact.clone();
-        if start == Start::LowestGap {
-            let load = match self.sought {
-                Sought::By(Conditions { given: Given::Load(load), .. }) => {
-                    Some(load / contact.kappa)
-                }
-                _ => None,
-            };
-            let look = self.workspace.look(&contact.gap, self.cost)?;
-            contact.start = Some(look.around_lowest(load));
-        }
-        match self.sought {
+        start = match (last, contact.start) {
+            (Some(_), _) => Start::Last,
+            (_, Some(_)) => Start::Given,
+            _ => start,
+        };
+        let engine = &mut *self.engine;
+        let found = match self.sought {
             Sought::By(conditions) => {
-                approach::find(&contact, conditions, self.engine, last, self.cost)
+                let (start, bears) = (contact.start, None);
+                Single { contact, conditions, start, look, engine, cost, bears }.find(last)
             }
-            Sought::Peak(pressure) => peak::find(&contact, pressure, self.engine, last, self.cost),
-        }
+            Sought::Peak(pressure) => peak::find(contact, pressure, look, engine, last, cost),
+        };
+        (start, found)
     }
 
     /// What a solution fails by, if anything.
@@ -378,8 +364,10 @@ impl<T: Real> Search<'_, '_, T> {
         let contact = self.contact;
         let newton = &mut self.workspace.newton;
         if let [on] = newton.on[..] {
-            let around = Contact { start: Some(on), bears_as_one: false, ..contact.clone() };
-            return approach::find(&around, *conditions, self.engine, Some(on), self.cost).map(Ok);
+            let (start, look, bears) = (Some(on), None, Some(None));
+            let (conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
+            let mut single = Single { contact, conditions, start, look, engine, cost, bears };
+            return single.find(start).map(Ok);
         }
         for (side, corner) in corners.into_iter().enumerate() {
             let last = newton.on.len() - 1;

@@ -2,9 +2,7 @@
 
 use super::place::Placed;
 use super::{Search, Trial, nearer};
-use crate::contact::capacity::capacity;
-use crate::contact::goal::{Excess, Goal};
-use crate::contact::stride::{Stride, ulps};
+use crate::contact::equations::{Equations, Residual};
 use crate::search::Bracket;
 use crate::{ContactError, Interval, Real};
 
@@ -12,17 +10,20 @@ use crate::{ContactError, Interval, Real};
 /// largest number to the smallest.
 const MOST_WIDTHS: usize = 2200;
 
+/// The largest power of the width that a load is taken to go with.
+const STEEPEST: f64 = 40.0;
+
 impl<T: Real> Search<'_, T> {
     /// Finds the half-width at which the spread vanishes, starting from a guess.
     pub fn widen(&mut self, guess: T) -> Result<Trial<T>, ContactError<T>> {
         let [narrow, wide] = self.enclose(guess)?;
-        if narrow.excess.spread() == T::zero() {
+        if narrow.residual.spread() == T::zero() {
             return Ok(narrow);
         }
         let ends = Bracket::new(narrow.on.half_width(), wide.on.half_width())
-            .values(narrow.excess.deficit(), wide.excess.deficit());
-        let mut best = nearer(narrow, wide, Excess::deficit);
-        self.run(&ends, &mut best, Excess::deficit, |search, half_width| {
+            .values(narrow.residual.deficit(), wide.residual.deficit());
+        let mut best = nearer(narrow, wide, Residual::deficit);
+        self.run(&ends, &mut best, Residual::deficit, |search, half_width| {
             match search.place(half_width)? {
                 Placed::At(trial) => Ok(trial),
                 Placed::Beyond(_) | Placed::Adrift(_) => Err(search.no_balance(half_width)),
@@ -33,14 +34,14 @@ impl<T: Real> Search<'_, T> {
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
     fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        let given = self.goal.limits().iter().any(Option::is_some);
+        let given = self.equations.limits().iter().any(Option::is_some);
         // Closer to a given limit the other is the same number.
         let resolution = if given { self.resolution() } else { zero };
-        let least = (half * self.goal.least_width()).max(resolution);
+        let least = (half * self.equations.least_width()).max(resolution);
         let most = half * (self.range[1] - self.range[0]);
         let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
-        let mut stride = Stride::new();
+        let mut next_width = NextWidth::new();
         // The least width known to have no balance.
         let mut adrift: Option<T> = None;
         let mut tries = 0;
@@ -59,7 +60,7 @@ impl<T: Real> Search<'_, T> {
                 }
                 (Placed::Beyond(end), Some(narrow)) => {
                     let trial = self.pin(end, narrow.on)?;
-                    if trial.excess.spread() > zero {
+                    if trial.residual.spread() > zero {
                         return Err(self.too_short(trial.on));
                     }
                     trial
@@ -70,7 +71,7 @@ impl<T: Real> Search<'_, T> {
                 }
                 (Placed::Beyond(_), None) => return Err(self.no_balance(half_width)),
             };
-            let (last, spread) = (trial.on.half_width(), trial.excess.spread());
+            let (last, spread) = (trial.on.half_width(), trial.residual.spread());
             if spread == zero {
                 return Ok([trial, trial]);
             }
@@ -79,12 +80,12 @@ impl<T: Real> Search<'_, T> {
             }
             if given && spread > zero {
                 for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
-                    if self.goal.limits()[end].is_none() && x == self.range[end] {
+                    if self.equations.limits()[end].is_none() && x == self.range[end] {
                         return Err(self.too_short(trial.on));
                     }
                 }
             }
-            half_width = stride.next(last, trial.excess.growth, spread > zero);
+            half_width = next_width.after(last, trial.residual.growth, spread > zero);
             *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
             match (narrow, wide) {
                 // A wide bracket is narrowed from the end last tried, as long as that helps.
@@ -126,26 +127,67 @@ impl<T: Real> Search<'_, T> {
         };
         let least = if end == 0 { narrow.right - origin } else { origin - narrow.left };
         let (near, far) = (self.attempt(on(least))?, self.attempt(on(room[1 - end]))?);
-        let [f_near, f_far] = [near.excess.shift(), far.excess.shift()];
+        let [f_near, f_far] = [near.residual.shift(), far.residual.shift()];
         if f_far == T::zero() || (f_near > T::zero()) == (f_far > T::zero()) {
             return Ok(far);
         }
         let ends = Bracket::new(least, room[1 - end]).values(f_near, f_far);
-        let mut best = nearer(near, far, Excess::shift);
-        self.run(&ends, &mut best, Excess::shift, |search, other| search.attempt(on(other)))
+        let mut best = nearer(near, far, Residual::shift);
+        self.run(&ends, &mut best, Residual::shift, |search, other| search.attempt(on(other)))
     }
 
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, on: Interval<T>) -> ContactError<T> {
-        let error = match self.goal {
-            Goal::Pressure { wanted, .. } => {
-                self.attempt(on).and_then(|trial| wanted.met(on, &trial.excess)).err()
+        let missed = match self.equations {
+            Equations::Pressure { wanted, .. } => {
+                self.attempt(on).and_then(|trial| wanted.met(on, &trial.residual)).err()
             }
-            Goal::Strength { conditions, .. } => {
-                capacity(self.contact, &conditions, self.range, self.cost)
-                    .map(|widest| widest.too_short(self.load))
-            }
+            Equations::Strength { .. } => None,
         };
-        error.unwrap_or(self.no_balance(on.half_width()))
+        missed.unwrap_or(self.no_balance(on.half_width()))
+    }
+}
+
+/// A relative step that is certain to change a number.
+pub(super) fn ulps<T: Real>() -> T {
+    T::of(8.0) * T::epsilon()
+}
+
+/// Guesses widths from how the load has answered to the last ones: it is taken to go with a power
+/// of the width, which is 2 for bodies round where they touch, and is seen after two trials.
+struct NextWidth<T> {
+    exponent: T,
+    /// The last half-width and the growth asked for there.
+    before: Option<[T; 2]>,
+    /// By which power of the expected factor to change the width, so as to pass the root and so
+    /// enclose it, and by how much beyond that factor at most. At first a little; if that did not
+    /// pass it, twice and four times as far (on a logarithmic scale).
+    power: T,
+    beyond: T,
+}
+
+impl<T: Real> NextWidth<T> {
+    fn new() -> Self {
+        let little = T::of(1.1);
+        Self { exponent: T::of(2.0), before: None, power: little, beyond: little }
+    }
+
+    /// The next half-width after one that is too narrow (`wider`) or too wide. `growth` is the
+    /// factor by which a round body would have to grow.
+    fn after(&mut self, half_width: T, growth: T, wider: bool) -> T {
+        if let Some([last, asked]) = self.before.replace([half_width, growth]) {
+            let seen = T::of(-2.0) * (growth / asked).ln() / (half_width / last).ln();
+            if seen > T::of(0.5) {
+                self.exponent = seen.min(T::of(STEEPEST));
+            }
+        }
+        let pull = growth.powf(T::of(2.0) / self.exponent);
+        let factor = if wider {
+            pull.powf(self.power).min(pull * self.beyond).max(T::one() + ulps())
+        } else {
+            pull.powf(self.power).max(pull / self.beyond).min(T::one() - ulps())
+        };
+        (self.power, self.beyond) = (self.power + self.power, self.beyond.powi(4));
+        half_width * factor
     }
 }

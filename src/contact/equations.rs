@@ -8,7 +8,7 @@ use crate::{ContactError, Interval, Real};
 
 /// The conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
-pub(super) enum Goal<T> {
+pub(super) enum Equations<T> {
     /// Singularities of given strength.
     Strength { conditions: Conditions<T>, load: T },
     /// Eq. (6).
@@ -18,7 +18,7 @@ pub(super) enum Goal<T> {
 /// By how much a trial contact misses its conditions, as forces per unit length. Positive at an
 /// edge: the edge must move outward (the paper's readjustment rule).
 #[derive(Clone, Copy)]
-pub(super) struct Excess<T> {
+pub(super) struct Residual<T> {
     /// At `a`.
     pub at_a: T,
     /// At `-b`.
@@ -35,7 +35,7 @@ pub(super) struct Excess<T> {
     pub error: T,
 }
 
-impl<T: Real> Excess<T> {
+impl<T: Real> Residual<T> {
     /// Positive: the whole contact must move to the right.
     pub fn shift(&self) -> T {
         self.above(self.floor, self.at_a - self.at_b)
@@ -60,9 +60,9 @@ impl<T: Real> Excess<T> {
         let (half, spread) = (T::of(0.5), self.spread());
         match self.carried {
             Some(carried) if carried > T::zero() => {
-                let excess = half * spread / carried;
+                let residual = half * spread / carried;
                 // Close to zero from the difference, elsewhere from the ratio, which may be huge.
-                if excess.abs() < half { excess.ln_1p() } else { self.growth.ln() / half }
+                if residual.abs() < half { residual.ln_1p() } else { self.growth.ln() / half }
             }
             // Nothing is carried: larger than any logarithm.
             Some(_) => T::epsilon().recip(),
@@ -90,7 +90,7 @@ pub(super) fn relative_error<T: Real>(on: Interval<T>, m: &Moments<T>, sum: T) -
     m.error / sum + m.inversion / on.half_width() + rounding(on)
 }
 
-impl<T: Real> Goal<T> {
+impl<T: Real> Equations<T> {
     /// The limits -b and a, where they are given.
     pub fn limits(&self) -> [Option<T>; 2] {
         match *self {
@@ -127,13 +127,13 @@ impl<T: Real> Goal<T> {
     }
 
     /// Tries a contact.
-    pub fn excess(
+    pub fn residual(
         &self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
         engine: &mut dyn Engine<T>,
         cost: &mut Cost,
-    ) -> Result<Excess<T>, ContactError<T>> {
+    ) -> Result<Residual<T>, ContactError<T>> {
         let two = T::of(2.0);
         match *self {
             // π L K at each edge: forces, which stay finite as the contact shrinks.
@@ -173,7 +173,7 @@ impl<T: Real> Goal<T> {
                     // By roots, so as not to underflow.
                     needed.sqrt() / borne.sqrt()
                 };
-                Ok(Excess {
+                Ok(Residual {
                     at_a,
                     at_b,
                     // The estimated error errs on the safe side.
@@ -200,18 +200,18 @@ impl<T: Real> Goal<T> {
                 complete(engine, gap, on, cost)?;
                 let pressing = Pressing { kappa, load, free: [false; 2] };
                 let mut error = T::zero();
-                let mut excess = |x, pressure| -> Result<T, ContactError<T>> {
+                let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
                     let estimate = engine.estimate(gap, &pressing, x, cost)?;
                     let root = T::pi() * on.edge_root(x);
                     error += root * estimate.error / load;
                     Ok(root * (estimate.value - pressure))
                 };
-                let (at_a, at_b) = (excess(x_a, wanted.at_a)?, excess(x_b, wanted.at_b)?);
+                let (at_a, at_b) = (residual(x_a, wanted.at_a)?, residual(x_b, wanted.at_b)?);
                 let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
                 let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
                 let tolerance_a = tolerance(x_a, wanted.tolerance_a);
                 let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
-                Ok(Excess { at_a, at_b, floor, carried: None, size: load, growth, error })
+                Ok(Residual { at_a, at_b, floor, carried: None, size: load, growth, error })
             }
         }
     }

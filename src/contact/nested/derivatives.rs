@@ -4,7 +4,7 @@
 //! their values. A few steps with a fixed Jacobian, from differences, make up for that: each leaves
 //! a share of what is missing that is as small as the differences are good. Plain numbers need none.
 
-use super::goal::Goal;
+use crate::contact::equations::Equations;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Engine;
 use crate::{ContactError, Interval, Real};
@@ -16,8 +16,8 @@ const STEPS: usize = 6;
 const SHARE: f64 = 1e-5;
 
 /// The limits, or with a given half-width the place, of a contact that meets its conditions.
-pub(super) fn further<T: Real>(
-    goal: &Goal<T>,
+pub(super) fn differentiate<T: Real>(
+    equations: &Equations<T>,
     gap: &Gap<'_, T>,
     engine: &mut dyn Engine<T>,
     found: Interval<T>,
@@ -29,7 +29,7 @@ pub(super) fn further<T: Real>(
     }
     let (zero, half) = (T::zero(), T::of(0.5));
     let size = found.half_width().part(0);
-    let [left_given, right_given] = goal.limits();
+    let [left_given, right_given] = equations.limits();
     let start = found.plain();
     let start = match half_width {
         Some(half_width) => {
@@ -54,8 +54,8 @@ pub(super) fn further<T: Real>(
     };
     let both = ways[1] != [zero; 2];
     let mut missed = |on: Interval<T>| -> Result<[T; 2], ContactError<T>> {
-        let excess = goal.excess(gap, on, engine, cost)?;
-        let (at_a, at_b) = (excess.at_a, excess.at_b);
+        let residual = equations.residual(gap, on, engine, cost)?;
+        let (at_a, at_b) = (residual.at_a, residual.at_b);
         Ok(match (both, half_width) {
             (true, _) => [at_b, at_a],
             (false, Some(_)) => [at_a - at_b, zero],

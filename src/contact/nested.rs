@@ -19,17 +19,20 @@
 //! Both searches are handed a narrow bracket: the inner one steps out from the place that the
 //! last width had, the outer one from the start, by factors that a round body would need.
 
+mod derivatives;
+mod first_contact;
 mod place;
 mod width;
 
 use super::Contact;
-use super::first_contact::first_contact;
-use super::further::further;
-use super::goal::{Excess, Goal};
+use super::edges::{Conditions, Given};
+use super::equations::{Equations, Residual};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
+use derivatives::differentiate;
+use first_contact::first_contact;
 use place::Placed;
 
 /// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is
@@ -50,16 +53,21 @@ pub(super) struct Nested<T> {
 /// Finds the limits that meet the conditions, from a start or without one.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
-    load: T,
-    goal: Goal<T>,
+    equations: Equations<T>,
     engine: &mut dyn Engine<T>,
     start: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Nested<T>, ContactError<T>> {
     let gap = &contact.gap;
     let range = gap.range();
-    goal.check(range)?;
-    let origin = match goal.limits() {
+    let load = match equations {
+        Equations::Strength { conditions: Conditions { given: Given::HalfWidth(width), .. }, .. } => {
+            return place(contact, equations, engine, width, start, cost);
+        }
+        Equations::Strength { load, .. } | Equations::Pressure { load, .. } => load,
+    };
+    equations.check(range)?;
+    let origin = match equations.limits() {
         [Some(given), _] | [_, Some(given)] => given,
         [None, None] => {
             let mut sampler = Sampler::default();
@@ -68,47 +76,48 @@ pub(super) fn find<T: Real>(
             first?
         }
     };
-    let half_width = match (start, goal.limits()) {
+    let half_width = match (start, equations.limits()) {
         (Some(start), _) => start.half_width(),
         (None, [Some(_), _]) => T::of(0.125) * (range[1] - origin),
         (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
         (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
-    let mut search = Search { load, ..Search::new(contact, goal, engine, origin, cost) };
+    let mut search = Search { load, ..Search::new(contact, equations, engine, origin, cost) };
     let trial = search.widen(half_width)?;
-    if let Goal::Pressure { wanted, .. } = goal {
-        wanted.met(trial.on, &trial.excess)?;
+    if let Equations::Pressure { wanted, .. } = equations {
+        wanted.met(trial.on, &trial.residual)?;
     }
     // What the quadrature leaves open, and what the search has left of the conditions.
-    let Excess { at_a, at_b, size, .. } = trial.excess;
+    let Residual { at_a, at_b, size, .. } = trial.residual;
     let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / size;
-    let on = further(&goal, gap, search.engine, trial.on, None, search.cost)?;
-    Ok(Nested { on, error: trial.excess.error + missed })
+    let on = differentiate(&equations, gap, search.engine, trial.on, None, search.cost)?;
+    Ok(Nested { on, error: trial.residual.error + missed })
 }
 
 /// The balanced contact of a given half-width.
-pub(super) fn place<T: Real>(
+fn place<T: Real>(
     contact: &Contact<'_, T>,
-    goal: Goal<T>,
+    equations: Equations<T>,
     engine: &mut dyn Engine<T>,
     half_width: T,
+    start: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Nested<T>, ContactError<T>> {
     let gap = &contact.gap;
     let mut sampler = Sampler::default();
-    let first = first_contact(&mut sampler, gap, contact.start);
+    let first = first_contact(&mut sampler, gap, start);
     *cost += sampler.cost;
     let (origin, range) = (first?, gap.range());
     // The load is not known, and tells nothing of how well the contact has to be in balance.
-    let unbalance = Excess::shift;
-    let mut search = Search { unbalance, ..Search::new(contact, goal, engine, origin, cost) };
+    let unbalance = Residual::shift;
+    let mut search = Search { unbalance, ..Search::new(contact, equations, engine, origin, cost) };
     for _ in 0..MOST_BESIDE {
         match search.place(half_width)? {
             Placed::At(trial) => {
-                let Excess { at_a, at_b, size, error, .. } = trial.excess;
+                let Residual { at_a, at_b, size, error, .. } = trial.residual;
                 let missed = T::of(0.5) * (at_a - at_b).abs() / size;
                 let width = Some(half_width);
-                let on = further(&goal, gap, search.engine, trial.on, width, search.cost)?;
+                let on = differentiate(&equations, gap, search.engine, trial.on, width, search.cost)?;
                 return Ok(Nested { on, error: error + missed });
             }
             Placed::Beyond(end) => {
@@ -116,7 +125,7 @@ pub(super) fn place<T: Real>(
                 return Err(ContactError::OutsideBodies { x, range });
             }
             // Pulled at one edge more than at the other, it may sit further on.
-            Placed::Adrift(on) if goal.is_lopsided() => {
+            Placed::Adrift(on) if equations.is_lopsided() => {
                 let before = search.origin;
                 search.origin = if on.left < before { on.left } else { on.right };
             }
@@ -130,12 +139,12 @@ pub(super) fn place<T: Real>(
 #[derive(Clone, Copy)]
 struct Trial<T> {
     on: Interval<T>,
-    excess: Excess<T>,
+    residual: Residual<T>,
 }
 
 struct Search<'s, T: Real> {
     contact: &'s Contact<'s, T>,
-    goal: Goal<T>,
+    equations: Equations<T>,
     gap: &'s Gap<'s, T>,
     engine: &'s mut dyn Engine<T>,
     cost: &'s mut Cost,
@@ -151,20 +160,20 @@ struct Search<'s, T: Real> {
     /// By how much the shift fell the last time for each unit of length moved to the right.
     stiffness: Option<T>,
     /// What has to vanish where a contact of given width sits.
-    unbalance: fn(&Excess<T>) -> T,
+    unbalance: fn(&Residual<T>) -> T,
 }
 
 impl<'s, T: Real> Search<'s, T> {
     fn new(
         contact: &'s Contact<'s, T>,
-        goal: Goal<T>,
+        equations: Equations<T>,
         engine: &'s mut dyn Engine<T>,
         origin: T,
         cost: &'s mut Cost,
     ) -> Self {
         Self {
             contact,
-            goal,
+            equations,
             gap: &contact.gap,
             engine,
             cost,
@@ -175,7 +184,7 @@ impl<'s, T: Real> Search<'s, T> {
             near: 1,
             share: T::of(0.5),
             stiffness: None,
-            unbalance: Excess::rough_shift,
+            unbalance: Residual::rough_shift,
         }
     }
 
@@ -185,11 +194,11 @@ impl<'s, T: Real> Search<'s, T> {
         if covered > T::of(WIDEST) * on.half_width() {
             self.engine.forget();
         }
-        let excess = self.goal.excess(self.gap, on, self.engine, self.cost)?;
-        if !excess.is_finite() {
+        let residual = self.equations.residual(self.gap, on, self.engine, self.cost)?;
+        if !residual.is_finite() {
             return Err(ContactError::Overflow { interval: on });
         }
-        Ok(Trial { on, excess })
+        Ok(Trial { on, residual })
     }
 
     /// Runs the user's strategy on one of the conditions and returns the best trial met.
@@ -197,7 +206,7 @@ impl<'s, T: Real> Search<'s, T> {
         &mut self,
         bracket: &Bracket<T>,
         best: &mut Trial<T>,
-        condition: fn(&Excess<T>) -> T,
+        condition: fn(&Residual<T>) -> T,
         mut attempt: impl FnMut(&mut Self, T) -> Result<Trial<T>, ContactError<T>>,
     ) -> Result<Trial<T>, ContactError<T>> {
         let mut failed = None;
@@ -217,7 +226,7 @@ impl<'s, T: Real> Search<'s, T> {
             &mut |unknown| match inside(unknown).and_then(|()| attempt(self, unknown)) {
                 Ok(trial) => {
                     *best = nearer(trial, *best, condition);
-                    let value = condition(&trial.excess);
+                    let value = condition(&trial.residual);
                     if (value > T::zero()) == falls {
                         lo = unknown
                     } else {
@@ -255,6 +264,6 @@ impl<'s, T: Real> Search<'s, T> {
     }
 }
 
-fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Excess<T>) -> T) -> Trial<T> {
-    if condition(&other.excess).abs() < condition(&one.excess).abs() { other } else { one }
+fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Residual<T>) -> T) -> Trial<T> {
+    if condition(&other.residual).abs() < condition(&one.residual).abs() { other } else { one }
 }

@@ -1,8 +1,8 @@
 //! The inner search: where a contact of given width sits.
 
+use super::width::ulps;
 use super::{Search, Trial, nearer};
-use crate::contact::goal::Goal;
-use crate::contact::stride::ulps;
+use crate::contact::equations::Equations;
 use crate::search::Bracket;
 use crate::{ContactError, Interval, Real};
 
@@ -23,7 +23,7 @@ impl<T: Real> Search<'_, T> {
         let width = T::of(2.0) * half_width;
         let room = self.room();
         let [room_left, room_right] = room;
-        match self.goal.limits() {
+        match self.equations.limits() {
             [Some(left), _] if width >= room_right => {
                 return self.attempt(Interval { left, right: self.range[1] }).map(Placed::At);
             }
@@ -44,7 +44,7 @@ impl<T: Real> Search<'_, T> {
             // All of the bodies, up to rounding, may be just wide enough.
             let [left, right] = self.range;
             let trial = self.attempt(Interval { left, right })?;
-            let shift = (self.unbalance)(&trial.excess);
+            let shift = (self.unbalance)(&trial.residual);
             let rounding = ulps::<T>() * (left.abs() + right.abs());
             return Ok(if shift != zero {
                 Placed::Beyond(usize::from(shift > zero))
@@ -65,7 +65,7 @@ impl<T: Real> Search<'_, T> {
         let widest = T::of(0.125) * width;
         let mut factor = T::of(2.0);
         let [low, high] = loop {
-            let shift = (self.unbalance)(&trial.excess);
+            let shift = (self.unbalance)(&trial.residual);
             if shift == zero {
                 return Ok(self.placed(trial, width));
             }
@@ -82,17 +82,17 @@ impl<T: Real> Search<'_, T> {
                 } else if reach == width - room[far] {
                     Ok(Placed::Beyond(far))
                 } else {
-                    Ok(match self.goal {
-                        Goal::Strength { .. } => Placed::Adrift(trial.on),
+                    Ok(match self.equations {
+                        Equations::Strength { .. } => Placed::Adrift(trial.on),
                         // Not balanced, it still tells whether to widen; then it may find its
                         // balance, and if not, the pressures at its edges show it.
-                        Goal::Pressure { .. } => Placed::At(trial),
+                        Equations::Pressure { .. } => Placed::At(trial),
                     })
                 };
             }
             let before = trial;
             trial = self.attempt(on(next))?;
-            let moved = (self.unbalance)(&trial.excess);
+            let moved = (self.unbalance)(&trial.residual);
             reach = next;
             if moved != zero {
                 let rightward = reached(&trial) - reached(&before);
@@ -107,7 +107,7 @@ impl<T: Real> Search<'_, T> {
         };
         let unbalance = self.unbalance;
         let ends = Bracket::new(reached(&low), reached(&high))
-            .values(unbalance(&low.excess), unbalance(&high.excess));
+            .values(unbalance(&low.residual), unbalance(&high.residual));
         let mut best = nearer(low, high, unbalance);
         let trial =
             self.run(&ends, &mut best, unbalance, |search, reach| search.attempt(on(reach)))?;

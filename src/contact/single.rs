@@ -1,0 +1,552 @@
+//! One contact, from a start to the limits with as few samples as possible.
+//!
+//! First a stretch in which the contact is expected is sampled with four nodes a panel, and Newton's method
+//! finds the contact of this sketch; if that is much narrower than the stretch, or beside it, a stretch
+//! around it is sketched anew. Then a stretch a little wider than the contact is sampled in full, and
+//! Newton's method finds the limits on that. The [nested search](super::nested) is used where the user has
+//! chosen a strategy or the quadrature knows no derivatives, and where Newton's method goes astray. Where
+//! neither finds a contact it is asked what the bodies [bear](super::capacity).
+
+use super::capacity::{Capacity, capacity};
+use super::equations::{Equations, relative_error};
+use super::edges::{Conditions, Edge, Given};
+use super::nested::{self, Nested};
+use super::newton::{Effort, Settled, load_of, settle};
+use super::{Contact, Found};
+use crate::gap::{Cost, FirstLook};
+use crate::quadrature::{Engine, Moments};
+use crate::{ContactError, Interval, Real};
+
+/// More doubt than this, as a share of the half-width, is no contact found.
+pub(super) const MOST_DOUBT: f64 = 0.03;
+
+/// Sketches before the search is given up.
+const MOST_SKETCHES: usize = 120;
+
+/// Of which so many may reach for an end of the bodies before it is asked what these bear.
+const MOST_AT_END: usize = 40;
+
+/// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
+const MOST_PULLS: usize = 200;
+
+/// By how much a contact that is about right may be off, and what is sampled beyond it, as a share of its
+/// width.
+const ABOUT: f64 = 0.02;
+
+/// A contact of the bodies as one interval.
+pub(super) struct Single<'s, 'b, T: Real> {
+    pub contact: &'s Contact<'b, T>,
+    pub conditions: Conditions<T>,
+    /// Where it is sought first; or else at the lowest gap, where that is known.
+    pub start: Option<Interval<T>>,
+    pub look: Option<&'s FirstLook<T>>,
+    pub engine: &'s mut dyn Engine<T>,
+    pub cost: &'s mut Cost,
+    /// What the bodies bear, once looked at. Bodies that touch in several places bear more than one contact.
+    pub bears: Option<Option<Capacity<T>>>,
+}
+
+impl<'s, 'b, T: Real> Single<'s, 'b, T> {
+    /// Finds the contact, first around the last one.
+    pub fn find(&mut self, last: Option<Interval<T>>) -> Result<Found<T>, ContactError<T>> {
+        let corners = self.conditions.edges;
+        // A corner holds the contact as long as it presses there; a width may be had without it, unless
+        // it held the last one. It cannot hold both edges.
+        let range = self.contact.gap.range();
+        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
+        let mut one_held = false;
+        for (i, edge) in self.conditions.edges.iter_mut().enumerate() {
+            if let Edge::UpTo(x) = *edge {
+                if !(x >= range[0] && x <= range[1]) {
+                    return Err(ContactError::OutsideBodies { x, range });
+                }
+                let touched = last.map(|on| [on.left, on.right][i] == x);
+                let held = touched.unwrap_or(by_load) && (by_load || !one_held);
+                one_held |= held;
+                *edge = if held { Edge::Fixed(x) } else { Edge::Free };
+            }
+        }
+        let mut found = match self.between_edges(last) {
+            Err(error) if self.conditions.edges != corners => {
+                // A corner that is far off may not be held at all.
+                for (edge, corner) in self.conditions.edges.iter_mut().zip(&corners) {
+                    if let Edge::UpTo(_) = corner {
+                        *edge = Edge::Free;
+                    }
+                }
+                self.between_edges(last).map_err(|_| error)?
+            }
+            found => found?,
+        };
+        for _ in 0..4 {
+            let on = found.interval;
+            let mut changed = false;
+            for (i, corner) in corners.iter().enumerate() {
+                let Edge::UpTo(x) = *corner else { continue };
+                let beyond = if i == 0 { on.left < x } else { on.right > x };
+                let edge = &mut self.conditions.edges[i];
+                if edge.is_free() && beyond {
+                    (*edge, changed) = (Edge::Fixed(x), true);
+                } else if !edge.is_free() && found.strengths[i] < T::zero() {
+                    (*edge, changed) = (Edge::Free, true);
+                }
+            }
+            if !changed {
+                break;
+            }
+            found = self.between_edges(Some(on))?;
+        }
+        let on = found.interval;
+        for (i, corner) in corners.iter().enumerate() {
+            let Edge::UpTo(x) = *corner else { continue };
+            let beyond = if i == 0 { x - on.left } else { on.right - x };
+            // Neither held by the corner nor within it.
+            if beyond > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
+                return Err(ContactError::NoBalance { half_width: on.half_width(), near: x });
+            }
+        }
+        Ok(found)
+    }
+
+    /// The same for edges of which each is either fixed or not.
+    fn between_edges(&mut self, last: Option<Interval<T>>) -> Result<Found<T>, ContactError<T>> {
+        let Conditions { edges, given, .. } = self.conditions;
+        let pulled = matches!(given, Given::Load(load) if load <= T::zero());
+        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        if pulled && adhesive && edges.iter().any(|edge| edge.limit().is_none()) {
+            self.pull(last)
+        } else {
+            self.press(last)
+        }
+    }
+
+    /// The same for a load that presses.
+    fn press(&mut self, last: Option<Interval<T>>) -> Result<Found<T>, ContactError<T>> {
+        let (gap, range) = (&self.contact.gap, self.contact.gap.range());
+        if let Some(on) = self.conditions.both_limits() {
+            return self.given(on);
+        }
+        let limits = self.conditions.edges.map(|edge| edge.limit());
+        for x in limits.into_iter().flatten() {
+            if !(x >= range[0] && x <= range[1]) {
+                return Err(ContactError::OutsideBodies { x, range });
+            }
+        }
+        self.engine.hold(gap, limits);
+        let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
+        let settled = if self.contact.search.is_none() { self.by_newton(last)? } else { None };
+        match (settled, self.conditions.given) {
+            (Some(settled), _) => self.contact_of(settled),
+            // A search of one limit at a time knows no tilt.
+            (None, Given::Centre { at, .. }) => {
+                Err(ContactError::NoBalance { half_width: self.start().half_width(), near: at })
+            }
+            (None, _) => self.by_nested_search().map_err(|error| self.because(error)),
+        }
+    }
+
+    /// By Newton's method; `None` where that goes astray.
+    fn by_newton(
+        &mut self,
+        last: Option<Interval<T>>,
+    ) -> Result<Option<Settled<T>>, ContactError<T>> {
+        let gap = &self.contact.gap;
+        if let Some(last) = last {
+            // What was sampled for the last load serves for the next.
+            if let Some(covered) = self.engine.covered() {
+                let again = settle(self.engine, gap, &self.conditions, last, Effort::Full);
+                let wide =
+                    |on: Interval<T>| on.half_width() >= T::of(0.3) * covered.half_width();
+                if let Some(settled) = again.unwrap_or(None).filter(|settled| wide(settled.on)) {
+                    return Ok(Some(settled));
+                }
+                self.check_if_close()?;
+            }
+            if let Ok(Some(settled)) = self.in_full(last, T::of(ABOUT)) {
+                return Ok(Some(settled));
+            }
+            self.check_if_close()?;
+            // The last contact was no help.
+            self.engine.forget();
+        }
+        let (guess, doubt) = match self.sketch()? {
+            Some(guess) => guess,
+            None => (self.start(), T::of(ABOUT)),
+        };
+        let settled = self.in_full(guess, doubt)?;
+        if settled.is_none() {
+            self.check_if_close()?;
+        }
+        Ok(settled)
+    }
+
+    /// By one limit at a time, on panels made for the contact in the end.
+    fn by_nested_search(&mut self) -> Result<Found<T>, ContactError<T>> {
+        self.engine.forget();
+        let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
+        let equations = Equations::Strength { conditions, load: conditions.load() };
+        let find = |single: &mut Self, start| {
+            nested::find(contact, equations, single.engine, start, single.cost)
+        };
+        let mut nested = find(self, self.start_if_known())?;
+        // Panels much wider than the contact are not as good as they look: search again on new ones.
+        for _ in 0..3 {
+            let covered = self.engine.covered().map(|on| on.half_width());
+            let wide = |covered: T| covered > T::of(1.25) * nested.on.half_width();
+            if contact.search.is_none() || !covered.is_some_and(wide) {
+                break;
+            }
+            let ([left, right], range) = (self.beyond(nested.on, T::of(ABOUT)), gap.range());
+            let stretch = Interval { left: left.max(range[0]), right: right.min(range[1]) };
+            self.engine.cover(gap, self.up_to_corners(stretch), false)?;
+            nested = find(self, Some(nested.on))?;
+        }
+        if contact.search.is_none()
+            && let Some(settled) = self.in_full(nested.on, T::zero())?
+        {
+            return self.contact_of(settled);
+        }
+        let on = nested.on;
+        let m = self.engine.moments(gap, on)?;
+        let load = match conditions.given {
+            Given::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(T::zero()),
+            Given::Load(load) | Given::Centre { load, .. } => load,
+        };
+        // A strategy and a rule of one's own are as good as one has asked for.
+        let own = contact.search.is_some() || m.trend.is_none();
+        let much = |error: T| error > T::of(MOST_DOUBT);
+        let error = strength_error(&conditions, &nested, load, &m);
+        let Some(error) = error.filter(|&error| own || !much(error)) else {
+            return Err(ContactError::NoBalance { half_width: on.half_width(), near: on.centre() });
+        };
+        if much(error) || (!own && error > T::epsilon().sqrt()) {
+            self.check()?;
+        }
+        Ok(Found::new(&conditions, on, load, Some(error), &m))
+    }
+
+    /// The contact between limits that are both known. What is not given is the load.
+    fn given(&mut self, on: Interval<T>) -> Result<Found<T>, ContactError<T>> {
+        let (gap, range, conditions) =
+            (&self.contact.gap, self.contact.gap.range(), &self.conditions);
+        super::check(on)?;
+        let sought = conditions.edges.iter().any(|edge| edge.limit().is_none());
+        if !sought && matches!(conditions.given, Given::HalfWidth(_)) {
+            return Err(ContactError::Control { interval: on });
+        }
+        let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
+        super::check_within(on, range, if sought { rounding } else { T::zero() })?;
+        let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+        self.engine.hold(gap, conditions.edges.map(|edge| edge.limit()));
+        // What was sampled for the last load serves for the next.
+        let serves = |covered: Interval<T>| {
+            let within = covered.left <= on.left && covered.right >= on.right;
+            within && on.half_width() >= T::of(0.3) * covered.half_width()
+        };
+        if !self.engine.covered().is_some_and(serves) {
+            self.engine.cover(gap, self.around(on, T::of(ABOUT)), false)?;
+        }
+        let m = self.engine.moments(gap, on)?;
+        let conditions = &self.conditions;
+        let Some(load) = conditions.balance(on, &m) else {
+            return Ok(Found::new(conditions, on, conditions.load(), None, &m));
+        };
+        let error = Some(relative_error(on, &m, m.first.abs() + m.mean.abs()));
+        Ok(Found::new(conditions, on, load, error, &m))
+    }
+
+    /// The contact that Newton's method has settled on.
+    fn contact_of(&mut self, settled: Settled<T>) -> Result<Found<T>, ContactError<T>> {
+        let (Settled { on, load, error, force }, conditions) = (settled, &self.conditions);
+        let m = self.engine.moments(&self.contact.gap, on)?;
+        let load = match conditions.given {
+            Given::Load(_) | Given::Centre { .. } => load,
+            Given::HalfWidth(_) => load_of(conditions, on, load, &m),
+        };
+        Ok(Found { force: Some(force), ..Found::new(conditions, on, load, Some(error), &m) })
+    }
+
+    /// Samples a stretch around a contact that is nearly right, and finds the limits on that.
+    fn in_full(
+        &mut self,
+        guess: Interval<T>,
+        doubt: T,
+    ) -> Result<Option<Settled<T>>, ContactError<T>> {
+        let gap = &self.contact.gap;
+        let (mut guess, mut best) = (guess.plain(), None);
+        for _ in 0..3 {
+            let stretch = self.around(guess, T::of(ABOUT) + doubt);
+            if self.engine.cover(gap, stretch, false)?.is_none() {
+                return Ok(None);
+            }
+            let settled = settle(self.engine, gap, &self.conditions, guess, Effort::Full)?;
+            let Some(settled) = settled else { return Ok(None) };
+            // Panels much wider than the contact are not as good as they look.
+            let covered = self.engine.covered().unwrap_or(stretch);
+            if settled.on.half_width() >= T::of(0.8) * covered.half_width() {
+                return Ok(Some(settled));
+            }
+            (guess, best) = (settled.on.plain(), Some(settled));
+        }
+        Ok(best)
+    }
+
+    /// A first estimate of the contact, and how far it is in doubt as a share of its half-width; `None` where
+    /// sketches lead nowhere.
+    fn sketch(&mut self) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
+        let gap = &self.contact.gap;
+        let range = gap.range();
+        let inside =
+            |on: &Interval<T>| on.left >= range[0] && on.right <= range[1] && on.left < on.right;
+        let mut stretch = self.start();
+        let mut on: Option<Interval<T>> = None;
+        let mut at_end = 0;
+        for _ in 0..MOST_SKETCHES {
+            if !inside(&stretch) {
+                return Ok(None);
+            }
+            let Some(doubt) = self.engine.cover(gap, stretch, true)? else { return Ok(None) };
+            let begin = on.unwrap_or(stretch);
+            let guess = settle(self.engine, gap, &self.conditions, begin, Effort::Sketch)?;
+            let Some(Settled { on: guess, error, .. }) = guess else { return Ok(None) };
+            let guess = guess.plain();
+            on = Some(guess);
+            let within = guess.left >= stretch.left && guess.right <= stretch.right;
+            let share = guess.half_width() / stretch.half_width();
+            // A joint inside is where it is, and only the width is in doubt.
+            let jointed = gap.joint_after(guess.left).is_some_and(|joint| joint < guess.right);
+            let comparable = share >= T::of(0.4);
+            let doubt = if jointed && !comparable { doubt.sqrt() } else { doubt };
+            let relative = if jointed { doubt } else { doubt / share };
+            let sure = T::of(if jointed { 0.1 } else { 0.02 });
+            // Outside, the doubt grows with the powers that the sketch has left out.
+            let apart = (guess.centre() - stretch.centre()).abs() / stretch.half_width();
+            let reached = share.max(apart).max(T::one());
+            if !within && relative * reached.powi(5) <= T::of(1e-3) && error <= sure {
+                return Ok(Some((guess, sure * T::of(0.5))));
+            }
+            if within && error <= T::of(0.1) && (comparable || relative <= sure) {
+                return Ok(Some((guess, relative.min(T::of(0.1)))));
+            }
+            // Around it, as closely as its place is known.
+            let rounding = T::of(64.0) * T::epsilon();
+            let largest = stretch.left.abs().max(stretch.right.abs());
+            let doubt = if jointed { T::zero() } else { (doubt + doubt).min(T::of(0.3)) };
+            let reach = (doubt * stretch.half_width()).max(rounding * largest);
+            let [left, right] = self.beyond(guess, T::of(0.125));
+            // What lies outside was guessed from the outermost panel, which may be a short one.
+            let guessed = |by: T| T::of(1.0 / 64.0) * by.max(T::zero());
+            let next = Interval {
+                left: left.min(guess.left - reach - guessed(stretch.left - guess.left)),
+                right: right.max(guess.right + reach + guessed(guess.right - stretch.right)),
+            };
+            // Half the way to an end, where the slope may be infinite.
+            let half_way = |x: T, from: T, end: T, is_beyond: bool| {
+                if is_beyond { T::of(0.5) * from + T::of(0.5) * end } else { x }
+            };
+            let is_beyond = [next.left <= range[0], next.right >= range[1]];
+            stretch = self.up_to_corners(Interval {
+                left: half_way(next.left, guess.left, range[0], is_beyond[0]),
+                right: half_way(next.right, guess.right, range[1], is_beyond[1]),
+            });
+            // One that comes to an end again and again is perhaps more than the bodies bear.
+            at_end += usize::from(is_beyond[0] || is_beyond[1]);
+            if at_end == MOST_AT_END {
+                self.check()?;
+            }
+        }
+        Ok(None)
+    }
+
+    /// The start, or the lowest gap.
+    fn start_if_known(&self) -> Option<Interval<T>> {
+        let Conditions { edges, given, kappa } = self.conditions;
+        // Beside what adhesion adds a load tells nothing.
+        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        let load = match given {
+            Given::Load(load) if !adhesive => Some(load / kappa),
+            _ => None,
+        };
+        self.start.or_else(|| Some(self.look?.around_lowest(load)))
+    }
+
+    /// Where the first sketch is: the start, or the middle half of the bodies; where the load acts at a given
+    /// place, around that.
+    fn start(&self) -> Interval<T> {
+        let [left, right] = self.contact.gap.range();
+        let (whole, half) = (Interval { left, right }, T::of(0.5));
+        let quarter = half * whole.half_width();
+        let (centre, reach) = match self.conditions.given {
+            Given::Centre { at, .. } => {
+                let at = at.part(0);
+                let reach = quarter.min(half * (at - left).min(right - at));
+                if reach > T::zero() { (at, reach) } else { (whole.centre(), quarter) }
+            }
+            _ => (whole.centre(), quarter),
+        };
+        let middle = Interval { left: centre - reach, right: centre + reach };
+        let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
+        let start = self.start_if_known().filter(inside).unwrap_or(middle);
+        let on = self.conditions.with_given_limits(start);
+        // A given limit may be closer to the end of the bodies than that is wide.
+        Interval {
+            left: if on.left < left { half * left + half * on.right } else { on.left },
+            right: if on.right > right { half * on.left + half * right } else { on.right },
+        }
+    }
+
+    /// Both limits moved outward by a share of what lies between them and the next joint inside. (A
+    /// body may be a thousand times as steep on the other side of a joint.)
+    fn beyond(&self, on: Interval<T>, share: T) -> [T; 2] {
+        let gap = &self.contact.gap;
+        let first = gap.joint_after(on.left).filter(|&joint| joint < on.right);
+        let last = gap.joint_before(on.right).filter(|&joint| joint > on.left);
+        let [right_end, left_end] = [first.unwrap_or(on.right), last.unwrap_or(on.left)];
+        [on.left - share * (right_end - on.left), on.right + share * (on.right - left_end)]
+    }
+
+    /// A stretch a little wider than a contact, by no more than half the way to the ends of the bodies.
+    fn around(&self, on: Interval<T>, share: T) -> Interval<T> {
+        let (half, range) = (T::of(0.5), self.contact.gap.range());
+        let [left, right] = self.beyond(on, share);
+        self.up_to_corners(Interval {
+            left: left.max(half * on.left + half * range[0]),
+            right: right.min(half * on.right + half * range[1]),
+        })
+    }
+
+    /// A stretch need not go beyond a fixed edge.
+    fn up_to_corners(&self, on: Interval<T>) -> Interval<T> {
+        let [left, right] = self.conditions.edges.map(|edge| edge.limit());
+        Interval { left: left.unwrap_or(on.left), right: right.unwrap_or(on.right) }.plain()
+    }
+
+    /// Pulls at an adhesive contact: from no load on, or from the widest that there is room for, in
+    /// steps, each starting from the contact before. The contact gives way where its width no longer
+    /// falls with the load, but all at once.
+    fn pull(&mut self, last: Option<Interval<T>>) -> Result<Found<T>, ContactError<T>> {
+        let load = self.conditions.load();
+        if let Some(last) = last
+            && let Some(found) = self.pulled(load, last)?
+        {
+            return Ok(found);
+        }
+        self.conditions.given = Given::Load(T::zero());
+        let mut fault = None;
+        let (mut least, mut last) = match self.press(None) {
+            Ok(found) if load.is_zero() => return Ok(found),
+            Ok(found) => (T::zero(), found.interval),
+            // Those of a contact that does not fit.
+            Err(
+                error @ (ContactError::TooShort { .. }
+                | ContactError::NoBalance { .. }
+                | ContactError::Overflow { .. }),
+            ) => {
+                let ends = self.contact.ends();
+                let widest = capacity(self.contact, &self.conditions, ends, self.cost);
+                let widest = widest.ok_or(error)?;
+                let too_short = widest.too_short(load);
+                if widest.load <= load {
+                    return Err(too_short);
+                }
+                // Unless it grows with its load, the one to be found is wider.
+                fault = Some(too_short);
+                (widest.load, widest.on)
+            }
+            Err(error) => return Err(error),
+        };
+        // Narrower contacts bear less than this. Where a step leads astray, half of it may not; what is
+        // left of the pull in the end is less than a thousandth of it.
+        let [pull_b, pull_a] = self.conditions.pull(last.half_width());
+        let least_of_all = T::of(-2.0) * (pull_a + pull_b);
+        let mut step = (load - least).max(least_of_all - least.max(T::zero()));
+        for _ in 0..MOST_PULLS {
+            let next = (least + step).max(load);
+            match self.pulled(next, last)? {
+                Some(found) if next <= load => return Ok(found),
+                Some(found) => (least, last, fault) = (next, found.interval, None),
+                None if step.abs() <= T::of(1e-3) * least.abs() => break,
+                None => step *= T::of(0.5),
+            }
+        }
+        Err(fault.unwrap_or(ContactError::PullOff { load, least }))
+    }
+
+    /// The contact under a load, from one nearby.
+    fn pulled(
+        &mut self,
+        load: T,
+        from: Interval<T>,
+    ) -> Result<Option<Found<T>>, ContactError<T>> {
+        self.conditions.given = Given::Load(load);
+        let settled = self.in_full(from, T::of(ABOUT))?;
+        settled.map(|settled| self.contact_of(settled)).transpose()
+    }
+
+    /// Refuses more than the bodies bear.
+    fn check(&mut self) -> Result<(), ContactError<T>> {
+        let Self { contact, conditions, cost, .. } = self;
+        // Turned, they bear another load.
+        if matches!(conditions.given, Given::Centre { .. }) {
+            return Ok(());
+        }
+        let range = contact.gap.range();
+        let bears = self.bears.get_or_insert_with(|| capacity(contact, conditions, range, cost));
+        let room = T::one() + T::of(8.0) * T::epsilon();
+        match (conditions.given, bears) {
+            (Given::Load(load), Some(bears)) if load > bears.load => Err(bears.too_short(load)),
+            (Given::HalfWidth(wanted), Some(bears)) if wanted > bears.on.half_width() * room => {
+                Err(bears.too_wide(wanted))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The same after Newton's method, which close to an end is perhaps on its way beyond.
+    fn check_if_close(&mut self) -> Result<(), ContactError<T>> {
+        let range = self.contact.gap.range();
+        let close = |on: Interval<T>| {
+            let away = (on.left - range[0]).min(range[1] - on.right);
+            away < T::of(1e-3) * on.half_width()
+        };
+        if self.engine.covered().is_some_and(close) { self.check() } else { Ok(()) }
+    }
+
+    /// That, where it is the reason for an error of a search.
+    fn because(&mut self, error: ContactError<T>) -> ContactError<T> {
+        match error {
+            ContactError::NoBalance { .. }
+            | ContactError::OutsideBodies { .. }
+            | ContactError::Overflow { .. } => self.check().err().unwrap_or(error),
+            _ => error,
+        }
+    }
+}
+
+/// The error of limits that the nested search has found, by what it says itself and by what is left at
+/// the free edges on the panels that it has ended with, which may have changed under way. `None` where
+/// load and adhesion are less than the rounding of the forces: any interval would do.
+fn strength_error<T: Real>(
+    conditions: &Conditions<T>,
+    nested: &Nested<T>,
+    load: T,
+    m: &Moments<T>,
+) -> Option<T> {
+    let on = nested.on;
+    let stiffness = conditions.kappa * on.half_width();
+    let [pull_b, pull_a] = conditions.pull(on.half_width());
+    let lost = T::epsilon() * stiffness * m.size > load.abs() + pull_a + pull_b;
+    let by_load = matches!(conditions.given, Given::Load(_));
+    if lost && by_load && conditions.edges.iter().any(|edge| edge.is_free()) {
+        return None;
+    }
+    let size = load.abs() + stiffness * m.size;
+    let mut error = nested.error;
+    for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
+        let missed = (load - stiffness * (m.first + sign * m.mean)).abs() / size;
+        if edge.is_free() && missed > error {
+            error = missed;
+        }
+    }
+    Some(error)
+}
