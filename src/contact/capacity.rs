@@ -35,26 +35,6 @@ pub(super) struct Capacity<T> {
 }
 
 impl<T: Real> Capacity<T> {
-    /// What an error says of it, if it is that of bodies with these ends.
-    pub fn of(error: &ContactError<T>, ends: [T; 2]) -> Option<Self> {
-        let (end, load, half_width, peak) = match *error {
-            ContactError::TooShort { end, carried, half_width, peak, .. } => {
-                (end, carried, half_width, peak)
-            }
-            ContactError::TooWide { end, load, half_width, peak, .. } => {
-                (end, load, half_width, peak)
-            }
-            _ => return None,
-        };
-        let width = half_width + half_width;
-        let on = if end == ends[0] {
-            Interval { left: end, right: end + width }
-        } else {
-            Interval { left: end - width, right: end }
-        };
-        ends.contains(&end).then_some(Self { on, end, load, peak })
-    }
-
     /// The error for a load that is more than the bodies bear.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;

@@ -46,7 +46,11 @@ impl<T: Real> EdgePressure<T> {
     }
 
     /// Whether a contact meets the conditions, given by how much it misses them.
-    pub(super) fn met(&self, on: Interval<T>, residual: &Residual<T>) -> Result<(), ContactError<T>> {
+    pub(super) fn met(
+        &self,
+        on: Interval<T>,
+        residual: &Residual<T>,
+    ) -> Result<(), ContactError<T>> {
         let [x_b, x_a] = self.places(on);
         let at_a = residual.at_a / (T::pi() * on.edge_root(x_a));
         let at_b = residual.at_b / (T::pi() * on.edge_root(x_b));

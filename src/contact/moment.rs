@@ -9,8 +9,8 @@
 
 use super::edges::{Conditions, Edge, Given};
 use super::several::Outcome;
-use super::topology::{self, Sought, Workspace};
 use super::single::Single;
+use super::topology::{self, Sought, Workspace};
 use super::{Contact, Found};
 use crate::gap::Cost;
 use crate::quadrature::{Engine, panels};

@@ -60,12 +60,13 @@ pub(super) fn find<T: Real>(
 ) -> Result<Nested<T>, ContactError<T>> {
     let gap = &contact.gap;
     let range = gap.range();
-    let load = match equations {
-        Equations::Strength { conditions: Conditions { given: Given::HalfWidth(width), .. }, .. } => {
-            return place(contact, equations, engine, width, start, cost);
-        }
-        Equations::Strength { load, .. } | Equations::Pressure { load, .. } => load,
-    };
+    if let Equations::Strength {
+        conditions: Conditions { given: Given::HalfWidth(width), .. },
+        ..
+    } = equations
+    {
+        return place(contact, equations, engine, width, start, cost);
+    }
     equations.check(range)?;
     let origin = match equations.limits() {
         [Some(given), _] | [_, Some(given)] => given,
@@ -82,7 +83,7 @@ pub(super) fn find<T: Real>(
         (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
         (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
-    let mut search = Search { load, ..Search::new(contact, equations, engine, origin, cost) };
+    let mut search = Search::new(contact, equations, engine, origin, cost);
     let trial = search.widen(half_width)?;
     if let Equations::Pressure { wanted, .. } = equations {
         wanted.met(trial.on, &trial.residual)?;
@@ -117,7 +118,8 @@ fn place<T: Real>(
                 let Residual { at_a, at_b, size, error, .. } = trial.residual;
                 let missed = T::of(0.5) * (at_a - at_b).abs() / size;
                 let width = Some(half_width);
-                let on = differentiate(&equations, gap, search.engine, trial.on, width, search.cost)?;
+                let on =
+                    differentiate(&equations, gap, search.engine, trial.on, width, search.cost)?;
                 return Ok(Nested { on, error: error + missed });
             }
             Placed::Beyond(end) => {
@@ -143,7 +145,6 @@ struct Trial<T> {
 }
 
 struct Search<'s, T: Real> {
-    contact: &'s Contact<'s, T>,
     equations: Equations<T>,
     gap: &'s Gap<'s, T>,
     engine: &'s mut dyn Engine<T>,
@@ -152,7 +153,6 @@ struct Search<'s, T: Real> {
     /// The point of first contact.
     origin: T,
     range: [T; 2],
-    load: T,
     /// The edge whose distance from the origin is looked for: the left (0) or the right one (1).
     near: usize,
     /// The share of the width that lay between it and the origin the last time.
@@ -172,7 +172,6 @@ impl<'s, T: Real> Search<'s, T> {
         cost: &'s mut Cost,
     ) -> Self {
         Self {
-            contact,
             equations,
             gap: &contact.gap,
             engine,
@@ -180,7 +179,6 @@ impl<'s, T: Real> Search<'s, T> {
             strategy: contact.strategy(),
             origin,
             range: contact.gap.range(),
-            load: T::one(),
             near: 1,
             share: T::of(0.5),
             stiffness: None,

@@ -32,8 +32,8 @@
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
 //! long one as in the power of L that the load is seen to go with.
 
-use super::single::MOST_DOUBT;
 use super::edges::{Conditions, Edge, Given};
+use super::single::MOST_DOUBT;
 use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
@@ -41,9 +41,8 @@ use nalgebra::{Matrix2, Vector2};
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
 
-/// Of these so many may lead beyond an end of the bodies: what they bear is another question, and each
-/// takes samples closer to that end.
-const MOST_AT_END: usize = 24;
+/// A step longer than so many half-widths leads nowhere.
+const MOST_STEP: f64 = 1e9;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]
@@ -65,36 +64,73 @@ pub(super) enum Effort {
     Full,
 }
 
-/// Finds the limits from a start nearby; `None` where that fails.
+/// How Newton's method ends.
+pub(super) enum Outcome<T> {
+    Settled(Settled<T>),
+    /// Step after step leads beyond an end of the bodies.
+    AtEnd,
+    Astray,
+}
+
+impl<T> Outcome<T> {
+    pub fn settled(self) -> Option<Settled<T>> {
+        match self {
+            Self::Settled(settled) => Some(settled),
+            Self::AtEnd | Self::Astray => None,
+        }
+    }
+}
+
+/// Finds the limits from a start nearby. `most_at_end` steps may lead beyond an end of the bodies: each takes
+/// samples closer to that.
 pub(super) fn settle<T: Real>(
     engine: &mut dyn Engine<T>,
     gap: &Gap<'_, T>,
     conditions: &Conditions<T>,
     start: Interval<T>,
     effort: Effort,
-) -> Result<Option<Settled<T>>, ContactError<T>> {
+    most_at_end: usize,
+) -> Result<Outcome<T>, ContactError<T>> {
     let (one, half) = (T::one(), T::of(0.5));
     let range = gap.range();
     let mut on = conditions.with_given_limits(start);
     let mut load = conditions.load();
-    let (mut before, mut at_end): (Option<T>, usize) = (None, 0);
+    let (mut before, mut before_move, mut at_end) = (None, None, 0);
     // A step that was cut short tells nothing of the next.
     let certain = |size: T| Some(size).filter(|&size| size <= T::of(0.25));
     for _ in 0..MOST_STEPS {
         let half_width = on.half_width();
         if !(half_width > T::zero() && half_width.is_finite()) {
-            return Ok(None);
+            return Ok(Outcome::Astray);
         }
         let m = engine.moments(gap, on)?;
-        let Some(system) = System::new(conditions, on, load, &m) else { return Ok(None) };
-        let Some(inverse) = system.matrix.try_inverse() else { return Ok(None) };
-        let [left, right, force] = system.step(&inverse);
-        if !((right - left).is_finite() && force.is_finite()) {
-            return Ok(None);
+        let Some(system) = System::new(conditions, on, load, &m) else {
+            return Ok(Outcome::Astray);
+        };
+        let inverse = system.matrix.try_inverse();
+        let step = inverse.map(|inverse| (inverse, system.step(&inverse)));
+        // Where the slope of the gap is even the limits do not act on it: back to where they did.
+        let leads = |&(_, [left, right, _]): &(_, [T; 3])| {
+            (right - left).abs() + (right + left).abs() <= T::of(MOST_STEP)
+        };
+        let Some((inverse, [left, right, force])) = step.filter(leads) else {
+            let Some(from) = before_move.filter(|from: &Interval<T>| !from.is_same(&on)) else {
+                return Ok(Outcome::Astray);
+            };
+            on = Interval {
+                left: half * from.left + half * on.left,
+                right: half * from.right + half * on.right,
+            };
+            before = None;
+            continue;
+        };
+        if !force.is_finite() {
+            return Ok(Outcome::Astray);
         }
         load += force;
         let size = right.abs() + left.abs();
-        let before_move = on;
+        before_move = Some(on);
+        let from = on;
         on = conditions.moved(on, [left, right], load / (conditions.kappa * half_width * m.first));
         // What fills the bodies may be rounded beyond them.
         let rounded = |x: T, end: T, beyond: T| {
@@ -110,15 +146,15 @@ pub(super) fn settle<T: Real>(
             if beyond { half * from + half * end } else { to }
         };
         let far = size > T::of(0.05);
-        let allowed = if far { opening(engine, conditions, before_move, on) } else { on };
+        let allowed = if far { opening(engine, conditions, from, on) } else { on };
         let allowed = Interval {
-            left: back(before_move.left, allowed.left, range[0], allowed.left < range[0]),
-            right: back(before_move.right, allowed.right, range[1], allowed.right > range[1]),
+            left: back(from.left, allowed.left, range[0], allowed.left < range[0]),
+            right: back(from.right, allowed.right, range[1], allowed.right > range[1]),
         };
         if allowed != on {
             at_end += usize::from(on.left < range[0] || on.right > range[1]);
-            if at_end > MOST_AT_END && effort == Effort::Full {
-                return Ok(None);
+            if at_end > most_at_end {
+                return Ok(Outcome::AtEnd);
             }
             (on, before) = (allowed, None);
             continue;
@@ -129,15 +165,15 @@ pub(super) fn settle<T: Real>(
             if size <= T::of(0.03) || on.half_width() < T::of(1e-6) * start.half_width() {
                 let sound =
                     opens(engine, conditions, on, system.tilt) && system.is_stable(conditions);
-                return Ok(sound.then_some(Settled { on, load, error: size, force: size }));
+                let settled = Settled { on, load, error: size, force: size };
+                return Ok(if sound { Outcome::Settled(settled) } else { Outcome::Astray });
             }
             before = certain(size);
             continue;
         }
         let small = next <= half * T::epsilon() && size <= half * half;
         // Across a kink a step is as much too long as the one before has been.
-        let crossed =
-            small && size > T::of(4.0) * T::epsilon() && crosses_joint(gap, before_move, on);
+        let crossed = small && size > T::of(4.0) * T::epsilon() && crosses_joint(gap, from, on);
         let done = small && !crossed;
         let slow = before.is_some() && share >= T::of(0.25);
         if done || slow {
@@ -147,7 +183,7 @@ pub(super) fn settle<T: Real>(
             let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
             if done || stalled {
                 if !(opens(engine, conditions, on, system.tilt) && system.is_stable(conditions)) {
-                    return Ok(None);
+                    return Ok(Outcome::Astray);
                 }
                 let left_over = (if stalled { one } else { share * share }) * half;
                 // The noise is known from a few coefficients only.
@@ -157,16 +193,16 @@ pub(super) fn settle<T: Real>(
                 let errors = [error(0, left), error(1, right)];
                 let force = system.force(errors);
                 if errors[0].max(errors[1]) > T::of(MOST_DOUBT) {
-                    return Ok(None);
+                    return Ok(Outcome::Astray);
                 }
                 let error = errors[0].max(errors[1]);
                 let (on, load) = further(engine, gap, conditions, on, load)?;
-                return Ok(Some(Settled { on, load, error, force }));
+                return Ok(Outcome::Settled(Settled { on, load, error, force }));
             }
         }
         before = certain(size).filter(|_| !crossed);
     }
-    Ok(None)
+    Ok(Outcome::Astray)
 }
 
 /// Whether an edge of the contact passes a joint from one step to the next.

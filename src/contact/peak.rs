@@ -84,6 +84,8 @@ struct Trials<'s, T: Real> {
     cost: &'s mut Cost,
     /// Where the next contact is looked for first.
     last: Option<Interval<T>>,
+    /// What the bodies bear, once looked at.
+    bears: Option<Option<Capacity<T>>>,
 }
 
 /// A contact, its largest pressure, and how that grows with the load.
@@ -96,10 +98,15 @@ impl<T: Real> Trials<'_, T> {
 
     fn at(&mut self, given: Given<T>) -> Result<Trial<T>, ContactError<T>> {
         let (contact, conditions) = (self.contact, self.conditions(given));
-        let (start, look, bears) = (contact.start, self.look, None);
+        let (start, look, bears) = (contact.start, self.look, self.bears);
         let (engine, cost) = (&mut *self.engine, &mut *self.cost);
-        let found =
-            Single { contact, conditions, start, look, engine, cost, bears }.find(self.last)?;
+        let mut single = Single { contact, conditions, start, look, engine, cost, bears };
+        let found = single.find(self.last);
+        // A corner may end them before they end themselves.
+        if contact.ends() == contact.gap.range() {
+            self.bears = single.bears;
+        }
+        let found = found?;
         let on = found.interval;
         let rounding = T::of(8.0) * T::epsilon() * on.half_width();
         super::check_within(on, contact.ends(), rounding)?;
@@ -144,7 +151,7 @@ pub(super) fn find<T: Real>(
     cost: &mut Cost,
 ) -> Result<Found<T>, ContactError<T>> {
     check_edges(contact)?;
-    let mut trials = Trials { contact, wanted, look, engine, cost, last: warm };
+    let mut trials = Trials { contact, wanted, look, engine, cost, last: warm, bears: None };
     let found = by_search(&mut trials, warm)?;
     if T::MORE_STEPS == 0 {
         return Ok(found);
@@ -173,7 +180,7 @@ fn by_search<T: Real>(
     // That of Hertz: or of a contact as wide as that, if there is one.
     let hertz = T::frac_pi_2() * wanted * half_width;
     let begin = trials.at(Given::HalfWidth(half_width));
-    let mut bears = begin.as_ref().err().and_then(|error| Capacity::of(error, contact.ends()));
+    let mut bears = trials.bears.flatten();
     let mut begin =
         begin.ok().filter(|(found, pressure, _)| found.load > zero && pressure.is_finite());
     let first = match (&begin, bears) {
@@ -200,14 +207,13 @@ fn by_search<T: Real>(
             Ok((_, pressure, rate)) => (pressure, rate),
             Err(ContactError::NoBalance { .. }) if high.is_none() => (zero, zero),
             Err(
-                error @ (ContactError::TooShort { .. }
+                ContactError::TooShort { .. }
                 | ContactError::OutsideBodies { .. }
-                | ContactError::NoBalance { .. }),
+                | ContactError::NoBalance { .. },
             ) => {
                 let conditions = trials.conditions(Given::Load(load));
-                let ends = contact.ends();
-                let known = bears.or_else(|| Capacity::of(&error, ends));
-                bears = known.or_else(|| capacity(contact, &conditions, ends, trials.cost));
+                let look = || capacity(contact, &conditions, contact.ends(), trials.cost);
+                bears = *trials.bears.get_or_insert_with(look);
                 match bears.filter(|widest| widest.load <= load) {
                     Some(widest) => {
                         let room = T::of(8.0) * T::epsilon() * wanted;

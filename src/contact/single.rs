@@ -8,14 +8,14 @@
 //! neither finds a contact it is asked what the bodies [bear](super::capacity).
 
 use super::capacity::{Capacity, capacity};
-use super::equations::{Equations, relative_error};
 use super::edges::{Conditions, Edge, Given};
+use super::equations::{Equations, relative_error};
 use super::nested::{self, Nested};
-use super::newton::{Effort, Settled, load_of, settle};
+use super::newton::{self, Effort, Outcome, Settled, load_of};
 use super::{Contact, Found};
 use crate::gap::{Cost, FirstLook};
 use crate::quadrature::{Engine, Moments};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, ProfileError, Real};
 
 /// More doubt than this, as a share of the half-width, is no contact found.
 pub(super) const MOST_DOUBT: f64 = 0.03;
@@ -23,8 +23,8 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_SKETCHES: usize = 120;
 
-/// Of which so many may reach for an end of the bodies before it is asked what these bear.
-const MOST_AT_END: usize = 40;
+/// Steps, or sketches, that may lead beyond an end of the bodies before it is asked what these bear.
+const MOST_AT_END: usize = 8;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
@@ -134,7 +134,11 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         }
         self.engine.hold(gap, limits);
         let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
-        let settled = if self.contact.search.is_none() { self.by_newton(last)? } else { None };
+        let settled = if self.contact.search.is_none() {
+            self.by_newton(last).map_err(|error| self.because(error))?
+        } else {
+            None
+        };
         match (settled, self.conditions.given) {
             (Some(settled), _) => self.contact_of(settled),
             // A search of one limit at a time knows no tilt.
@@ -150,22 +154,18 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         &mut self,
         last: Option<Interval<T>>,
     ) -> Result<Option<Settled<T>>, ContactError<T>> {
-        let gap = &self.contact.gap;
         if let Some(last) = last {
             // What was sampled for the last load serves for the next.
             if let Some(covered) = self.engine.covered() {
-                let again = settle(self.engine, gap, &self.conditions, last, Effort::Full);
-                let wide =
-                    |on: Interval<T>| on.half_width() >= T::of(0.3) * covered.half_width();
+                let again = self.settle(last, Effort::Full);
+                let wide = |on: Interval<T>| on.half_width() >= T::of(0.3) * covered.half_width();
                 if let Some(settled) = again.unwrap_or(None).filter(|settled| wide(settled.on)) {
                     return Ok(Some(settled));
                 }
-                self.check_if_close()?;
             }
             if let Ok(Some(settled)) = self.in_full(last, T::of(ABOUT)) {
                 return Ok(Some(settled));
             }
-            self.check_if_close()?;
             // The last contact was no help.
             self.engine.forget();
         }
@@ -173,11 +173,25 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             Some(guess) => guess,
             None => (self.start(), T::of(ABOUT)),
         };
-        let settled = self.in_full(guess, doubt)?;
-        if settled.is_none() {
-            self.check_if_close()?;
+        self.in_full(guess, doubt)
+    }
+
+    /// Newton's method on the samples at hand. Where it leads to an end of the bodies time and again that is
+    /// perhaps more than they bear.
+    fn settle(
+        &mut self,
+        from: Interval<T>,
+        effort: Effort,
+    ) -> Result<Option<Settled<T>>, ContactError<T>> {
+        let mut most_at_end = if self.bears.is_none() { MOST_AT_END } else { usize::MAX };
+        loop {
+            let gap = &self.contact.gap;
+            match newton::settle(self.engine, gap, &self.conditions, from, effort, most_at_end)? {
+                Outcome::AtEnd => self.check()?,
+                outcome => return Ok(outcome.settled()),
+            }
+            most_at_end = usize::MAX;
         }
-        Ok(settled)
     }
 
     /// By one limit at a time, on panels made for the contact in the end.
@@ -279,8 +293,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             if self.engine.cover(gap, stretch, false)?.is_none() {
                 return Ok(None);
             }
-            let settled = settle(self.engine, gap, &self.conditions, guess, Effort::Full)?;
-            let Some(settled) = settled else { return Ok(None) };
+            let Some(settled) = self.settle(guess, Effort::Full)? else { return Ok(None) };
             // Panels much wider than the contact are not as good as they look.
             let covered = self.engine.covered().unwrap_or(stretch);
             if settled.on.half_width() >= T::of(0.8) * covered.half_width() {
@@ -307,7 +320,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             }
             let Some(doubt) = self.engine.cover(gap, stretch, true)? else { return Ok(None) };
             let begin = on.unwrap_or(stretch);
-            let guess = settle(self.engine, gap, &self.conditions, begin, Effort::Sketch)?;
+            let guess = self.settle(begin, Effort::Sketch)?;
             let Some(Settled { on: guess, error, .. }) = guess else { return Ok(None) };
             let guess = guess.plain();
             on = Some(guess);
@@ -473,11 +486,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
     }
 
     /// The contact under a load, from one nearby.
-    fn pulled(
-        &mut self,
-        load: T,
-        from: Interval<T>,
-    ) -> Result<Option<Found<T>>, ContactError<T>> {
+    fn pulled(&mut self, load: T, from: Interval<T>) -> Result<Option<Found<T>>, ContactError<T>> {
         self.conditions.given = Given::Load(load);
         let settled = self.in_full(from, T::of(ABOUT))?;
         settled.map(|settled| self.contact_of(settled)).transpose()
@@ -502,22 +511,14 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         }
     }
 
-    /// The same after Newton's method, which close to an end is perhaps on its way beyond.
-    fn check_if_close(&mut self) -> Result<(), ContactError<T>> {
-        let range = self.contact.gap.range();
-        let close = |on: Interval<T>| {
-            let away = (on.left - range[0]).min(range[1] - on.right);
-            away < T::of(1e-3) * on.half_width()
-        };
-        if self.engine.covered().is_some_and(close) { self.check() } else { Ok(()) }
-    }
-
     /// That, where it is the reason for an error of a search.
     fn because(&mut self, error: ContactError<T>) -> ContactError<T> {
         match error {
             ContactError::NoBalance { .. }
             | ContactError::OutsideBodies { .. }
-            | ContactError::Overflow { .. } => self.check().err().unwrap_or(error),
+            | ContactError::Overflow { .. }
+            // As at an end of the bodies.
+            | ContactError::Profile { source: ProfileError::NotFinite { .. }, .. } => self.check().err().unwrap_or(error),
             _ => error,
         }
     }

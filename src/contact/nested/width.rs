@@ -47,6 +47,9 @@ impl<T: Real> Search<'_, T> {
         let mut tries = 0;
         loop {
             tries += 1;
+            if tries > MOST_WIDTHS {
+                return Err(self.no_balance(half_width));
+            }
             let trial = match (self.place(half_width)?, narrow) {
                 (Placed::At(trial), _) => trial,
                 (Placed::Adrift(_), _) => {
@@ -65,7 +68,7 @@ impl<T: Real> Search<'_, T> {
                     }
                     trial
                 }
-                (Placed::Beyond(_), None) if half_width * half > least && tries < MOST_WIDTHS => {
+                (Placed::Beyond(_), None) if half_width * half > least => {
                     half_width *= half;
                     continue;
                 }
@@ -74,9 +77,6 @@ impl<T: Real> Search<'_, T> {
             let (last, spread) = (trial.on.half_width(), trial.residual.spread());
             if spread == zero {
                 return Ok([trial, trial]);
-            }
-            if tries > MOST_WIDTHS {
-                return Err(self.no_balance(last));
             }
             if given && spread > zero {
                 for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {

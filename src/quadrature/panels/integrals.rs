@@ -97,12 +97,7 @@ pub(super) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
 }
 
 /// One panel holds the contact: over half a turn every cosine vanishes.
-fn whole<T: Real>(
-    sums: &mut Sums<T>,
-    (series, counting): &Series<T>,
-    tail: T,
-    on: Interval<T>,
-) {
+fn whole<T: Real>(sums: &mut Sums<T>, (series, counting): &Series<T>, tail: T, on: Interval<T>) {
     let half = T::of(0.5);
     let slopes = by_size!(size_for(*counting), N => derivative::<N, T>(series));
     let by_x = T::one() / on.half_width();
