@@ -46,6 +46,9 @@ const DENSE: usize = 120;
 /// Steps of conjugate gradients for one system.
 const MOST_STEPS: usize = 300;
 
+/// Cells times steps in all systems of equations before the search is given up: half a minute at worst.
+const MOST_WORK: usize = 200_000_000;
+
 /// How much finer than a contact the cells at a narrow gap in it may become.
 const FINEST: f64 = 1.0 / 40.0;
 
@@ -101,8 +104,8 @@ pub(super) enum NotFound<T: Real> {
     #[error("κ = {kappa:?}, F = {load:?}, from x = {:?} to {:?}", range[0], range[1])]
     Scene { kappa: T, load: T, range: [T; 2] },
     /// The set of loaded cells does not settle.
-    #[error("the cells that touch do not settle in {changes} changes")]
-    Unsettled { changes: usize },
+    #[error("the cells that touch do not settle in {solves} solves")]
+    Unsettled { solves: usize },
 }
 
 type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
@@ -163,6 +166,7 @@ struct ActiveSet<T> {
     /// Whether cells were cut since these were found.
     changed: bool,
     count: Count,
+    work: usize,
 }
 
 impl<T: Real> ActiveSet<T> {
@@ -188,6 +192,7 @@ impl<T: Real> ActiveSet<T> {
             level: T::zero(),
             changed: true,
             count: Count::default(),
+            work: 0,
         };
         let mut left = range[0];
         let cells = cells.clamp(1, MOST_CELLS);
@@ -323,6 +328,9 @@ impl<T: Real> ActiveSet<T> {
                 self.changed = false;
                 return Ok(());
             }
+            if self.work > MOST_WORK {
+                break;
+            }
             in_vain = if wrong.len() < least { 0 } else { in_vain + 1 };
             least = least.min(wrong.len());
             let all = if in_vain <= MOST_IN_VAIN { 0 } else { wrong.len() - 1 };
@@ -332,7 +340,7 @@ impl<T: Real> ActiveSet<T> {
                 cell.force = T::zero();
             }
         }
-        Err(NotFound::Unsettled { changes: MOST_CHANGES })
+        Err(NotFound::Unsettled { solves: self.count.solves })
     }
 
     /// Closes the gap in the loaded cells; how far off the forces may be.
@@ -341,6 +349,7 @@ impl<T: Real> ActiveSet<T> {
         let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
         let exact = if on.len() <= DENSE { self.eliminate(potential, &on) } else { None };
         let found = exact.is_some();
+        self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
         let forces = exact.unwrap_or_else(|| self.iterate(potential, &on));
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();

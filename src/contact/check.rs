@@ -10,6 +10,7 @@ use crate::gap::{Cost, Gap, LowPlace, Sampler};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Engine, Pressing};
 use crate::{ContactError, Interval, Real};
+use std::cmp::Ordering;
 
 /// Joints of a contact at which the pressure is looked at, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 64;
@@ -17,11 +18,20 @@ const MOST_JOINTS: usize = 64;
 /// Places with tension of which it is asked how far they can be trusted.
 const MOST_DOUBTFUL: usize = 256;
 
+/// Places in a contact at which the pressure is looked at for the gap beside it.
+const MOST_POINTS: usize = 256;
+
+/// The share of the load that the series of its pressures may leave open before more of them are taken.
+const OPEN: f64 = 1e-3;
+
+/// Places between two heights that are looked at where these may hide a wave.
+const PLACES: usize = 8;
+
 /// How often a stretch between two heights is halved in search of its lowest place.
 const MOST_HALVES: usize = 8;
 
-/// How much of the contact is not looked at beside a gap that has closed.
-const CLOSED: f64 = 1e-6;
+/// Places from that of a tension to the end of the contact at which the pressure is looked at.
+const HALVES: usize = 52;
 
 /// Steps to a least pressure between those that were looked at.
 const MOST_STEPS: usize = 4;
@@ -32,8 +42,27 @@ pub(super) struct Check<'c, T: Real> {
     pub engine: &'c dyn Engine<T>,
     pub kappa: T,
     pub found: &'c Found<T>,
-    /// Places at which two contacts have met with nothing but rounding between them: a concave kink, say.
-    pub closed: &'c [T],
+    /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
+    pub closed: &'c [Interval<T>],
+}
+
+/// Where the bodies would pull at each other, and room for pressures `[x, P]`.
+#[derive(Clone)]
+pub(super) struct Pulled<T> {
+    pub stretches: Vec<Interval<T>>,
+    seen: Vec<[T; 2]>,
+}
+
+impl<T> Pulled<T> {
+    pub fn new() -> Self {
+        Self { stretches: Vec::new(), seen: Vec::new() }
+    }
+}
+
+fn by_size<T: Real>(one: T, other: T) -> Ordering {
+    // NaN first.
+    let is_number = |value: T| value.partial_cmp(&value).is_some();
+    one.partial_cmp(&other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
 }
 
 impl<T: Real> Check<'_, T> {
@@ -59,27 +88,51 @@ impl<T: Real> Check<'_, T> {
         for &on in self.contacts() {
             let x = Field::places(on);
             let mut pressures = [T::zero(); POINTS];
-            let pressing = self.pressing();
-            self.engine.pressures(self.gap, &pressing, &x, &mut pressures, &mut Cost::default())?;
+            self.pressures(&x, &mut pressures)?;
             fields.push(Field::new(on, &x, &pressures));
         }
         Ok(())
     }
 
-    /// Where the bodies would have to pull at each other inside a contact, and the pressure there.
-    pub fn tension(&self, fields: &mut Vec<Field<T>>) -> Result<Option<[T; 2]>, ContactError<T>> {
-        let pulled = self.found.adhesive != [false; 2];
-        if pulled || panels::rises(self.engine, self.share()) == Some(true) {
+    fn pressures(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        let cost = &mut Cost::default();
+        self.engine.pressures(self.gap, &self.pressing(), x, pressures, cost)
+    }
+
+    /// Takes more pressures of those contacts whose series leaves much open: they hide many waves, or kinks.
+    pub fn resolve(&self, fields: &mut [Field<T>]) -> Result<(), ContactError<T>> {
+        for field in fields {
+            let mut count = POINTS;
+            while field.doubt() > T::of(OPEN) * self.found.load.abs() && count < MOST_POINTS {
+                count *= 2;
+                let x = (0..count).map(|i| Field::place(field.interval(), i, count));
+                let x: Vec<T> = x.collect();
+                let mut pressures = vec![T::zero(); count];
+                self.pressures(&x, &mut pressures)?;
+                field.refine(&x, pressures);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the bodies would have to pull at each other inside a contact, and the pressure there: the worst
+    /// such place, and in `pulled` all stretches on which they would.
+    pub fn tension(
+        &self,
+        fields: &mut Vec<Field<T>>,
+        Pulled { stretches: pulled, seen }: &mut Pulled<T>,
+    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        pulled.clear();
+        let adhesive = self.found.adhesive != [false; 2];
+        if adhesive || panels::rises(self.engine, self.share()) == Some(true) {
             return Ok(None);
         }
         self.fields(fields)?;
-        let hull = self.found.interval;
         let mut found: Vec<[T; 2]> = Vec::new();
         let mut meet = |x: T, pressure: T, allowed: T| {
-            let is_closed = |&closed: &T| (x - closed).abs() <= T::of(CLOSED) * hull.half_width();
             // NaN does not press either.
             let presses = pressure >= -allowed;
-            if !presses && !self.closed.iter().any(is_closed) {
+            if !presses && !self.closed.iter().any(|closed| closed.contains(x)) {
                 found.push([x, pressure]);
             }
         };
@@ -88,17 +141,35 @@ impl<T: Real> Check<'_, T> {
             let mean = field.load().abs() / on.half_width();
             let allowed =
                 self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
-            let (at, known) = (Field::places(on), field.pressures());
-            for (&x, &pressure) in at.iter().zip(known) {
-                meet(x, pressure, allowed);
-            }
+            seen.clear();
+            let both = Field::places(on).into_iter().zip(field.pressures());
+            seen.extend(both.map(|(x, &pressure)| [x, pressure]));
+            // What the panels resolve is not narrower than their nodes.
+            let (mut places, mut count) = ([T::zero(); POINTS], 0);
+            let mut look = |places: &[T]| {
+                let mut pressures = [T::zero(); POINTS];
+                let out = &mut pressures[..places.len()];
+                self.pressures(places, out)?;
+                seen.extend(places.iter().zip(out).map(|(&x, &mut pressure)| [x, pressure]));
+                Ok::<_, ContactError<T>>(())
+            };
+            panels::nodes(self.engine, i, &mut |x| {
+                (places[count], count) = (x, count + 1);
+                if count == POINTS {
+                    count = 0;
+                    look(&places)?;
+                }
+                Ok(())
+            })?;
+            look(&places[..count])?;
+            seen.sort_by(|one, other| by_size(one[0], other[0]));
+            seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
             // Between them, at the vertex of the parabola through each least value and its neighbours.
-            for i in 1..POINTS - 1 {
-                let [before, least, after] = [known[i - 1], known[i], known[i + 1]];
-                if !(least <= before && least <= after) {
+            for near in seen.windows(3) {
+                let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
+                if !(p[1] <= p[0] && p[1] <= p[2]) {
                     continue;
                 }
-                let (mut x, mut p) = ([at[i + 1], at[i], at[i - 1]], [after, least, before]);
                 for _ in 0..MOST_STEPS {
                     let [one, two] = [x[1] - x[0], x[2] - x[1]];
                     let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
@@ -112,14 +183,7 @@ impl<T: Real> Check<'_, T> {
                         break;
                     }
                     let mut pressure = [T::zero()];
-                    let cost = &mut Cost::default();
-                    self.engine.pressures(
-                        self.gap,
-                        &self.pressing(),
-                        &[vertex],
-                        &mut pressure,
-                        cost,
-                    )?;
+                    self.pressures(&[vertex], &mut pressure)?;
                     meet(vertex, pressure[0], allowed);
                     (x, p) = if vertex < x[1] {
                         ([x[0], vertex, x[1]], [p[0], pressure[0], p[1]])
@@ -128,49 +192,74 @@ impl<T: Real> Check<'_, T> {
                     };
                 }
             }
-            let mut places = [T::zero(); POINTS];
-            let mut count = 0;
-            let mut look = |places: &[T]| {
-                let mut pressures = [T::zero(); POINTS];
-                let out = &mut pressures[..places.len()];
-                let cost = &mut Cost::default();
-                self.engine.pressures(self.gap, &self.pressing(), places, out, cost)?;
-                places.iter().zip(out).for_each(|(&x, &mut pressure)| meet(x, pressure, allowed));
-                Ok::<_, ContactError<T>>(())
-            };
             // Where the slope jumps down the pressure goes to minus infinity.
             for joint in self.gap.telling_joints(on, -T::one(), MOST_JOINTS) {
                 let doubt = self.engine.doubt(joint).unwrap_or(T::zero());
                 if self.gap.jump(joint)[0].abs() > T::of(16.0) * doubt {
-                    look(&[joint])?;
+                    let mut pressure = [T::zero()];
+                    self.pressures(&[joint], &mut pressure)?;
+                    meet(joint, pressure[0], allowed);
                 }
             }
-            // What the panels resolve is not narrower than their nodes.
-            panels::nodes(self.engine, i, &mut |x| {
-                (places[count], count) = (x, count + 1);
-                if count == POINTS {
-                    count = 0;
-                    look(&places)?;
-                }
-                Ok(())
-            })?;
-            look(&places[..count])?;
         }
-        found.sort_by(|one, other| {
-            one[1].partial_cmp(&other[1]).unwrap_or(std::cmp::Ordering::Less)
-        });
+        found.sort_by(|one, other| by_size(one[1], other[1]));
+        let mut worst = None;
         for &[x, pressure] in found.iter().take(MOST_DOUBTFUL) {
-            if !pressure.is_finite() {
-                return Ok(Some([x, pressure]));
+            if pulled.iter().any(|stretch| stretch.contains(x)) {
+                continue;
             }
             // Beside a kink that nobody declared a value may be all doubt.
-            let cost = &mut Cost::default();
-            let estimate = self.engine.estimate(self.gap, &self.pressing(), x, cost)?;
-            if pressure + estimate.error < T::zero() {
-                return Ok(Some([x, pressure]));
+            if pressure.is_finite() {
+                let cost = &mut Cost::default();
+                let estimate = self.engine.estimate(self.gap, &self.pressing(), x, cost)?;
+                if pressure + estimate.error >= T::zero() {
+                    continue;
+                }
+            }
+            worst.get_or_insert([x, pressure]);
+            pulled.push(Interval {
+                left: self.presses_from(x, false)?,
+                right: self.presses_from(x, true)?,
+            });
+        }
+        Ok(worst)
+    }
+
+    /// The place nearest to one without pressure, of some that lie twice as far away each, where there is some;
+    /// or else the end of the contact.
+    fn presses_from(&self, x: T, right: bool) -> Result<T, ContactError<T>> {
+        let on = self.contacts().iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
+        let end = if right { on.right } else { on.left };
+        let mut places = [x; HALVES];
+        let mut away = end - x;
+        for place in places.iter_mut().rev() {
+            away *= T::of(0.5);
+            *place = x + away;
+        }
+        let mut pressures = [T::zero(); HALVES];
+        self.pressures(&places, &mut pressures)?;
+        let mut both = places.iter().zip(&pressures);
+        let first = both.find(|&(&place, &pressure)| place != x && pressure > T::zero());
+        Ok(first.map_or(end, |(&place, _)| place))
+    }
+
+    /// Between which of some places the loaded gap is lowest.
+    fn valley(
+        &self,
+        pressed: &impl Fn(T) -> T,
+        sampler: &mut Sampler<T>,
+        [from, to]: [T; 2],
+    ) -> Result<[T; 2], ContactError<T>> {
+        let step = (to - from) / T::count(PLACES + 1);
+        let (mut lowest, mut least) = (from, None);
+        for i in 1..=PLACES {
+            let x = from + step * T::count(i);
+            let gap = sampler.height(self.gap, x)? - pressed(x) / self.kappa;
+            if least.is_none_or(|least| gap < least) {
+                (lowest, least) = (x, Some(gap));
             }
         }
-        Ok(None)
+        Ok([lowest - step, lowest + step])
     }
 
     /// About where the loaded gap is lowest between two places, at the first of which it falls and at the
@@ -208,7 +297,7 @@ impl<T: Real> Check<'_, T> {
         // takes off it.
         let mut from: Option<(usize, T, T)> = None;
         let mut next = 0;
-        for LowPlace { x, height, between } in heights {
+        for LowPlace { x, height, between, doubt: hidden } in heights {
             while next <= last && contacts[next].right <= x {
                 next += 1;
             }
@@ -235,7 +324,7 @@ impl<T: Real> Check<'_, T> {
             let allowed = doubt
                 + self.share() * (height - at_edge).abs()
                 + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
-            if gap(height) >= -allowed {
+            if gap(height - hidden) >= -allowed {
                 continue;
             }
             // The height may be an interpolated one, or a bound.
@@ -244,7 +333,11 @@ impl<T: Real> Check<'_, T> {
                     // Not in the contacts on either side.
                     let from = next.checked_sub(1).map_or(from, |i| from.max(contacts[i].right));
                     let to = contacts.get(next).map_or(to, |on| to.min(on.left));
-                    self.lowest_between(fields, &mut sampler, [from, to])?
+                    let mut between = [from, to];
+                    if gap(height + hidden) >= -allowed {
+                        between = self.valley(&total, &mut sampler, between)?;
+                    }
+                    self.lowest_between(fields, &mut sampler, between)?
                 }
                 None => x,
             };

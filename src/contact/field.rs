@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Values at 32 angles are enough for rounding where the pressure is smooth, and for a thousandth of it
-//! elsewhere.
+//! elsewhere; more are taken where it turns on that.
 
 use crate::{Interval, Real};
 use std::f64::consts::PI;
@@ -27,27 +27,40 @@ pub(crate) struct Field<T> {
     on: Interval<T>,
     pressures: [T; POINTS],
     q: [T; POINTS],
+    /// More coefficients in place of q, if any.
+    finer: Vec<T>,
 }
 
 impl<T: Real> Field<T> {
     /// The places at which the pressure is wanted, from right to left.
     pub fn places(on: Interval<T>) -> [T; POINTS] {
-        std::array::from_fn(|i| {
-            on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS))
-        })
+        std::array::from_fn(|i| Self::place(on, i, POINTS))
+    }
+
+    /// One of so many.
+    pub fn place(on: Interval<T>, i: usize, count: usize) -> T {
+        on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(count))
     }
 
     /// From the pressures at those places.
     pub fn new(on: Interval<T>, x: &[T; POINTS], pressures: &[T; POINTS]) -> Self {
         let bounded: [T; POINTS] = std::array::from_fn(|i| pressures[i] * on.edge_root(x[i]));
-        let q = std::array::from_fn(|n| {
-            let term = |sum: T, i: usize| {
-                sum + bounded[i] * T::of(COSINES[(2 * i + 1) * n % (4 * POINTS)])
-            };
-            let sum = (0..POINTS).fold(T::zero(), term) / T::count(POINTS);
-            if n == 0 { sum } else { sum + sum }
-        });
-        Self { on, pressures: *pressures, q }
+        let q = std::array::from_fn(|n| coefficient(n, &bounded, &*COSINES));
+        Self { on, pressures: *pressures, q, finer: Vec::new() }
+    }
+
+    /// From the pressures at more places.
+    pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
+        let count = x.len();
+        let step = PI / (2 * count) as f64;
+        let cosines: Vec<_> = (0..4 * count).map(|m| (m as f64 * step).cos()).collect();
+        pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.edge_root(x));
+        self.finer = (0..count).map(|n| coefficient(n, &pressures, &cosines)).collect();
+    }
+
+    /// q₀, q₁, ...
+    pub fn coefficients(&self) -> &[T] {
+        if self.finer.is_empty() { &self.q } else { &self.finer }
     }
 
     /// `∫ P ln|x - s| ds` at a place that is not inside the contact.
@@ -59,7 +72,8 @@ impl<T: Real> Field<T> {
         let size = T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt();
         let u = if right { T::one() / size } else { -T::one() / size };
         let (mut sum, mut power) = (T::zero(), T::one());
-        for (n, &q) in self.q.iter().enumerate().skip(1) {
+        let all = self.coefficients();
+        for (n, &q) in all.iter().enumerate().skip(1) {
             power *= u;
             // From afar a contact is a line load.
             if power.abs() < T::epsilon() {
@@ -67,7 +81,7 @@ impl<T: Real> Field<T> {
             }
             sum += q * power / T::count(n);
         }
-        T::pi() * (self.q[0] * (T::of(0.5) * half_width * size).ln() - sum)
+        T::pi() * (all[0] * (T::of(0.5) * half_width * size).ln() - sum)
     }
 
     pub fn interval(&self) -> Interval<T> {
@@ -80,7 +94,8 @@ impl<T: Real> Field<T> {
 
     /// What the coefficients left out may add to the potential.
     pub fn doubt(&self) -> T {
-        let tail = self.q[POINTS - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
+        let all = self.coefficients();
+        let tail = all[all.len() - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
         T::of(4.0) * T::pi() * tail
     }
 
@@ -93,7 +108,7 @@ impl<T: Real> Field<T> {
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let size = T::one() / (T::one() + beyond + root);
         let u = if right { size } else { -size };
-        let sum = self.q.iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
+        let sum = self.coefficients().iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
         let pull = T::pi() * sum / (root * half_width);
         if right { pull } else { -pull }
     }
@@ -102,6 +117,16 @@ impl<T: Real> Field<T> {
     pub fn load(&self) -> T {
         T::pi() * self.q[0]
     }
+}
+
+/// Number n of the coefficients of a cosine series, from its values.
+fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64]) -> T {
+    let count = values.len();
+    let terms = values.iter().enumerate();
+    let sum = terms.fold(T::zero(), |sum, (i, &value)| {
+        sum + value * T::of(cosines[(2 * i + 1) * n % (4 * count)])
+    }) / T::count(count);
+    if n == 0 { sum } else { sum + sum }
 }
 
 #[cfg(test)]

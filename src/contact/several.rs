@@ -47,8 +47,6 @@ pub(super) struct Newton<T> {
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
     pub errors: Vec<T>,
     pub steps: usize,
-    /// Places at which the slope of the gap falls so steeply that no contact holds them.
-    pub kinks: Vec<T>,
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
@@ -64,22 +62,9 @@ impl<T: Real> Newton<T> {
     pub fn new() -> Self {
         let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, kinks, tilt) = (Vec::new(), Vec::new(), T::zero());
+        let (on, tilt) = (Vec::new(), T::zero());
         let steps = 0;
-        Self {
-            tilt,
-            on,
-            errors,
-            steps,
-            kinks,
-            system,
-            linear,
-            step,
-            moves,
-            corrections,
-            unit,
-            open,
-        }
+        Self { tilt, on, errors, steps, system, linear, step, moves, corrections, unit, open }
     }
 
     /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
@@ -93,6 +78,7 @@ impl<T: Real> Newton<T> {
         ends: [T; 2],
         at: Option<T>,
     ) -> Result<Outcome, ContactError<T>> {
+        self.errors.clear();
         let mut turned = gap.tilted(if at.is_some() { self.tilt } else { gap.tilt() });
         let (one, half) = (T::one(), T::of(0.5));
         let mut before: Option<T> = None;
@@ -100,6 +86,10 @@ impl<T: Real> Newton<T> {
         let mut more_steps = None;
         for _ in 0..MOST_STEPS {
             self.steps += 1;
+            // Between two contacts at a concave kink the gap falls exponentially with the load.
+            if let Some(i) = (0..self.on.len() - 1).find(|&i| self.is_nothing(i)) {
+                return Ok(Outcome::Closed(i));
+            }
             several.set(&turned, &self.on, corners, ends)?;
             several.system(load, &mut self.system);
             if let Some(at) = at {
@@ -138,12 +128,6 @@ impl<T: Real> Newton<T> {
             if beyond_right {
                 self.on[last].right = half * hull.right + half * ends[1];
             }
-            // Between two contacts at a concave kink the gap falls exponentially with the load.
-            let nothing =
-                |&i: &usize| self.on[i].right <= self.on[i + 1].left && self.is_nothing(i);
-            if let Some(i) = (0..last).find(nothing) {
-                return Ok(Outcome::Closed(i));
-            }
             // A contact may have left the bodies as a whole.
             let ordered = |pair: [T; 2]| pair[0] < pair[1];
             if !self.on.iter().all(|on| ordered([on.left, on.right]))
@@ -170,9 +154,22 @@ impl<T: Real> Newton<T> {
             let ratio = before.map_or(one, |before| size / before);
             let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
             // Rounding keeps the steps from falling any further.
-            let stalled = size <= T::epsilon().sqrt() && ratio >= T::of(0.25);
+            let stalled = ratio >= T::of(0.25);
             if done || stalled {
-                self.estimate(corners, if stalled { size } else { T::zero() });
+                self.estimate(corners);
+            }
+            if done || stalled && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
+                if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {
+                    return Ok(Outcome::Closed(i));
+                }
+                if stalled {
+                    let left =
+                        self.moves.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
+                    let add = |(error, (step, half_width)): (&mut T, (&T, T))| {
+                        *error += step.abs() / half_width
+                    };
+                    self.errors.iter_mut().zip(left).for_each(add);
+                }
                 if T::MORE_STEPS == 0 {
                     several.set(&turned, &self.on, corners, ends)?;
                     return Ok(Outcome::Found);
@@ -268,24 +265,6 @@ impl<T: Real> Newton<T> {
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
         }
-        // A gap at a kink keeps it, however narrow it becomes.
-        for i in (1..count - 1).step_by(2) {
-            let (left, right) = (*self.limit(i), *self.limit(i + 1));
-            let Some(&kink) = self.kinks.iter().find(|&&kink| left < kink && kink < right) else {
-                continue;
-            };
-            let times = match cut {
-                Some((place, times)) if place == i => times + 1,
-                _ => 1,
-            };
-            let most = one - T::of(LEAST_LEFT.powi(times as i32));
-            let (from_left, to_right) = (most * (kink - left), most * (right - kink));
-            if self.moves[i] > from_left || -self.moves[i + 1] > to_right {
-                self.moves[i] = self.moves[i].min(from_left);
-                self.moves[i + 1] = self.moves[i + 1].max(-to_right);
-                held = Some((-one, i));
-            }
-        }
         // What is good for one width may be too much for the next.
         let mut share = one;
         for i in 0..count - 1 {
@@ -304,20 +283,50 @@ impl<T: Real> Newton<T> {
         held.map(|(_, place)| place)
     }
 
-    /// Whether the gap after a contact is as narrow as rounding.
+    /// Whether the gap after a contact is as narrow as rounding, or as what is in doubt of its limits.
     pub fn is_nothing(&self, i: usize) -> bool {
-        let [from, to] = [self.on[i].right, self.on[i + 1].left];
-        to - from <= T::of(64.0) * T::epsilon() * from.abs().max(to.abs())
+        let ([one, other], doubtful) = ([self.on[i], self.on[i + 1]], self.doubtful_gap(i));
+        let size = one.right.abs().max(other.left.abs());
+        let width = doubtful.right - doubtful.left;
+        let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * (other.right - one.left);
+        self.gap(i) <= T::of(64.0) * T::epsilon() * size
+            || is_point && self.gap(i) <= T::of(0.5) * width
     }
 
-    /// The largest step, as a share of the half-width of its contact.
+    /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
+    /// the pressure tells how narrow the gap is.
     fn size(&self, corners: [bool; 2]) -> T {
-        let share = |((i, _), &step): ((usize, bool), &T)| step.abs() / self.on[i].half_width();
+        let share = |((i, right), &step): ((usize, bool), &T)| {
+            let gap = if right { Some(i) } else { i.checked_sub(1) };
+            let gap =
+                gap.filter(|&gap| gap + 1 < self.on.len()).map(|gap| T::of(0.5) * self.gap(gap));
+            step.abs() / gap.map_or(self.on[i].half_width(), |gap| gap.min(self.on[i].half_width()))
+        };
         self.free(corners).zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
     }
 
-    /// What the equations leave open of the limits, and rounding; `left` is what the last step has left.
-    fn estimate(&mut self, corners: [bool; 2], left: T) {
+    /// The width of the gap after a contact.
+    fn gap(&self, i: usize) -> T {
+        self.on[i + 1].left - self.on[i].right
+    }
+
+    /// The gap after a contact, as far as its limits are in doubt.
+    pub fn doubtful_gap(&self, i: usize) -> Interval<T> {
+        let [left, right] = [self.on[i].right, self.on[i + 1].left];
+        let doubt = [(i, 2 * i + 1), (i + 1, 2 * i + 2)].map(|(i, limit)| {
+            self.errors.get(limit).map_or(T::zero(), |&error| error * self.on[i].half_width())
+        });
+        Interval { left: left - doubt[0], right: right + doubt[1] }
+    }
+
+    /// Whether no limit has moved by more than it is in doubt.
+    fn is_all_doubt(&self) -> bool {
+        let errors = self.errors.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
+        errors.zip(&self.moves).all(|((&error, half_width), step)| step.abs() <= error * half_width)
+    }
+
+    /// What the equations leave open of the limits, and rounding.
+    fn estimate(&mut self, corners: [bool; 2]) {
         let n = self.step.len();
         self.open.clear();
         self.open.resize(n, T::zero());
@@ -335,8 +344,8 @@ impl<T: Real> Newton<T> {
         for ((i, right), &open) in self.free(corners).zip(&self.open) {
             let on = self.on[i];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
-            let error = T::of(4.0) * (open + rounding) / on.half_width() + left;
-            self.errors[2 * i + usize::from(right)] = error;
+            self.errors[2 * i + usize::from(right)] =
+                T::of(4.0) * (open + rounding) / on.half_width();
         }
     }
 }

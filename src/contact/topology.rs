@@ -7,7 +7,7 @@
 //! solution: what passes the checks is it, whatever the way there.
 
 use super::active_set::{FIRST_CELLS, NotFound, Scene, active_set};
-use super::check::Check;
+use super::check::{Check, Pulled};
 use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
 use super::several::{Newton, Outcome};
@@ -21,7 +21,8 @@ use crate::{ContactError, Interval, Real};
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
 
-/// The share of a contact, or of the bodies, on which a place that fails a check is looked at more closely.
+/// The share of a contact by which a limit leaves a corner that does not hold it; its square is the share of the
+/// bodies that a contact has at first where they would overlap.
 const CLOSER: f64 = 0.01;
 
 /// What a search needs besides samples, kept from one solve to the next.
@@ -35,6 +36,8 @@ pub(crate) struct Workspace<T> {
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
+    /// Where the bodies would pull at each other in what was checked last.
+    pulled: Pulled<T>,
     pub report: Report,
 }
 
@@ -47,6 +50,7 @@ impl<T: Real> Workspace<T> {
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
+            pulled: Pulled::new(),
             report: Report::new(),
         }
     }
@@ -115,7 +119,6 @@ pub(super) fn find<T: Real>(
     let edges = contact.checked_edges()?;
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let convex = gap.is_convex();
-    workspace.newton.kinks.clear();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
     let mut search =
@@ -174,7 +177,7 @@ struct Search<'s, 'b, T: Real> {
     /// Cells that the next active set starts with.
     cells: usize,
     /// Where gaps have closed.
-    closed: Vec<T>,
+    closed: Vec<Interval<T>>,
     /// The error where the active set reaches the end of the bodies.
     runs_out: Option<ContactError<T>>,
 }
@@ -235,11 +238,11 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let engine = own.as_deref().unwrap_or(&*self.engine);
         self.workspace.look(gap, self.cost)?;
-        let Workspace { look, fields, .. } = &mut *self.workspace;
+        let Workspace { look, fields, pulled, .. } = &mut *self.workspace;
         let check = Check { gap, engine, kappa, found, closed: &self.closed };
         let (interval, load) = (found.interval, found.load);
         fields.clear();
-        if let Some([x, pressure]) = check.tension(fields)? {
+        if let Some([x, pressure]) = check.tension(fields, pulled)? {
             if pressure.partial_cmp(&pressure).is_none() {
                 return Err(ContactError::Overflow { interval });
             }
@@ -250,6 +253,7 @@ impl<T: Real> Search<'_, '_, T> {
             if fields.is_empty() {
                 check.fields(fields)?;
             }
+            check.resolve(fields)?;
             let [left, right] = self.contact.ends();
             let within = |low: &LowPlace<T>| low.x >= left && low.x <= right;
             let turned =
@@ -288,7 +292,7 @@ impl<T: Real> Search<'_, '_, T> {
         self.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             if start == Start::ActiveSet {
-                self.active_set(&conditions, fault.as_ref())?;
+                self.active_set(&conditions)?;
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
@@ -314,7 +318,15 @@ impl<T: Real> Search<'_, '_, T> {
                     }
                     Some(error) => {
                         self.workspace.report.add(start, Verdict::of(&error));
-                        (start, fault) = (Start::ActiveSet, Some(error));
+                        // Where one overlap follows another, cells see all of them at once.
+                        let again =
+                            start == Start::Trial && self.workspace.pulled.stretches.is_empty();
+                        start = if self.mend(&error) && !again {
+                            Start::Trial
+                        } else {
+                            Start::ActiveSet
+                        };
+                        fault = Some(error);
                         continue;
                     }
                 },
@@ -323,8 +335,7 @@ impl<T: Real> Search<'_, '_, T> {
             if let Outcome::Closed(i) = outcome
                 && self.workspace.newton.is_nothing(i)
             {
-                let on = &self.workspace.newton.on;
-                self.closed.push(T::of(0.5) * (on[i].right + on[i + 1].left));
+                self.closed.push(self.workspace.newton.doubtful_gap(i));
             }
             // Where the search has led without an end says little.
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
@@ -346,7 +357,13 @@ impl<T: Real> Search<'_, '_, T> {
                     on[last].right = ends[1];
                     Verdict::ReachedCorner
                 }
-                _ => Verdict::NotFound,
+                _ => {
+                    // Where contacts were mended cells are to look; of others nothing is to be learnt.
+                    if start != Start::Trial {
+                        on.clear();
+                    }
+                    Verdict::NotFound
+                }
             };
             self.workspace.report.add(start, verdict);
             start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
@@ -366,8 +383,10 @@ impl<T: Real> Search<'_, '_, T> {
         if let [on] = newton.on[..] {
             let (start, look, bears) = (Some(on), None, Some(None));
             let (conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
-            let mut single = Single { contact, conditions, start, look, engine, cost, bears };
-            return single.find(start).map(Ok);
+            let found =
+                Single { contact, conditions, start, look, engine, cost, bears }.find(start)?;
+            newton.on[0] = found.interval;
+            return Ok(Ok(found));
         }
         for (side, corner) in corners.into_iter().enumerate() {
             let last = newton.on.len() - 1;
@@ -404,27 +423,41 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(Ok(found))
     }
 
+    /// Parts the contacts at hand where they would pull, or puts one where the bodies would overlap; whether
+    /// any is left.
+    fn mend(&mut self, fault: &ContactError<T>) -> bool {
+        let Workspace { newton: Newton { on, .. }, pulled, .. } = &mut *self.workspace;
+        for stretch in &pulled.stretches {
+            let apart = |on: Interval<T>| {
+                let left = Interval { right: on.right.min(stretch.left), ..on };
+                let right = Interval { left: on.left.max(stretch.right), ..on };
+                [left, right].into_iter().filter(|on| on.left < on.right)
+            };
+            *on = on.drain(..).flat_map(apart).collect();
+        }
+        if let ContactError::Overlap { x, .. } = *fault {
+            let (half, ends) = (T::of(0.5), self.contact.ends());
+            let aside = T::of(CLOSER * CLOSER) * (ends[1] - ends[0]);
+            let at = on.partition_point(|on| on.right < x);
+            let left = if at == 0 { ends[0] } else { on[at - 1].right };
+            let right = on.get(at).map_or(ends[1], |next| next.left);
+            let seed = Interval {
+                left: (x - aside).max(half * (x + left)),
+                right: (x + aside).min(half * (x + right)),
+            };
+            if seed.left < seed.right {
+                on.insert(at, seed);
+            }
+        }
+        !on.is_empty()
+    }
+
     /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
-    fn active_set(
-        &mut self,
-        conditions: &Conditions<T>,
-        fault: Option<&ContactError<T>>,
-    ) -> Result<(), ContactError<T>> {
+    fn active_set(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         let (gap, range) = (&self.contact.gap, self.contact.ends());
         self.workspace.look(gap, self.cost)?;
         let Workspace { look, newton, .. } = &mut *self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
-        let before = newton.on.len();
-        match fault {
-            Some(fault) => take_apart(&mut newton.on, fault, range),
-            None => newton.on.clear(),
-        }
-        if let Some(&ContactError::Tension { x, pressure, .. }) = fault
-            && !pressure.is_finite()
-        {
-            newton.kinks.push(x);
-        }
-        let seeds = &newton.on;
         // As many as have not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(16 * FIRST_CELLS);
@@ -435,13 +468,11 @@ impl<T: Real> Search<'_, '_, T> {
             turned = look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
             &turned
         };
-        let scene = Scene { kappa, load, range, cells, known, start: seeds };
+        let scene = Scene { kappa, load, range, cells, known, start: &newton.on };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;
         match coarse {
-            // It does not see what has failed a check, as between two contacts at a kink: the checks do.
-            Ok(coarse) if coarse.intervals.len() == before && seeds.len() > before => Ok(()),
             Ok(coarse) => {
                 let corner =
                     self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
@@ -456,37 +487,5 @@ impl<T: Real> Search<'_, '_, T> {
                 near: look.lowest(),
             }),
         }
-    }
-}
-
-/// Parts a contact where the bodies would pull at each other, or puts one where they would overlap. Of any
-/// other fault nothing is to be learnt.
-fn take_apart<T: Real>(contacts: &mut Vec<Interval<T>>, fault: &ContactError<T>, range: [T; 2]) {
-    let (half, share) = (T::of(0.5), T::of(CLOSER));
-    match *fault {
-        ContactError::Tension { x, pressure, .. } => {
-            let Some(i) = contacts.iter().position(|on| on.contains(x)) else { return };
-            let on = contacts[i];
-            // At a kink the gap may be next to nothing.
-            let aside = if pressure.is_finite() { share } else { share * share } * on.half_width();
-            let left = (x - aside).max(half * (on.left + x));
-            let right = (x + aside).min(half * (on.right + x));
-            contacts[i].right = left;
-            contacts.insert(i + 1, Interval { left: right, right: on.right });
-        }
-        ContactError::Overlap { x, .. } => {
-            let aside = share * share * (range[1] - range[0]);
-            let at = contacts.partition_point(|on| on.right < x);
-            let left = if at == 0 { range[0] } else { contacts[at - 1].right };
-            let right = contacts.get(at).map_or(range[1], |next| next.left);
-            let seed = Interval {
-                left: (x - aside).max(half * (x + left)),
-                right: (x + aside).min(half * (x + right)),
-            };
-            if seed.left < seed.right {
-                contacts.insert(at, seed);
-            }
-        }
-        _ => contacts.clear(),
     }
 }

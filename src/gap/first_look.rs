@@ -43,12 +43,14 @@ pub(crate) struct FirstLook<T> {
     scratch: Scratch<T>,
 }
 
-/// A height of the gap, or between two of them a bound for it.
+/// A height of the gap, or between two of them about how low it may be, and by how much lower it might be
+/// if they hide a wave.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LowPlace<T> {
     pub x: T,
     pub height: T,
     pub between: Option<[T; 2]>,
+    pub doubt: T,
 }
 
 /// Where a piece is looked at: parameters, the points there, and those found beside a short range on the
@@ -77,6 +79,8 @@ struct Knot<T> {
     slopes: [T; 2],
     /// How far off they may be by rounding.
     doubt: T,
+    /// By how much a cubic from the knot before to the one after misses the height here.
+    missed: T,
 }
 
 impl<T: Real> FirstLook<T> {
@@ -144,7 +148,7 @@ impl<T: Real> FirstLook<T> {
     }
 
     /// Where the gap may be low: each sample, and between two where the slope rises the place where their
-    /// tangents cross, than which no convex piece of the gap is lower.
+    /// tangents cross, than which no convex piece of the gap is lower; elsewhere the middle, if it is in doubt.
     pub fn low_places(&self) -> impl Iterator<Item = LowPlace<T>> {
         let after = |i: usize| {
             let (from, to) = (self.knots[i], self.knots.get(i + 1)?);
@@ -152,11 +156,18 @@ impl<T: Real> FirstLook<T> {
             let width = to.x - from.x;
             let along = (second * width - (to.height - from.height)) / (second - first);
             let inside = second > first && along > T::zero() && along < width;
-            let (x, height) = (from.x + along, from.height + first * along);
-            inside.then_some(LowPlace { x, height, between: Some([from.x, to.x]) })
+            let doubt = from.missed + to.missed;
+            let (x, height) = if inside {
+                (from.x + along, from.height + first * along)
+            } else {
+                let half = T::of(0.5);
+                (from.x + half * width, Segment::new(from, *to).at(half)[0])
+            };
+            let place = LowPlace { x, height, between: Some([from.x, to.x]), doubt };
+            (inside || doubt > T::zero()).then_some(place)
         };
         let both = move |(i, &[x, height]): (usize, &[T; 2])| {
-            [Some(LowPlace { x, height, between: None }), after(i)]
+            [Some(LowPlace { x, height, between: None, doubt: T::zero() }), after(i)]
         };
         self.heights.iter().enumerate().flat_map(both).flatten()
     }
@@ -259,7 +270,8 @@ impl<T: Real> FirstLook<T> {
                 self.bodies.each_ref().map(|rows| [false, true].map(|right| at(rows, x, right)));
             let slopes = [0, 1].map(|side| upper[side][1] - lower[side][1]);
             let doubt = [lower, upper].iter().flatten().fold(T::zero(), |sum, at| sum + at[2]);
-            knots.push(Knot { x, height: upper[1][0] - lower[1][0], slopes, doubt });
+            let (height, missed) = (upper[1][0] - lower[1][0], T::zero());
+            knots.push(Knot { x, height, slopes, doubt, missed });
         };
         add(first);
         let [mut lower, mut upper] = self.bodies.each_ref().map(|rows| {
@@ -277,6 +289,19 @@ impl<T: Real> FirstLook<T> {
             }
         }
         add(last);
+        for i in 1..knots.len().saturating_sub(1) {
+            let [before, here, after] = [knots[i - 1], knots[i], knots[i + 1]];
+            let over = Segment::new(before, after);
+            let missed = (over.at((here.x - before.x) / over.width)[0] - here.height).abs();
+            // At a joint, where there are two samples, the slope may leap.
+            let is_joint = |rows: &Vec<Row<T>>| {
+                let i = rows.partition_point(|row| row.x < here.x);
+                rows.get(i + 1).is_some_and(|next| next.x <= here.x)
+            };
+            if missed.is_finite() && !self.bodies.iter().any(is_joint) {
+                knots[i].missed = missed;
+            }
+        }
     }
 }
 
@@ -451,7 +476,13 @@ fn at<T: Real>(rows: &[Row<T>], x: T, right: bool) -> [T; 3] {
     let [Some(from), Some(to)] = [index - 1, index].map(|i| rows.get(i)) else {
         return [rows[0].y, zero, zero];
     };
-    let knot = |row: &Row<T>| Knot { x: row.x, height: row.y, slopes: [row.slope; 2], doubt: zero };
+    let knot = |row: &Row<T>| Knot {
+        x: row.x,
+        height: row.y,
+        slopes: [row.slope; 2],
+        doubt: zero,
+        missed: zero,
+    };
     let segment = Segment::new(knot(from), knot(to));
     if segment.width <= zero {
         return [from.y, zero, zero];

@@ -161,7 +161,8 @@ fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
             let eps = at * (1.0 + sign * off);
             let body = wavy(eps, w);
             let contact = Contact::new(&Flat, &*body).unwrap();
-            // Of the contacts under one load it is one of three.
+            // Of the contacts under one load it is one of three. Where they overlap the solver may see it too.
+            let contact = contact.single_interval(sign > 0.0);
             let plain = contact.solve(Control::HalfWidth(l)).unwrap();
             assert!((plain.load() / Wave::new(eps, w, l).load() - 1.0).abs() < 1e-12);
             let [place, value] = deepest(eps);

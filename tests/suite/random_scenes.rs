@@ -258,7 +258,9 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let contact = contact.edges(edge(0), edge(1));
     let too_short = !cornered && reached != [false; 2];
     match contact.solve(Control::Load(scene.load)) {
-        Err(ContactError::TooShort { .. }) if too_short => Outcome::Solved,
+        Err(ContactError::TooShort { .. } | ContactError::RunsOut { .. }) if too_short => {
+            Outcome::Solved
+        }
         Err(error) => Outcome::Refused(error.to_string()),
         Ok(_) if too_short => Outcome::Wrong("it is wider than the bodies".to_owned()),
         Ok(solution) => match fault(scene, oracle, &solution) {
@@ -399,13 +401,11 @@ fn run(numbers: std::ops::Range<u64>) -> [usize; 2] {
 
 #[test]
 fn a_hundred_random_scenes() {
-    let [refused, wrong] = run(0..100);
-    assert!(wrong == 0 && refused <= 1, "{wrong} wrong, {refused} refused");
+    assert_eq!(run(0..100), [0, 0], "refused, wrong");
 }
 
 #[test]
-#[ignore = "takes a minute; bug: a tension in scene 308 is not seen"]
+#[ignore = "takes a minute"]
 fn a_thousand_random_scenes() {
-    let [refused, wrong] = run(0..1000);
-    assert!(wrong == 0 && refused <= 10, "{wrong} wrong, {refused} refused");
+    assert_eq!(run(0..1000), [0, 0], "refused, wrong");
 }

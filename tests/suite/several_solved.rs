@@ -132,7 +132,6 @@ fn two_contacts_merge_and_part() {
 /// A rough body: as the load grows its limits only move outwards, through births and mergers, and its
 /// pressures change little by little; the way back is the same.
 #[test]
-#[ignore = "bug: some loads of this body are refused, or solved as one contact, on the way down"]
 fn limits_only_move_outwards() {
     let height = |x: f64| {
         let waves =

@@ -242,7 +242,6 @@ fn a_change_of_tilt_samples_nothing() {
 
 /// Two rough bodies, and their mirror image.
 #[test]
-#[ignore = "bug: no tilt is found for a light load on a rough body"]
 fn mirror_images() {
     let rough = |sign: f64| {
         graph(-2.0, 2.0, move |x| {
