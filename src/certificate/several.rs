@@ -81,6 +81,7 @@ pub(super) fn certify<T: Real>(
     let (mut own_system, mut system) = (System::new(), System::new());
     own.set(gap, contacts, corners, ends)?;
     own.system(load / kappa, &mut own_system);
+    own.press();
     let mut cost = own.cost();
     let ends = followed(ends, hull);
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);

@@ -52,6 +52,9 @@ const MOST_WORK: usize = 200_000_000;
 /// How much finer than a contact the cells at a narrow gap in it may become.
 const FINEST: f64 = 1.0 / 40.0;
 
+/// The shortest cell that is cut for known heights, as a share of the distance between them.
+const CLOSEST: f64 = 1.0 / 16.0;
+
 /// The share of the wider of two runs that the gap between them must have.
 const LEAST_GAP: f64 = 1e-3;
 
@@ -359,7 +362,7 @@ impl<T: Real> ActiveSet<T> {
             largest = largest.max(force.abs());
         }
         self.potential = all.clone();
-        potential.of(&all, &mut self.potential);
+        potential.of(&all, |_| true, &mut self.potential);
         let total: T = on.iter().fold(T::zero(), |sum, &i| sum + self.rise[i] + self.potential[i]);
         self.level = total / T::count(on.len());
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
@@ -391,7 +394,7 @@ impl<T: Real> ActiveSet<T> {
             for (&i, &force) in on.iter().zip(forces) {
                 all[i] = force;
             }
-            potential.of(&all, &mut sunk);
+            potential.of(&all, |i| self.cells[i].loaded, &mut sunk);
             for (&i, result) in on.iter().zip(result) {
                 *result = sunk[i];
             }
@@ -510,7 +513,7 @@ impl<T: Real> ActiveSet<T> {
         let Some(lowest) = self.lowest().map(|lowest| self.cells[lowest].height) else { return };
         let [first, end] = self.range;
         let (mut i, mut before) = (0, None);
-        for &[x, height] in known {
+        for (k, &[x, height]) in known.iter().enumerate() {
             let [x, height] = [x, height].map(|value| value.part(0));
             if !(x > first && x < end) {
                 continue;
@@ -519,6 +522,11 @@ impl<T: Real> ActiveSet<T> {
                 i += 1;
             }
             let cell = &self.cells[i];
+            // Much closer together than they are nothing is known.
+            let beside = known[(k + 1).min(known.len() - 1)][0] - known[k.saturating_sub(1)][0];
+            if cell.width() < T::of(CLOSEST) * beside.part(0) {
+                continue;
+            }
             let gap = self.rise_of(height, lowest) + self.potential_at(x, i) - self.level;
             let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
             let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));

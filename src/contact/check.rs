@@ -293,6 +293,7 @@ impl<T: Real> Check<'_, T> {
         let mut sampler = Sampler::default();
         let mut worst: Option<[T; 2]> = None;
         let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
         // The edge from which the gap is followed to x, the height of the gap there, and what the pressure
         // takes off it.
         let mut from: Option<(usize, T, T)> = None;
@@ -318,8 +319,6 @@ impl<T: Real> Check<'_, T> {
                     *from.insert((next, height, total(edge)))
                 }
             };
-            let doubt =
-                fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
             let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
             let allowed = doubt
                 + self.share() * (height - at_edge).abs()

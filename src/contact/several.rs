@@ -112,6 +112,7 @@ impl<T: Real> Newton<T> {
                 *left -= 1;
                 if *left == 0 {
                     several.set(&turned, &self.on, corners, ends)?;
+                    several.press();
                     return Ok(Outcome::Found);
                 }
                 continue;
@@ -172,6 +173,7 @@ impl<T: Real> Newton<T> {
                 }
                 if T::MORE_STEPS == 0 {
                     several.set(&turned, &self.on, corners, ends)?;
+                    several.press();
                     return Ok(Outcome::Found);
                 }
                 more_steps = Some(T::MORE_STEPS);
@@ -401,7 +403,12 @@ mod tests {
             for (x, p) in x.into_iter().zip(p) {
                 let due = 2.0 * x * ((x * x - al * al) * (be * be - x * x)).sqrt();
                 let got = p * std::f64::consts::FRAC_PI_2;
-                assert!((got - due).abs() <= 1e-11 * top, "F {load}: P({x}) {got} for {due}");
+                // Beside a limit its rounding counts.
+                let rounding = f64::EPSILON * due / (x - al);
+                assert!(
+                    (got - due).abs() <= 1e-11 * top + rounding,
+                    "F {load}: P({x}) {got} for {due}"
+                );
             }
         }
     }

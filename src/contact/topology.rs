@@ -130,6 +130,12 @@ pub(super) fn find<T: Real>(
     }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
+        // Of several valleys heights tell at less cost what a search for one contact fails at.
+        if search.has_valleys(convex)?
+            && let Ok(found) = search.several(None)
+        {
+            return Ok(found);
+        }
         let (start, found) = search.one(!convex);
         match found {
             Ok(found) => match search.checked(&found, convex)? {
@@ -267,6 +273,26 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
     }
 
+    /// Whether the gap has several low places, and nothing else says where to start.
+    fn has_valleys(&mut self, convex: bool) -> Result<bool, ContactError<T>> {
+        let told = self.contact.start.is_some() || !self.workspace.last.is_empty();
+        if convex || told || !self.may_be_several() {
+            return Ok(false);
+        }
+        let look = self.workspace.look(&self.contact.gap, self.cost)?;
+        Ok(!look.bulges() && !look.is_one_valley())
+    }
+
+    /// Whether several contacts can be sought.
+    fn may_be_several(&self) -> bool {
+        let adhesive = |edge: &Edge<T>| matches!(edge, Edge::Adhesive(_));
+        // Engines of the user's, and the paper's, know but one contact; so do the searches.
+        matches!(self.sought, Sought::By(Conditions { given: Given::Load(_), .. }))
+            && !self.contact.edges.iter().any(adhesive)
+            && self.contact.search.is_none()
+            && panels::is_panels(self.engine)
+    }
+
     /// Seeks any number of contacts; `fault` is what one alone has failed by.
     fn several(&mut self, fault: Option<ContactError<T>>) -> Result<Found<T>, ContactError<T>> {
         let gap = &self.contact.gap;
@@ -274,12 +300,8 @@ impl<T: Real> Search<'_, '_, T> {
         let edges = self.contact.edges;
         let no_balance =
             ContactError::NoBalance { half_width: T::of(0.5) * (to - from), near: from };
-        let Sought::By(conditions @ Conditions { given: Given::Load(_), .. }) = self.sought else {
-            return Err(fault.unwrap_or(no_balance));
-        };
-        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
-        // Engines of the user's, and the paper's, know but one contact; so do the searches.
-        if adhesive || self.contact.search.is_some() || panels::several_mut(self.engine).is_none() {
+        let Sought::By(conditions) = self.sought else { return Err(fault.unwrap_or(no_balance)) };
+        if !self.may_be_several() {
             return Err(fault.unwrap_or(no_balance));
         }
         let first = fault.clone().filter(|fault| Verdict::of(fault) == Verdict::NotFound);

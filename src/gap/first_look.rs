@@ -183,6 +183,20 @@ impl<T: Real> FirstLook<T> {
         self.bulges
     }
 
+    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks.
+    pub fn is_one_valley(&self) -> bool {
+        self.knots.windows(2).all(|pair| {
+            let [one, other] = [&pair[0], &pair[1]];
+            let rise = other.height - one.height;
+            let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
+            if other.x <= self.lowest {
+                rise <= rounding
+            } else {
+                one.x < self.lowest || rise >= -rounding
+            }
+        })
+    }
+
     /// An interval about the lowest gap, somewhat wider than what would bear a load, that is F/κ, as it looks.
     pub fn around_lowest(&self, load: Option<T>) -> Interval<T> {
         let (x, half) = (self.lowest, T::of(0.5));

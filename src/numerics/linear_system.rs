@@ -3,6 +3,7 @@
 //! It keeps its storage from one system to the next.
 
 use crate::Real;
+use crate::real::same;
 
 #[derive(Clone)]
 pub(crate) struct LinearSystem<T> {
@@ -70,8 +71,9 @@ impl<T: Real> LinearSystem<T> {
         let n = self.n;
         solution.clear();
         solution.extend(self.order.iter().map(|&row| right_side[row] / self.scales[row]));
-        for row in 0..n {
-            for k in 0..row {
+        let first = solution.iter().position(|&value| !same(value, T::zero())).unwrap_or(n);
+        for row in first..n {
+            for k in first..row {
                 let known = solution[k];
                 solution[row] -= self.factors[row * n + k] * known;
             }

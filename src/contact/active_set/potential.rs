@@ -8,7 +8,7 @@
 use crate::Real;
 
 /// Cells up to which the matrix is full.
-const FULL: usize = 256;
+const FULL: usize = 320;
 
 /// Cells of a block, where there are more.
 const BLOCK: usize = 32;
@@ -103,8 +103,8 @@ impl<T: Real> Potential<T> {
         }
     }
 
-    /// The potential of the forces in every cell.
-    pub fn of(&self, forces: &[T], potential: &mut [T]) {
+    /// The potential of the forces in every cell where it is wanted.
+    pub fn of(&self, forces: &[T], wanted: impl Fn(usize) -> bool, potential: &mut [T]) {
         let moments: Vec<_> = if self.blocks.len() > 1 {
             self.groups.iter().map(|group| group.moments(forces)).collect()
         } else {
@@ -118,7 +118,7 @@ impl<T: Real> Potential<T> {
                 }
             }
             let [from, to] = block.cells;
-            for (i, shares) in (from..to).zip(&block.shares) {
+            for (i, shares) in (from..to).zip(&block.shares).filter(|&(i, _)| wanted(i)) {
                 let mut sum = dot(shares, &at_places);
                 for ([first, end], matrix) in &block.near {
                     let row = (i - from) * (end - first);
@@ -325,7 +325,7 @@ mod tests {
         let total: f64 = forces.iter().sum();
         let potential = Potential::new(cells.clone());
         let mut found = vec![0.0; cells.len()];
-        potential.of(&forces, &mut found);
+        potential.of(&forces, |_| true, &mut found);
         for (&cell, &found) in cells.iter().zip(&found) {
             let each = cells.iter().zip(&forces);
             let direct: f64 = each.map(|(&other, force)| force * mean_log(cell, other)).sum();

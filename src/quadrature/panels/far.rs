@@ -63,6 +63,11 @@ impl<T: Real> Far<T> {
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
+    /// The cosine series of all panels, as far as groups know it.
+    pub fn cosines(&self) -> (Row<T>, usize) {
+        self.groups.first().map_or(([T::zero(); MOST], 0), Group::cosines)
+    }
+
     /// Shows what a point sees of the panels, from left to right.
     pub fn seen_from(&self, x: T, mut show: impl FnMut(Seen<'_, T>)) {
         let mut number = 0;
@@ -184,12 +189,16 @@ impl<T: Real> Part<T> {
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
         let reach = reach(panel.coefficients(), farthest);
         let is_near = reach >= farthest && !outside;
-        let rule = if reach < T::of(3.0) && !is_near {
+        // From outside no point comes closer than the ends of the contact.
+        let closest = (-panel.local(on.left)).min(panel.local(on.right));
+        let closest = if outside { closest } else { T::one() };
+        let rule = if reach < T::of(3.0) && !is_near && closest < T::of(3.0) {
             Gauss::finest()
         } else {
             Gauss::suited(panel.counting, arc.tangent)
         };
         let by_x = T::one() / panel.half();
+        let counting = if reach < closest { 0 } else { panel.counting };
         let start = nodes.len();
         let mut integrals = [T::zero(); MOST];
         for block in 0..rule.n / W {
@@ -202,7 +211,7 @@ impl<T: Real> Part<T> {
             }
             let s = along.map(|along| along * by_x - T::one());
             let (mut t0, mut t1) = ([T::one(); W], s);
-            for integral in &mut integrals[..panel.counting] {
+            for integral in &mut integrals[..counting] {
                 for i in 0..W {
                     *integral += weight[i] * t0[i];
                     (t0[i], t1[i]) = (t1[i], (s[i] + s[i]) * t1[i] - t0[i]);

@@ -12,7 +12,7 @@
 //! Groups are halved until few panels are left. A pressure then takes time with the logarithm of the
 //! number of panels (the idea of tree codes: Barnes and Hut, *Nature* 324 (1986) 446).
 
-use super::chebyshev::Table;
+use super::chebyshev::{MOST, Row, Table};
 use super::far::Part;
 use crate::Real;
 use std::ops::Range;
@@ -139,6 +139,13 @@ impl<T: Real> Group<T> {
     pub fn doubt(&self, x: T) -> T {
         let away = (self.left - x).max(x - (self.left + self.half + self.half));
         self.tail / away
+    }
+
+    /// The cosine series of g, where the group is all of a contact, and its terms.
+    pub fn cosines(&self) -> (Row<T>, usize) {
+        let (mut series, share) = ([T::zero(); MOST], T::count(POINTS) * T::frac_1_pi());
+        series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
+        (series.map(|a| share * a), POINTS)
     }
 
     /// `∫ g(t)/(t - x) dθ`

@@ -28,6 +28,7 @@
 //!
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
+mod apart;
 mod beside;
 mod part;
 mod punch;
@@ -37,8 +38,10 @@ use super::conjugate::LANES;
 use super::cover::Cover;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
+use apart::Apart;
 use part::{Part, gauss};
 pub(crate) use punch::Punch;
+use std::ops::Range;
 use weight::Weight;
 
 /// The longest stretch of the way through a gap that one Gauss rule takes, in the variable t of
@@ -119,7 +122,8 @@ impl<T: Real> Several<T> {
         self.weight.contacts()
     }
 
-    /// Turns to contacts between the ends of the bodies, and whether the outermost limits are corners. The
+    /// Turns to contacts between the ends of the bodies, and whether the outermost limits are corners: ready for
+    /// the conditions on the limits, not yet for pressures. The
     /// samples of contacts that have been there are kept, where they are as many.
     pub fn set(
         &mut self,
@@ -142,9 +146,21 @@ impl<T: Real> Several<T> {
             let from = if i == 0 { ends[0] } else { half * on[i - 1].right + half * on[i].left };
             let to = on.get(i + 1).map_or(ends[1], |next| half * on[i].right + half * next.left);
             part.sample(gap, on[i], [from, to])?;
-            part.set(|x| self.weight.on_contact(i, x));
+            let (near, weight) = (self.weight.next_to(i), &self.weight);
+            let far = |x| weight.far(i, near.clone(), x);
+            let apart = Apart::new(near.clone(), self.count, on[i], self.tolerance, far);
+            part.set(|x| weight.near(i, apart.near.clone(), x) * apart.far(x, T::one()));
+            (part.weight, part.value) = (apart, Apart::near(self.count));
         }
         Ok(())
+    }
+
+    /// Makes ready for pressures.
+    pub fn press(&mut self) {
+        for i in 0..self.count {
+            self.parts[i].press();
+            self.parts[i].value = self.apart(self.weight.next_to(i), self.parts[i].on);
+        }
     }
 
     /// A limit, by its number from left to right, and whether it is free.
@@ -162,20 +178,26 @@ impl<T: Real> Several<T> {
         &self.parts[..self.count]
     }
 
-    /// V off the contacts, without contact `but`. Near contact `near` by the distance from that.
-    fn outside(&self, x: T, near: Option<(usize, T)>, but: Option<usize>) -> T {
-        let mut sum = T::zero();
-        for (i, part) in self.parts().iter().enumerate() {
-            if Some(i) == but {
-                continue;
+    /// What some contacts make of V off them. Near contact `near` by the distance from that.
+    fn outside(&self, contacts: impl Iterator<Item = usize>, x: T, near: Option<(usize, T)>) -> T {
+        contacts.fold(T::zero(), |sum, i| {
+            sum + match near {
+                Some((j, distance)) if i == j => self.parts[i].outside(x, distance),
+                _ => self.parts[i].seen_from(x),
             }
-            let distance = match near {
-                Some((j, distance)) if i == j => distance,
-                _ => (part.on.left - x).max(x - part.on.right),
-            };
-            sum += part.outside(x, distance);
-        }
-        sum
+        })
+    }
+
+    /// The numbers of all contacts but one.
+    fn others(&self, but: usize) -> impl Iterator<Item = usize> + use<T> {
+        (0..self.count).filter(move |&i| i != but)
+    }
+
+    /// What all contacts make of V over an interval, next to which are these.
+    fn apart(&self, near: Range<usize>, on: Interval<T>) -> Apart<T> {
+        let far = || (0..near.start).chain(near.end..self.count);
+        let value = |x| self.outside(far(), x, None);
+        Apart::new(near.clone(), self.count, on, self.tolerance, value)
     }
 
     /// The conditions for a load, that is F/κ.
@@ -191,10 +213,11 @@ impl<T: Real> Several<T> {
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
             for (x, right) in [(part.on.left, false), (part.on.right, true)] {
-                at_ends.push(part.at_end(right) + self.outside(x, None, Some(i)));
+                at_ends.push(part.at_end(right) + self.outside(self.others(i), x, None));
             }
         }
-        at_zeros.extend(self.weight.zeros().iter().map(|&x| self.outside(x, None, None)));
+        let at_zero = |&x: &T| self.outside(0..n, x, None);
+        at_zeros.extend(self.weight.zeros().iter().map(at_zero));
         residual.clear();
         open.clear();
         jacobian.clear();
@@ -240,6 +263,8 @@ impl<T: Real> Several<T> {
             let [mut closed, mut size] = [zero; 2];
             let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
             let width = right.left - left.right;
+            let near = k.saturating_sub(1)..(k + 3).min(n);
+            let apart = self.apart(near, Interval { left: left.right, right: right.left });
             for at_right in [false, true] {
                 let (near, from) = if at_right { (k + 1, right) } else { (k, left) };
                 let edge = if at_right { right.left } else { left.right };
@@ -256,10 +281,12 @@ impl<T: Real> Several<T> {
                     {
                         let t = start + half * step * T::of(1.0 + node);
                         let sinh = (half * t).sinh();
+                        let sinh_t = (sinh + sinh) * (one + sinh * sinh).sqrt();
                         let distance = (from.half_width() + from.half_width()) * sinh * sinh;
                         let x = edge + sign * distance;
-                        let dx = half * step * T::of(weight) * from.half_width() * t.sinh();
-                        let value = self.outside(x, Some((near, distance)), None);
+                        let dx = half * step * T::of(weight) * from.half_width() * sinh_t;
+                        let here = Some((near, distance));
+                        let value = self.outside(apart.near.clone(), x, here) + apart.far(x, zero);
                         let distances = [distance, width - distance];
                         let [from_left, to_right] =
                             if at_right { [distances[1], distances[0]] } else { distances };
@@ -438,9 +465,12 @@ impl<T: Real> Several<T> {
                     let (own, root) = part.inside(&lanes, count);
                     for (lane, pressure) in out.iter_mut().enumerate() {
                         let x = lanes[lane];
-                        let others = root[lane] * self.outside(x, None, Some(i));
-                        let scale = T::pi() * T::pi() * self.weight.on_contact(i, x);
-                        *pressure = (own[lane] + others) / scale;
+                        let others = part.value.near.clone().filter(|&k| k != i);
+                        let others = self.outside(others, x, None) + part.value.far(x, T::zero());
+                        let weight = self.weight.near(i, part.weight.near.clone(), x)
+                            * part.weight.far(x, T::one());
+                        *pressure =
+                            (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
                     }
                 }
             }
@@ -473,7 +503,7 @@ impl<T: Real> Several<T> {
         let i = if right { self.count - 1 } else { 0 };
         let on = self.parts[i].on;
         let corner = if right { on.right } else { on.left };
-        let value = self.parts[i].at_end(right) + self.outside(corner, None, Some(i));
+        let value = self.parts[i].at_end(right) + self.outside(self.others(i), corner, None);
         let sign = if right { -T::of(2.0) } else { T::of(2.0) };
         sign * value / (T::pi() * T::pi() * self.weight.beside_corner(right))
     }

@@ -24,7 +24,7 @@ impl<T: Real> Several<T> {
     pub fn pull(&self, system: &System<T>, contact: usize, right: bool, distance: T) -> T {
         let on = self.parts[contact].on;
         let x = if right { on.right + distance } else { on.left - distance };
-        let value = self.outside(x, Some((contact, distance)), None);
+        let value = self.outside(0..self.count, x, Some((contact, distance)));
         let in_gap = if right {
             Some(contact).filter(|k| k + 1 < self.count)
         } else {

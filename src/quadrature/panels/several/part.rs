@@ -7,6 +7,7 @@ use super::super::cover::Cover;
 use super::super::far::Far;
 use super::super::integrals;
 use super::super::panel::{Panel, Series, within};
+use super::apart::Apart;
 use crate::gap::{Gap, Sampler};
 use crate::quadrature::Moments;
 use crate::{ContactError, Interval, Real};
@@ -22,10 +23,14 @@ const DERIVATIVE_HALVES: usize = 4;
 const MOST_PANELS: usize = 1 << 12;
 
 /// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
-const ROOM: f64 = 0.02;
+const ROOM: f64 = 0.1;
 
 /// A contact much narrower than what was sampled is sampled anew.
 const NARROWER: f64 = 0.4;
+
+/// The distance from a contact, in half-widths, from which on the cosines that its panels are summed up in
+/// are enough for rounding: u²⁴ there.
+const AFAR: f64 = 2.0;
 
 #[derive(Clone)]
 pub(super) struct Part<T> {
@@ -42,12 +47,15 @@ pub(super) struct Part<T> {
     /// The largest |H|.
     size: T,
     conjugate: Conjugate<T>,
-    /// Of a single panel: its series over the contact.
-    series: Option<Series<T>>,
-    /// Of several.
+    /// H as a cosine series: all of a single panel's, or as much as is seen from afar.
+    series: Series<T>,
+    /// Where there are several panels.
     far: Far<T>,
     /// Of H.
     pub moments: Moments<T>,
+    /// What the contacts make of the weight, and of V, in this one.
+    pub weight: Apart<T>,
+    pub value: Apart<T>,
 }
 
 impl<T: Real> Part<T> {
@@ -62,7 +70,7 @@ impl<T: Real> Part<T> {
             waiting: Vec::new(),
             size: zero,
             conjugate: Conjugate::new(),
-            series: None,
+            series: ([zero; MOST], 0),
             far: Far::new(),
             moments: Moments {
                 mean: zero,
@@ -73,6 +81,8 @@ impl<T: Real> Part<T> {
                 inversion: zero,
                 trend: None,
             },
+            weight: Apart::near(0),
+            value: Apart::near(0),
         }
     }
 
@@ -142,7 +152,7 @@ impl<T: Real> Part<T> {
         sum
     }
 
-    /// Multiplies the slope by a weight, and makes ready for everything that follows.
+    /// Multiplies the slope by a weight, and makes ready for the conditions on the limits.
     pub fn set(&mut self, weight: impl Fn(T) -> T) {
         let on = self.on;
         let sampled = within(&self.cover.panels, on);
@@ -170,11 +180,18 @@ impl<T: Real> Part<T> {
                 self.panels.push(product);
             }
         }
-        (self.moments, self.series) = integrals::moments(&self.panels, on, false);
-        self.conjugate.set(&self.panels, self.series.as_ref(), on, self.size, tolerance);
-        if self.series.is_none() {
+        let over;
+        (self.moments, over) = integrals::moments(&self.panels, on, false);
+        self.series = over.unwrap_or_else(|| {
             self.far.set_seen_from_outside(&self.panels, on);
-        }
+            self.far.cosines()
+        });
+    }
+
+    /// Makes ready for pressures in the contact.
+    pub fn press(&mut self) {
+        let over = Some(&self.series).filter(|_| self.panels.len() == 1);
+        self.conjugate.set(&self.panels, over, self.on, self.size, self.cover.tolerance);
     }
 
     /// `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a distance from its
@@ -182,17 +199,27 @@ impl<T: Real> Part<T> {
     pub fn outside(&self, x: T, distance: T) -> T {
         let half_width = self.on.half_width();
         let beyond = distance / half_width;
+        if self.panels.len() > 1 && beyond < T::of(AFAR) {
+            return self.far.outside(x, distance, self.on);
+        }
+        // The power series in the Joukowski variable, as far as its powers count.
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let right = x > self.on.centre();
-        let Some((series, terms)) = &self.series else {
-            return self.far.outside(x, distance, self.on);
-        };
-        // The power series in the Joukowski variable.
-        let power = T::one() / (T::one() + beyond + root);
-        let u = if right { power } else { -power };
-        let sum = series[..*terms].iter().rev().fold(T::zero(), |sum, &a| sum * u + a);
+        let size = T::one() / (T::one() + beyond + root);
+        let (mut power, mut terms) = (size, 1);
+        while power > size * T::epsilon() && terms < self.series.1 {
+            (power, terms) = (power * power, 2 * terms);
+        }
+        let u = if right { size } else { -size };
+        let series = &self.series.0[..terms.min(self.series.1)];
+        let sum = series.iter().rev().fold(T::zero(), |sum, &a| sum * u + a);
         let sum = T::pi() * sum / (root * half_width);
         if right { -sum } else { sum }
+    }
+
+    /// The same at a place that is not next to this contact.
+    pub fn seen_from(&self, x: T) -> T {
+        self.outside(x, (self.on.left - x).max(x - self.on.right))
     }
 
     /// V at one end of the contact, without what is infinite there.
@@ -215,7 +242,7 @@ impl<T: Real> Part<T> {
 
 /// A panel of the product over a stretch, and whether its nodes are enough: for the value, and for the
 /// derivatives that dual numbers carry.
-fn multiply<T: Real>(
+pub(super) fn multiply<T: Real>(
     panel: &Panel<T>,
     x: [T; 2],
     weight: &impl Fn(T) -> T,

@@ -12,6 +12,7 @@
 //! corners the degree of p is one less, and the last gap has no zero.
 
 use crate::{Interval, Real};
+use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
@@ -59,24 +60,45 @@ impl<T: Real> Weight<T> {
 
     /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
     pub fn on_contact(&self, i: usize, x: T) -> T {
-        self.smooth(i, x) * self.corner_factor(x)
+        self.near(i, 0..self.on.len(), x)
     }
 
-    /// That without the corners.
-    fn smooth(&self, i: usize, x: T) -> T {
-        let mut square = T::one();
-        for (k, on) in self.on.iter().enumerate() {
-            if k == i {
-                continue;
-            }
-            let zero = self.zeros.get(if k < i { k } else { k - 1 });
-            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
-            square *= factor / ((x - on.left) * (x - on.right));
-        }
+    /// The same without the contacts that are not among these.
+    pub fn near(&self, i: usize, contacts: Range<usize>, x: T) -> T {
+        self.smooth(i, contacts, x) * self.corner_factor(x)
+    }
+
+    /// What the contacts that are not among these make of it.
+    pub fn far(&self, i: usize, contacts: Range<usize>, x: T) -> T {
+        let [left, right] = [0..contacts.start, contacts.end..self.on.len()];
+        (self.square(i, left, x) * self.square(i, right, x)).sqrt()
+    }
+
+    /// The numbers of a contact and of those next to it, two on either side.
+    pub fn next_to(&self, i: usize) -> Range<usize> {
+        i.saturating_sub(2)..(i + 3).min(self.on.len())
+    }
+
+    /// Some contacts' share without the corners, with the sign of all.
+    fn smooth(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         // Contacts and zeros of p to the right of this one.
         let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * square.sqrt()
+        sign * self.square(i, contacts, x).sqrt()
+    }
+
+    /// The square of what some contacts make of it.
+    fn square(&self, i: usize, contacts: Range<usize>, x: T) -> T {
+        let mut square = T::one();
+        for k in contacts {
+            if k == i {
+                continue;
+            }
+            let (on, zero) = (self.on[k], self.zeros.get(if k < i { k } else { k - 1 }));
+            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
+            square *= factor / ((x - on.left) * (x - on.right));
+        }
+        square
     }
 
     /// The same at the left or the right corner, without the factor that vanishes there.
@@ -84,7 +106,7 @@ impl<T: Real> Weight<T> {
         let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
         let (i, x, other) = if right { (self.on.len() - 1, last, first) } else { (0, first, last) };
         let other = if self.corners[usize::from(!right)] { x - other } else { T::one() };
-        self.smooth(i, x) * other
+        self.smooth(i, 0..self.on.len(), x) * other
     }
 
     /// `S/p` at a place in gap k, without the zero of p in that gap, by the distances to both ends of the
