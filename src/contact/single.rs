@@ -23,8 +23,9 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_SKETCHES: usize = 120;
 
-/// Steps, or sketches, that may lead beyond an end of the bodies before it is asked what these bear.
-const MOST_AT_END: usize = 8;
+/// Steps, or sketches, that may lead beyond an end of the bodies before it is asked what these bear. (Each
+/// goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+const MOST_AT_END: usize = 24;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
