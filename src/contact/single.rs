@@ -23,9 +23,12 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_SKETCHES: usize = 120;
 
-/// Steps, or sketches, that may lead beyond an end of the bodies before it is asked what these bear. (Each
-/// goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+/// Steps on a sketch, or sketches, that may lead beyond an end of the bodies before it is asked what these
+/// bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
 const MOST_AT_END: usize = 24;
+
+/// In full each such step takes samples closer to the end.
+const MOST_AT_END_IN_FULL: usize = 8;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
@@ -184,7 +187,11 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         from: Interval<T>,
         effort: Effort,
     ) -> Result<Option<Settled<T>>, ContactError<T>> {
-        let mut most_at_end = if self.bears.is_none() { MOST_AT_END } else { usize::MAX };
+        let mut most_at_end = match (self.bears, effort) {
+            (Some(_), _) => usize::MAX,
+            (None, Effort::Sketch) => MOST_AT_END,
+            (None, Effort::Full) => MOST_AT_END_IN_FULL,
+        };
         loop {
             let gap = &self.contact.gap;
             match newton::settle(self.engine, gap, &self.conditions, from, effort, most_at_end)? {
