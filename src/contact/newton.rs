@@ -72,15 +72,6 @@ pub(super) enum Outcome<T> {
     Astray,
 }
 
-impl<T> Outcome<T> {
-    pub fn settled(self) -> Option<Settled<T>> {
-        match self {
-            Self::Settled(settled) => Some(settled),
-            Self::AtEnd | Self::Astray => None,
-        }
-    }
-}
-
 /// Finds the limits from a start nearby. `most_at_end` steps may lead beyond an end of the bodies: each takes
 /// samples closer to that.
 pub(super) fn settle<T: Real>(

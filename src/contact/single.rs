@@ -23,12 +23,9 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_SKETCHES: usize = 120;
 
-/// Steps on a sketch, or sketches, that may lead beyond an end of the bodies before it is asked what these
-/// bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
-const MOST_AT_END: usize = 24;
-
-/// In full each such step takes samples closer to the end.
-const MOST_AT_END_IN_FULL: usize = 8;
+/// Sketches that may reach for an end of the bodies, and steps in full, before it is asked what these bear.
+/// (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+const MOST_AT_END: [usize; 2] = [40, 24];
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
@@ -159,15 +156,23 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         last: Option<Interval<T>>,
     ) -> Result<Option<Settled<T>>, ContactError<T>> {
         if let Some(last) = last {
-            // What was sampled for the last load serves for the next.
+            // What was sampled for the last load serves for the next. About the contact of another scene an
+            // error says nothing, but that the bodies bear less.
+            let known = |result| match result {
+                Err(error @ (ContactError::TooShort { .. } | ContactError::TooWide { .. })) => {
+                    Err(error)
+                }
+                result => Ok(result.unwrap_or(None)),
+            };
             if let Some(covered) = self.engine.covered() {
-                let again = self.settle(last, Effort::Full);
-                let wide = |on: Interval<T>| on.half_width() >= T::of(0.3) * covered.half_width();
-                if let Some(settled) = again.unwrap_or(None).filter(|settled| wide(settled.on)) {
+                let wide = |settled: &Settled<T>| {
+                    settled.on.half_width() >= T::of(0.3) * covered.half_width()
+                };
+                if let Some(settled) = known(self.settle(last, Effort::Full))?.filter(wide) {
                     return Ok(Some(settled));
                 }
             }
-            if let Ok(Some(settled)) = self.in_full(last, T::of(ABOUT)) {
+            if let Some(settled) = known(self.in_full(last, T::of(ABOUT)))? {
                 return Ok(Some(settled));
             }
             // The last contact was no help.
@@ -187,16 +192,14 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         from: Interval<T>,
         effort: Effort,
     ) -> Result<Option<Settled<T>>, ContactError<T>> {
-        let mut most_at_end = match (self.bears, effort) {
-            (Some(_), _) => usize::MAX,
-            (None, Effort::Sketch) => MOST_AT_END,
-            (None, Effort::Full) => MOST_AT_END_IN_FULL,
-        };
+        let is_known = self.bears.is_some() || effort == Effort::Sketch;
+        let mut most_at_end = if is_known { usize::MAX } else { MOST_AT_END[1] };
         loop {
             let gap = &self.contact.gap;
             match newton::settle(self.engine, gap, &self.conditions, from, effort, most_at_end)? {
+                Outcome::Settled(settled) => return Ok(Some(settled)),
+                Outcome::Astray => return Ok(None),
                 Outcome::AtEnd => self.check()?,
-                outcome => return Ok(outcome.settled()),
             }
             most_at_end = usize::MAX;
         }
@@ -372,7 +375,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             });
             // One that comes to an end again and again is perhaps more than the bodies bear.
             at_end += usize::from(is_beyond[0] || is_beyond[1]);
-            if at_end == MOST_AT_END {
+            if at_end == MOST_AT_END[0] {
                 self.check()?;
             }
         }
