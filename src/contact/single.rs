@@ -146,7 +146,13 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             (None, Given::Centre { at, .. }) => {
                 Err(ContactError::NoBalance { half_width: self.start().half_width(), near: at })
             }
-            (None, _) => self.by_nested_search().map_err(|error| self.because(error)),
+            (None, _) => {
+                // It takes far more samples to find that the bodies do not bear as much.
+                if self.contact.search.is_none() && self.engine.covered().is_some() {
+                    self.check()?;
+                }
+                self.by_nested_search().map_err(|error| self.because(error))
+            }
         }
     }
 

@@ -42,8 +42,9 @@ fn example_3_is_solved_without_derivatives() {
     let load = Control::Load(reference.c / PI);
     let contact = Contact::new(&lower, &upper).unwrap();
     let solution = contact.solve(load).unwrap();
-    approx::assert_relative_eq!(solution.a(), reference.a, epsilon = 0.0, max_relative = 5e-15);
-    approx::assert_relative_eq!(solution.b(), reference.b, epsilon = 0.0, max_relative = 5e-15);
+    // The formulas have noise of 2e-14.
+    approx::assert_relative_eq!(solution.a(), reference.a, epsilon = 0.0, max_relative = 1e-14);
+    approx::assert_relative_eq!(solution.b(), reference.b, epsilon = 0.0, max_relative = 1e-14);
     let contact = Contact::new(&*by_hand.lower, &*by_hand.upper).unwrap();
     let evaluations = contact.solve(load).unwrap().cost().evaluations;
     assert!(solution.cost().evaluations <= evaluations + 10, "{evaluations}");
