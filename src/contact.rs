@@ -250,8 +250,8 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Where the search for the limits starts. Without it, or where it is not on the bodies, at
-    /// their lowest gap; or, where the bodies bulge towards each other or look so, in the middle of
-    /// their common range.
+    /// their lowest gap; or, where the bodies say that they [bulge](crate::Convexity) towards each other, in
+    /// the middle of their common range.
     pub fn start(self, interval: Interval<T>) -> Self {
         Self { start: Some(interval), ..self }
     }
@@ -301,7 +301,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`] from the search;
+    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`], [`ContactError::Heights`] from the search;
     /// [`ContactError::Moment`], [`ContactError::NoTilt`], [`ContactError::TooTilted`] with a given moment; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {

@@ -234,6 +234,22 @@ pub enum ContactError<T: Real> {
         /// Where.
         x: T,
     },
+    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other.
+    /// Seen where the bodies touch in several places; [`check_derivatives`](crate::check_derivatives)
+    /// tells which body it is.
+    #[error(
+        "from x = {:?} to {:?} the gap rises by {by_heights:?} by the heights Y of the bodies, but by \
+         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y'",
+        between[0], between[1]
+    )]
+    Heights {
+        /// Two places in one contact.
+        between: [T; 2],
+        /// `Y₂ - Y₁` at the second, less that at the first.
+        by_heights: T,
+        /// `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first to the second.
+        by_slopes: T,
+    },
     /// The bodies would have to pull at each other inside the contact: they part there.
     #[error(
         "the pressure at x = {x:?} would be {pressure:?}: the bodies part there, and touch in more \

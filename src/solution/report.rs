@@ -26,8 +26,8 @@ pub struct Trial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Start {
-    /// From the middle of the bodies towards their lowest gap: they bulge towards each other, or look so, or
-    /// have but one low place.
+    /// From the middle of the bodies towards their lowest gap: they say that they bulge towards each other, or
+    /// [a single interval](crate::Contact::single_interval) was asked for.
     Middle,
     /// At the lowest gap between the bodies.
     LowestGap,

@@ -8,7 +8,7 @@ use crate::forms::KAPPA;
 use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
-use linecontact::{Contact, Control, Cost, Flat, Interval, Real, Solution, Solver};
+use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, Real, Solution, Solver};
 use std::f64::consts::PI;
 
 const COUNTS: [usize; 5] = [2, 3, 5, 8, 16];
@@ -226,5 +226,20 @@ fn contacts_without_a_closed_form() {
     let pressure = solution.pressure().unwrap();
     for [x, exact] in want.points {
         assert!((pressure.at(x).unwrap() - exact).abs() < 1e-10, "P({x})");
+    }
+}
+
+/// Two bumps, x⁴ - 2x², with a Y that is not the integral of its Y'.
+#[test]
+fn heights_that_do_not_go_with_the_slopes() {
+    for share in [0.9, 1.0 + 1e-3, 1.5] {
+        let body =
+            graph(-2.0, 2.0, move |x| [share * x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+        let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
+        let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
+        let ContactError::Heights { by_heights, by_slopes, .. } = error else {
+            panic!("{share}: {error}")
+        };
+        assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-9, "{by_heights} {by_slopes}");
     }
 }

@@ -120,12 +120,31 @@ impl<T: Real> Part<T> {
         }
         self.cover.turn(gap.tilt());
         if self.height.is_none() {
-            let (place, mut sampler) = (plain.centre(), Sampler::default());
-            let height = sampler.height_untilted(gap, place)?;
+            let mut sampler = Sampler::default();
+            let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
+            let [first, second] = places;
+            let heights =
+                [sampler.height_untilted(gap, first)?, sampler.height_untilted(gap, second)?];
             self.cover.cost += sampler.cost;
-            self.height = Some([place, height]);
+            self.compare(places, heights, gap.tilt())?;
+            self.height = Some([first, heights[0]]);
         }
         self.tilt = gap.tilt();
+        Ok(())
+    }
+
+    /// Whether heights of the gap before the bodies are turned go with the integral of the slope.
+    fn compare(&self, [from, to]: [T; 2], heights: [T; 2], tilt: T) -> Result<(), ContactError<T>> {
+        let by_slopes = self.rise(from, to) - tilt * (to - from);
+        let by_heights = heights[1] - heights[0];
+        let rounding = T::of(64.0) * T::epsilon() * (heights[0].abs() + heights[1].abs());
+        let tail = |tail: T, panel: &Panel<T>| tail.max(panel.tail);
+        let tail = self.cover.panels.iter().fold(T::zero(), tail);
+        let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
+        let allowed = rounding + share + T::of(8.0) * tail * (to - from);
+        if (by_heights - by_slopes).abs() > allowed {
+            return Err(ContactError::Heights { between: [from, to], by_heights, by_slopes });
+        }
         Ok(())
     }
 
