@@ -19,8 +19,12 @@ const LEAST_LEFT: f64 = 0.3;
 /// By how much a width may grow in one step.
 const MOST_GROWTH: f64 = 4.0;
 
-/// Steps in a row that are cut short by the same contact or gap before it is taken not to exist.
+/// Steps in a row that are cut short by the same gap, or end, before it is taken not to exist: one at a kink may
+/// be as narrow as rounding.
 const MOST_CUT: usize = 12;
+
+/// The same for a contact: what is left of it by then is less than a hundredth.
+const MOST_CUT_OF_A_CONTACT: usize = 4;
 
 /// How Newton's method ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,7 +144,8 @@ impl<T: Real> Newton<T> {
                 let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
                 let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
                 cut = Some((place, times));
-                if times > MOST_CUT {
+                let of_a_contact = place < usize::MAX - 1 && place.is_multiple_of(2);
+                if times > if of_a_contact { MOST_CUT_OF_A_CONTACT } else { MOST_CUT } {
                     return Ok(match place {
                         usize::MAX => Outcome::Beyond(1),
                         place if place == usize::MAX - 1 => Outcome::Beyond(0),
