@@ -63,8 +63,7 @@ fn judged(wanted: fn(&str) -> bool) -> Vec<Judged> {
 fn check_cover(wanted: fn(&str) -> bool) {
     let mut failures = 0;
     for Judged { what, estimate, error, .. } in judged(wanted) {
-        // Of noise in the formulas the estimate knows a few coefficients only.
-        if error > 1.25 * estimate {
+        if error > estimate {
             failures += 1;
             println!("{what}: error {error:.2e}, said to be {estimate:.2e}");
         }

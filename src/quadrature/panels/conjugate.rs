@@ -256,7 +256,8 @@ impl<T: Real> Conjugate<T> {
         } else {
             within(panels, on).iter().for_each(add);
         }
-        T::of(6.0) * (sum + here + of_groups) + self.spike(panels, x)
+        // The noise of the formulas is known from a few coefficients only.
+        T::of(8.0) * (sum + here + of_groups) + self.spike(panels, x)
     }
 
     /// As good as at the joint of two panels, what a small difference makes with a logarithm: whether
