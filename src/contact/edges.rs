@@ -108,14 +108,23 @@ impl<T: Real> Conditions<T> {
     /// The interval, with those limits that are given.
     pub fn with_given_limits(&self, on: Interval<T>) -> Interval<T> {
         let width = on.right - on.left;
-        let limits = self.edges.map(|edge| edge.limit());
-        let given =
-            Interval { left: limits[0].unwrap_or(on.left), right: limits[1].unwrap_or(on.right) };
-        match limits {
+        match self.edges.map(|edge| edge.limit()) {
             [Some(left), None] if left >= on.right => Interval { left, right: left + width },
             [None, Some(right)] if right <= on.left => Interval { left: right - width, right },
-            _ => given,
+            [left, right] => {
+                Interval { left: left.unwrap_or(on.left), right: right.unwrap_or(on.right) }
+            }
         }
+    }
+
+    /// The interval, with the width or those limits that are given, within a range.
+    pub fn with_given(&self, on: Interval<T>, range: [T; 2]) -> Interval<T> {
+        let Given::HalfWidth(half_width) = self.given else { return self.with_given_limits(on) };
+        // Not at an end of them, where the slope may be infinite, unless they are just wide enough.
+        let room = (range[1] - range[0] - half_width - half_width).max(T::zero());
+        let inset = half_width + T::of(0.125) * room;
+        let centre = on.centre().max(range[0] + inset).min(range[1] - inset);
+        Interval { left: centre - half_width, right: centre + half_width }
     }
 
     /// The interval, where both limits are given, or the half-width and one of them.
@@ -130,35 +139,6 @@ impl<T: Real> Conditions<T> {
                 Some(Interval { left: right - half_width - half_width, right })
             }
             _ => None,
-        }
-    }
-
-    /// The interval with its limits moved by steps in units of the half-width, given the load as a
-    /// share of what the interval would carry. The half-width moves as its square would, by no more
-    /// than a factor of 33 down or 4 up.
-    pub fn moved(&self, on: Interval<T>, [left, right]: [T; 2], share: T) -> Interval<T> {
-        let (one, half) = (T::one(), T::of(0.5));
-        let half_width = on.half_width();
-        let wider = half * (right - left);
-        let wider = if wider < T::of(-0.3) && share > T::zero() && share < one {
-            // Far off, the power of the half-width that the load goes with is read off the step: 2
-            // for a round body, 1 for a wedge.
-            let power = (one - share) / -wider;
-            (share.powf(one / power) - one).max(T::of(-0.97))
-        } else {
-            let square = (one + wider + wider).max(T::of(1e-3));
-            ((square - one) / (one + square.sqrt())).min(T::of(3.0))
-        };
-        let along = (half * (right + left)).max(-one).min(one);
-        match self.edges.map(|edge| edge.limit()) {
-            [None, None] => Interval {
-                left: on.left + (along - wider) * half_width,
-                right: on.right + (along + wider) * half_width,
-            },
-            [left, right] => Interval {
-                left: left.unwrap_or(on.left - (wider + wider) * half_width),
-                right: right.unwrap_or(on.right + (wider + wider) * half_width),
-            },
         }
     }
 }

@@ -30,7 +30,13 @@
 //! The derivatives of `m₂` are those of `m₀` and `m₁`: `L² ∂m₂/∂L = (L²/π) ∫ g' cos θ dθ - 2 L m₂`.
 //!
 //! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
-//! long one as in the power of L that the load is seen to go with.
+//! long one as in the power of L that the load is seen to go with. The centre is taken along as the balance
+//! `m₀ = 0` has it, `dc/dL` by its derivatives: where one limit is a million times as stiff as the other, it
+//! stays where it is. The balance itself is linearised without the factor L that both rows have: that of a
+//! parabola is linear in c, and one step leads to its centre from however far.
+//!
+//! A long step that ends where the bodies do not open, or where the limits do not act on the slope, as on a
+//! flat, is halved. One that would leave the bodies goes half the way to their end.
 
 use super::edges::{Conditions, Edge, Given};
 use super::single::MOST_DOUBT;
@@ -43,6 +49,10 @@ const MOST_STEPS: usize = 60;
 
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
+
+/// A step that may have been too long, in half-widths, and how often it is halved then.
+const LONG: f64 = 0.05;
+const MOST_HALVES: usize = 12;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]
@@ -82,16 +92,16 @@ pub(super) fn settle<T: Real>(
     effort: Effort,
     most_at_end: usize,
 ) -> Result<Outcome<T>, ContactError<T>> {
-    let (one, half) = (T::one(), T::of(0.5));
+    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
     let range = gap.range();
-    let mut on = conditions.with_given_limits(start);
+    let mut on = conditions.with_given(start, range);
     let mut load = conditions.load();
-    let (mut before, mut before_move, mut at_end) = (None, None, 0);
+    let (mut before, mut last, mut at_end) = (None, None::<Step<T>>, 0);
     // A step that was cut short tells nothing of the next.
     let certain = |size: T| Some(size).filter(|&size| size <= T::of(0.25));
     for _ in 0..MOST_STEPS {
         let half_width = on.half_width();
-        if !(half_width > T::zero() && half_width.is_finite()) {
+        if !(half_width > zero && half_width.is_finite()) {
             return Ok(Outcome::Astray);
         }
         let m = engine.moments(gap, on)?;
@@ -100,60 +110,64 @@ pub(super) fn settle<T: Real>(
         };
         let inverse = system.matrix.try_inverse();
         let step = inverse.map(|inverse| (inverse, system.step(&inverse)));
-        // Where the slope of the gap is even the limits do not act on it: back to where they did.
-        let leads = |&(_, [left, right, _]): &(_, [T; 3])| {
-            (right - left).abs() + (right + left).abs() <= T::of(MOST_STEP)
+        let leads = |&(_, [left, right, force]): &(_, [T; 3])| {
+            (right - left).abs() + (right + left).abs() <= T::of(MOST_STEP) && force.is_finite()
         };
-        let Some((inverse, [left, right, force])) = step.filter(leads) else {
-            let Some(from) = before_move.filter(|from: &Interval<T>| !from.is_same(&on)) else {
-                return Ok(Outcome::Astray);
-            };
-            on = Interval {
-                left: half * from.left + half * on.left,
-                right: half * from.right + half * on.right,
-            };
+        let step = step.filter(leads);
+        // A step too far: the limits do not act on the slope there, or the bodies open no more.
+        let too_far = |last: &&mut Step<T>| {
+            let opens = |on| opens(engine, conditions, on, system.tilt);
+            let more = last.halved < MOST_HALVES && last.size > T::of(LONG);
+            more && (step.is_none() || !opens(on) && opens(last.from))
+        };
+        if let Some(last) = last.as_mut().filter(too_far) {
+            last.halved += 1;
+            (on, load) = (last.from.towards(on, half), half * last.load + half * load);
             before = None;
             continue;
-        };
-        if !force.is_finite() {
-            return Ok(Outcome::Astray);
         }
-        load += force;
-        let size = right.abs() + left.abs();
-        before_move = Some(on);
-        let from = on;
-        on = conditions.moved(on, [left, right], load / (conditions.kappa * half_width * m.first));
-        // What fills the bodies may be rounded beyond them.
-        let rounded = |x: T, end: T, beyond: T| {
-            let rounding = T::of(8.0) * T::epsilon() * (end.abs() + half_width);
-            if beyond > T::zero() && beyond <= rounding { end } else { x }
-        };
-        on = Interval {
-            left: rounded(on.left, range[0], range[0] - on.left),
-            right: rounded(on.right, range[1], on.right - range[1]),
-        };
-        let back = |from: T, to: T, end: T, beyond: bool| {
-            // Half the way, since the slope may be infinite at the very end of a body.
-            if beyond { half * from + half * end } else { to }
-        };
-        let far = size > T::of(0.05);
-        let allowed = if far { opening(engine, conditions, from, on) } else { on };
-        let allowed = Interval {
-            left: back(from.left, allowed.left, range[0], allowed.left < range[0]),
-            right: back(from.right, allowed.right, range[1], allowed.right > range[1]),
-        };
-        if allowed != on {
-            at_end += usize::from(on.left < range[0] || on.right > range[1]);
+        let Some((inverse, [left, right, force])) = step else {
+            // On to where they act, if there is load left.
+            let wider = system.moved(conditions, on, [T::of(-3.0), T::of(3.0)], one);
+            let next = before_ends(on, wider, range);
+            at_end += usize::from(next != wider);
             if at_end > most_at_end {
                 return Ok(Outcome::AtEnd);
             }
-            (on, before) = (allowed, None);
+            let is_open = last.is_none() && system.residual[0] + system.residual[1] > zero;
+            if !is_open || next.is_same(&on) {
+                return Ok(Outcome::Astray);
+            }
+            on = next;
+            continue;
+        };
+        let (from, size) = (on, right.abs() + left.abs());
+        last = Some(Step { from, load, size, halved: 0 });
+        load += force;
+        on = system.moved(
+            conditions,
+            on,
+            [left, right],
+            load / (conditions.kappa * half_width * m.first),
+        );
+        // What is much narrower than the stretch is to be seen in a closer one.
+        if effort == Effort::Sketch && on.half_width() < T::of(1e-6) * start.half_width() {
+            return Ok(Outcome::Settled(Settled { on, load, error: size.max(one), force: size }));
+        }
+        on = rounded_within(on, range);
+        let next = before_ends(from, on, range);
+        if next != on {
+            at_end += 1;
+            if at_end > most_at_end || next.is_same(&from) {
+                return Ok(Outcome::AtEnd);
+            }
+            (on, before) = (next, None);
             continue;
         }
         let share = before.map_or(one, |before| size / before);
         let next = share * share * size;
         if effort == Effort::Sketch {
-            if size <= T::of(0.03) || on.half_width() < T::of(1e-6) * start.half_width() {
+            if size <= T::of(0.03) {
                 let sound =
                     opens(engine, conditions, on, system.tilt) && system.is_stable(conditions);
                 let settled = Settled { on, load, error: size, force: size };
@@ -218,7 +232,7 @@ fn further<T: Real>(
         let Some(inverse) = system.matrix.try_inverse() else { break };
         let [left, right, force] = system.step(&inverse);
         load += force;
-        on = conditions.moved(on, [left, right], T::one());
+        on = system.moved(conditions, on, [left, right], T::one());
     }
     Ok((on, load))
 }
@@ -239,36 +253,27 @@ pub(super) fn load_of<T: Real>(
     more.filter(|load| load.is_finite()).unwrap_or(load)
 }
 
-/// At an edge that is not fixed the bodies open: `g(a) > 0 > g(-b)`. A step that goes too far for
-/// that is cut short, a tenth before the place where the slope changes its sign.
-fn opening<T: Real>(
-    engine: &dyn Engine<T>,
-    conditions: &Conditions<T>,
-    from: Interval<T>,
-    to: Interval<T>,
-) -> Interval<T> {
-    let (zero, half) = (T::zero(), T::of(0.5));
-    // Where the bodies turn, their slope is not known before they have.
-    if is_pulled(conditions) || matches!(conditions.given, Given::Centre { .. }) {
-        return to;
-    }
-    let cut = |from: T, to: T, sign: T| {
-        let opens = |x: T| engine.slope(x).is_none_or(|slope| slope * sign > zero);
-        if opens(to) || !opens(from) {
-            return to;
-        }
-        let (mut open, mut closed) = (from, to);
-        for _ in 0..40 {
-            let middle = half * open + half * closed;
-            if opens(middle) { open = middle } else { closed = middle }
-        }
-        open + T::of(0.1) * (from - open)
+/// What fills the bodies may be rounded beyond them.
+fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
+    let rounded = |x: T, end: T, beyond: T| {
+        let rounding = T::of(8.0) * T::epsilon() * (end.abs() + on.half_width());
+        if beyond > T::zero() && beyond <= rounding { end } else { x }
     };
-    let [left, right] = conditions.edges.map(|edge| edge.limit());
     Interval {
-        left: left.unwrap_or_else(|| cut(from.left, to.left, -T::one())),
-        right: right.unwrap_or_else(|| cut(from.right, to.right, T::one())),
+        left: rounded(on.left, range[0], range[0] - on.left),
+        right: rounded(on.right, range[1], on.right - range[1]),
     }
+}
+
+/// A step, or as much of it as leads half the way to an end of the bodies: the slope may be infinite there.
+fn before_ends<T: Real>(from: Interval<T>, to: Interval<T>, range: [T; 2]) -> Interval<T> {
+    let ways = [
+        (from.left - to.left, from.left - range[0]),
+        (to.right - from.right, range[1] - from.right),
+    ];
+    let share = |(way, room): (T, T)| if way > room { T::of(0.5) * room / way } else { T::one() };
+    let share = share(ways[0]).min(share(ways[1]));
+    if share < T::one() { from.towards(to, share) } else { to }
 }
 
 /// Whether adhesion acts, under which the bodies need not open at the other edge either.
@@ -303,15 +308,24 @@ struct System<T> {
     /// By -b and by a.
     jacobian: [[T; 2]; 2],
     residual: [T; 2],
-    /// By the two unknowns: -b and a; or -b and the load, with `a + b` known.
+    /// By the two unknowns: -b and a; or both at once and the load, where the half-width is given.
     matrix: Matrix2<T>,
-    /// By how much `a + b` has to grow.
-    wider: Option<T>,
+    by_load: bool,
     /// A force per unit length.
     scale: T,
     stiffness: T,
     /// By how much the bodies turn.
     tilt: T,
+}
+
+/// A step that was taken.
+struct Step<T> {
+    from: Interval<T>,
+    load: T,
+    /// How long it was meant to be, in half-widths.
+    size: T,
+    /// How often it was halved since.
+    halved: usize,
 }
 
 impl<T: Real> System<T> {
@@ -352,26 +366,69 @@ impl<T: Real> System<T> {
         };
         let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
         let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
-        let (jacobian, residual) = ([[bb, ba], [ab, aa]], [at_b, at_a]);
-        let (matrix, wider) = match conditions.given {
-            Given::Load(_) | Given::Centre { .. } => (Matrix2::new(bb, ba, ab, aa), None),
-            Given::HalfWidth(wanted) => {
-                let wider = (wanted - half_width) * by_width;
-                (Matrix2::new(ba + bb, force_b, aa + ab, force_a), Some(wider + wider))
-            }
+        // The difference of the rows without their factor L: the change of that is taken off their derivatives.
+        let is_balance =
+            turning.is_none() && conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let lean = if is_balance { T::of(0.25) * (at_a - at_b) } else { zero };
+        let (jacobian, residual) = ([[bb - lean, ba + lean], [ab + lean, aa - lean]], [at_b, at_a]);
+        let [[bb, ba], [ab, aa]] = jacobian;
+        let matrix = match conditions.given {
+            Given::Load(_) | Given::Centre { .. } => Matrix2::new(bb, ba, ab, aa),
+            Given::HalfWidth(_) => Matrix2::new(ba + bb, force_b, aa + ab, force_a),
         };
+        let by_load = !matches!(conditions.given, Given::HalfWidth(_));
         let tilt = conditions.tilt(on, m);
-        Some(Self { jacobian, residual, matrix, wider, scale, stiffness, tilt })
+        Some(Self { jacobian, residual, matrix, by_load, scale, stiffness, tilt })
     }
 
     /// The steps of -b and of a, in half-widths, and that of the load.
     fn step(&self, inverse: &Matrix2<T>) -> [T; 3] {
-        let wider = self.wider.unwrap_or(T::zero());
-        let left = |i: usize| self.residual[i] + self.jacobian[i][1] * wider;
-        let step = -(inverse * Vector2::new(left(0), left(1)));
-        match self.wider {
-            None => [step[0], step[1], T::zero()],
-            Some(_) => [step[0], step[0] + wider, step[1] * self.scale],
+        let step = -(inverse * Vector2::new(self.residual[0], self.residual[1]));
+        if self.by_load {
+            [step[0], step[1], T::zero()]
+        } else {
+            [step[0], step[0], step[1] * self.scale]
+        }
+    }
+
+    /// An interval with its limits moved by steps in units of the half-width, given the load as a share of
+    /// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
+    /// up, and the centre with it as the balance has it: one limit may be a million times as stiff as the other.
+    fn moved(
+        &self,
+        conditions: &Conditions<T>,
+        on: Interval<T>,
+        [left, right]: [T; 2],
+        share: T,
+    ) -> Interval<T> {
+        let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+        let half_width = on.half_width();
+        let [along, asked] = [half * (right + left), half * (right - left)];
+        let wider = if asked < T::of(-0.3) && share > zero && share < one {
+            // Far off, the power of the half-width that the load goes with is read off the step: 2
+            // for a round body, 1 for a wedge.
+            let power = (one - share) / -asked;
+            (share.powf(one / power) - one).max(T::of(-0.97))
+        } else {
+            let square = (one + asked + asked).max(T::of(1e-3));
+            ((square - one) / (one + square.sqrt())).min(T::of(3.0))
+        };
+        match conditions.edges.map(|edge| edge.limit()) {
+            [None, None] => {
+                let [[bb, ba], [ab, aa]] = self.jacobian;
+                let [by_left, by_right] = [ab - bb, aa - ba];
+                let lean = (by_left - by_right) / (by_left + by_right);
+                let lean = if lean.is_finite() { lean.max(-one).min(one) } else { zero };
+                let along = along + lean * (wider - asked);
+                Interval {
+                    left: on.left + (along - wider) * half_width,
+                    right: on.right + (along + wider) * half_width,
+                }
+            }
+            [left, right] => Interval {
+                left: left.unwrap_or(on.left - (wider + wider) * half_width),
+                right: right.unwrap_or(on.right + (wider + wider) * half_width),
+            },
         }
     }
 
@@ -403,10 +460,7 @@ impl<T: Real> System<T> {
     fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
         let error = self.stiffness * m.error / self.scale;
         let row = |i: usize| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs());
-        match self.wider {
-            None => [row(0), row(1)],
-            Some(_) => [row(0); 2],
-        }
+        [row(0), row(usize::from(self.by_load))]
     }
 }
 

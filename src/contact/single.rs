@@ -25,7 +25,8 @@ const MOST_SKETCHES: usize = 120;
 
 /// Sketches that may reach for an end of the bodies, and steps in full, before it is asked what these bear.
 /// (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
-const MOST_AT_END: [usize; 2] = [40, 24];
+const MOST_AT_END: [usize; 2] = [8, 24];
+const MOST_SKETCHES_AT_END: usize = 40;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
@@ -198,17 +199,24 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         from: Interval<T>,
         effort: Effort,
     ) -> Result<Option<Settled<T>>, ContactError<T>> {
-        let is_known = self.bears.is_some() || effort == Effort::Sketch;
-        let mut most_at_end = if is_known { usize::MAX } else { MOST_AT_END[1] };
-        loop {
-            let gap = &self.contact.gap;
-            match newton::settle(self.engine, gap, &self.conditions, from, effort, most_at_end)? {
-                Outcome::Settled(settled) => return Ok(Some(settled)),
-                Outcome::Astray => return Ok(None),
-                Outcome::AtEnd => self.check()?,
-            }
-            most_at_end = usize::MAX;
+        let most_at_end = match effort {
+            Effort::Sketch => MOST_AT_END[0],
+            Effort::Full if self.bears.is_some() => usize::MAX,
+            Effort::Full => MOST_AT_END[1],
+        };
+        let (gap, conditions) = (&self.contact.gap, self.conditions);
+        let find = |engine: &mut dyn Engine<T>, most_at_end| {
+            newton::settle(engine, gap, &conditions, from, effort, most_at_end)
+        };
+        let mut outcome = find(self.engine, most_at_end)?;
+        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd) {
+            self.check()?;
+            outcome = find(self.engine, usize::MAX)?;
         }
+        Ok(match outcome {
+            Outcome::Settled(settled) => Some(settled),
+            Outcome::AtEnd | Outcome::Astray => None,
+        })
     }
 
     /// By one limit at a time, on panels made for the contact in the end.
@@ -381,7 +389,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             });
             // One that comes to an end again and again is perhaps more than the bodies bear.
             at_end += usize::from(is_beyond[0] || is_beyond[1]);
-            if at_end == MOST_AT_END[0] {
+            if at_end == MOST_SKETCHES_AT_END {
                 self.check()?;
             }
         }
