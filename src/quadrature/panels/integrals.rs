@@ -114,16 +114,17 @@ fn whole<T: Real>(sums: &mut Sums<T>, (series, counting): &Series<T>, tail: T, o
 /// Several panels hold it between them, and their series can be continued over it; `false` if not.
 fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
     let half = T::of(0.5);
-    let mut before = T::zero();
+    let mut before = [T::zero(); 2];
     let every = continued(panels, on, |stretch| {
-        let Stretch { series, integrals, ends: [from, to], .. } = stretch;
+        let Stretch { panel, series, integrals, ends: [from, to], .. } = stretch;
         if !stretch.is_first {
-            jump(sums, *from - before, stretch.start, on);
+            let [before, tail] = before;
+            jump(sums, *from - before, tail + panel.tail, stretch.start, on);
         }
         by_size!(size_for(stretch.terms), N => stretch_of::<N, T>(sums, series, integrals, on));
         sums.size += half * (from.abs() + to.abs()) * integrals[0];
-        sums.error += (stretch.panel.tail + T::epsilon() * stretch.bulk) * integrals[0];
-        before = *to;
+        sums.error += (panel.tail + T::epsilon() * stretch.bulk) * integrals[0];
+        before = [*to, panel.tail];
     });
     sums.scale(T::frac_1_pi());
     every
@@ -171,7 +172,8 @@ fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, s
         let from = if i == 0 { on.left } else { panel.x[0] };
         let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
         if let Some(before) = before {
-            jump(sums, panel.at_ends()[0] - before.at_ends()[1], left, on);
+            let error = before.tail + panel.tail;
+            jump(sums, panel.at_ends()[0] - before.at_ends()[1], error, left, on);
         }
         let right = HalfAngle::of(on, to);
         stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
@@ -224,8 +226,12 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
     sums.error += panel.tail * T::of(4.0) * arc.tangent;
 }
 
-/// Where g jumps, g' is an impulse.
-fn jump<T: Real>(sums: &mut Sums<T>, jump: T, at: HalfAngle<T>, on: Interval<T>) {
+/// Where g jumps, g' is an impulse. What no part of a number tells from the errors of the two series is no jump:
+/// next to an edge it would outweigh all the rest.
+fn jump<T: Real>(sums: &mut Sums<T>, jump: T, error: T, at: HalfAngle<T>, on: Interval<T>) {
+    if (0..T::PARTS).all(|part| jump.part(part).abs() <= error) {
+        return;
+    }
     let impulse = jump / (on.half_width() * at.sine());
     let cosine = at.cosine();
     if impulse.is_finite() {
