@@ -2,6 +2,7 @@
 
 use crate::contact::{Control, Workspace};
 use crate::quadrature::Engine;
+use crate::quadrature::panels::{self, Several};
 use crate::solution::Solution;
 use crate::{Contact, ContactError, Real};
 use std::sync::Arc;
@@ -82,9 +83,10 @@ impl<T: Real> Solver<T> {
             self.workspace.forget();
         }
         let (found, cost) = contact.find(work, &mut self.workspace, control)?;
-        let solution = contact.solution(engine.clone(), found, cost, self.workspace.report)?;
+        let one = std::slice::from_ref(&found.interval);
+        self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
         self.last = Some(gap.number());
-        Ok(solution)
+        Ok(contact.solution(engine.clone(), found, cost, self.workspace.report))
     }
 }
 

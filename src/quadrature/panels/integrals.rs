@@ -36,15 +36,16 @@ impl<T: Real> Sums<T> {
 }
 
 /// The edge integrals over a contact that the panels cover, or sketch; and where one panel alone holds it,
-/// the [series](Panel::over) of that.
+/// `over` becomes the [series](Panel::over) of that.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
     sketch: bool,
-) -> (Moments<T>, Option<Series<T>>) {
+    over: &mut Option<Series<T>>,
+) -> Moments<T> {
     let within = within(panels, on);
     let mut sums = Sums::new();
-    let mut over = None;
+    *over = None;
     if let [panel] = within {
         whole(&mut sums, over.insert(panel.over(on)), panel.tail, on);
     } else if !by_cosines(&mut sums, within, on) {
@@ -54,7 +55,7 @@ pub(super) fn moments<T: Real>(
     // A formula of a few terms is good to a few units in the last place.
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
     let [by_0, by_1, by_2] = sums.slope;
-    let moments = Moments {
+    Moments {
         mean: sums.g[0].value(),
         first: sums.g[1].value(),
         second: Some(sums.g[2].value()),
@@ -62,8 +63,7 @@ pub(super) fn moments<T: Real>(
         error: sums.error.max(rounding),
         inversion: T::zero(),
         trend: Some(Trend { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
-    };
-    (moments, over)
+    }
 }
 
 /// The coefficients of the derivative by z.
