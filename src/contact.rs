@@ -308,13 +308,13 @@ impl<'b, T: Real> Contact<'b, T> {
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut engine, mut workspace) = (self.quadrature.engine()?, Workspace::new());
         let (found, cost) = self.find(&mut *engine, &mut workspace, control)?;
-        Ok(self.solution(engine.into(), found, cost, workspace.report))
+        Ok(self.solution(Arc::new(engine), found, cost, workspace.report))
     }
 
     /// The solution that was found.
     pub(crate) fn solution(
         &self,
-        engine: Arc<dyn Engine<T>>,
+        engine: Arc<Box<dyn Engine<T>>>,
         found: Found<T>,
         cost: Cost,
         report: Report,

@@ -243,6 +243,11 @@ impl<T: Real> Engine<T> for AtWork<T> {
         if self.cover.turn(gap.tilt()) {
             self.moments = None;
         }
+        if let Some((last, m)) = &self.moments
+            && last.is_same(&on)
+        {
+            return Ok(*m);
+        }
         let range = gap.range();
         let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());
@@ -250,11 +255,6 @@ impl<T: Real> Engine<T> for AtWork<T> {
             if !(x >= range[0] - rounding && x <= range[1] + rounding) {
                 return Err(ContactError::OutsideBodies { x, range });
             }
-        }
-        if let Some((last, m)) = &self.moments
-            && last.is_same(&on)
-        {
-            return Ok(*m);
         }
         if self.fall.is_some() {
             return Ok(integrals::moments(&self.cover.panels, on, true, &mut self.over));

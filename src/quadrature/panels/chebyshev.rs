@@ -227,9 +227,16 @@ const ABREAST: usize = 4;
 /// Clenshaw's recurrence for `s = middle + reach t`, each number of which is a series in t itself, one
 /// term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+    let mut row = [T::zero(); MOST];
+    expand_to(&mut row, coefficients, [left, right]);
+    row
+}
+
+/// The same in a place for it.
+pub(super) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, right]: [T; 2]) {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
-    let [last, others @ ..] = coefficients else { return [T::zero(); MOST] };
+    let [last, others @ ..] = coefficients else { return };
     // From T_{-1} = T_1 on, all twice, so that every term is as the next.
     let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
@@ -239,9 +246,8 @@ pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<
     }
     // The last step has half of what the others have.
     step(b1, b2, others.len(), [middle, half * reach], *last);
-    let mut row: Row<T> = std::array::from_fn(|k| b2[k + 1]);
+    row.copy_from_slice(&b2[1..=MOST]);
     row[0] *= half;
-    row
 }
 
 /// The next number of the recurrence in place of the one before the last, whose series has so many terms.

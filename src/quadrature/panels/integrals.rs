@@ -45,12 +45,16 @@ pub(super) fn moments<T: Real>(
 ) -> Moments<T> {
     let within = within(panels, on);
     let mut sums = Sums::new();
-    *over = None;
     if let [panel] = within {
-        whole(&mut sums, over.insert(panel.over(on)), panel.tail, on);
-    } else if !by_cosines(&mut sums, within, on) {
-        sums = Sums::new();
-        by_gauss(&mut sums, within, on, sketch);
+        let over = over.get_or_insert_with(|| ([T::zero(); MOST], 0));
+        panel.over_to(over, on);
+        whole(&mut sums, over, panel.tail, on);
+    } else {
+        *over = None;
+        if !by_cosines(&mut sums, within, on) {
+            sums = Sums::new();
+            by_gauss(&mut sums, within, on, sketch);
+        }
     }
     // A formula of a few terms is good to a few units in the last place.
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
