@@ -85,6 +85,7 @@ pub(crate) fn certify<T: Real>(
     let mut cover = Cover::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
     let range = gap.range();
     let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+    cover.look_at_ends(gap, sampled);
     cover.extend(gap, sampled)?;
     let view = View::new(&cover.panels, on);
 

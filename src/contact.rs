@@ -19,6 +19,7 @@ pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
 pub(crate) use peak::peak;
 
+use crate::certificate::certify;
 use crate::gap::{Cost, Gap, Shape};
 use crate::quadrature::panels;
 use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
@@ -307,23 +308,19 @@ impl<'b, T: Real> Contact<'b, T> {
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut engine, mut workspace) = (self.quadrature.engine()?, Workspace::new());
         let (found, cost) = self.find(&mut *engine, &mut workspace, control)?;
-        self.solution(engine.into(), found, cost, workspace.report)
+        Ok(self.solution(Arc::new(engine), found, cost, workspace.report))
     }
 
-    /// The solution that was found, if it need not be a contact or is one.
+    /// The solution that was found.
     pub(crate) fn solution(
         &self,
-        engine: Arc<dyn Engine<T>>,
+        engine: Arc<Box<dyn Engine<T>>>,
         found: Found<T>,
         cost: Cost,
         report: Report,
-    ) -> Result<Solution<'b, T>, ContactError<T>> {
+    ) -> Solution<'b, T> {
         let gap = self.gap.tilted(found.tilt);
-        let solution = Solution::new(gap, engine, self.kappa, found, cost, report);
-        if self.certified {
-            solution.certify()?;
-        }
-        Ok(solution)
+        Solution::new(gap, engine, self.kappa, found, cost, report)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -396,14 +393,14 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::Overflow { interval: found.interval });
         }
         found.ends = self.ends();
-        match panels::several(engine) {
-            Some(several) => workspace.keep(several.contacts()),
-            None => {
-                engine.prepare(&self.gap.tilted(found.tilt), found.interval)?;
-                workspace.keep(&[found.interval]);
-            }
+        let gap = self.gap.tilted(found.tilt);
+        if panels::several(engine).is_none() {
+            engine.prepare(&gap, found.interval)?;
         }
         cost += engine.cost();
+        if self.certified {
+            certify(&gap, self.kappa, &found, engine)?;
+        }
         Ok((found, cost))
     }
 

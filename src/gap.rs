@@ -92,6 +92,7 @@ impl<'b, T: Real> Surface<'b, T> {
         self.joined.unwrap_or(1)
     }
 
+    #[inline(always)]
     fn piece(&self, index: usize) -> Piece<'_, T> {
         let profile = self.shape.profile();
         let piece = self.joined.and_then(|_| profile.piece(index));
@@ -295,6 +296,7 @@ impl<'b, T: Real> Gap<'b, T> {
     }
 
     /// The smooth piece of a body to the left or right of `x`, and its number.
+    #[inline(always)]
     pub(crate) fn piece_at(&self, body: Body, x: T, side: Side) -> (usize, Piece<'_, T>) {
         let surface = &self.bodies[body as usize];
         let index = surface.index_at(x, side);

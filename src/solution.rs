@@ -27,7 +27,7 @@ pub use report::{Report, Start, Trial, Verdict};
 pub struct Solution<'b, T: Real> {
     gap: Gap<'b, T>,
     /// That has solved the contact.
-    engine: Arc<dyn Engine<T>>,
+    engine: Arc<Box<dyn Engine<T>>>,
     kappa: T,
     found: Found<T>,
     cost: Cost,
@@ -37,7 +37,7 @@ pub struct Solution<'b, T: Real> {
 impl<'b, T: Real> Solution<'b, T> {
     pub(crate) fn new(
         gap: Gap<'b, T>,
-        engine: Arc<dyn Engine<T>>,
+        engine: Arc<Box<dyn Engine<T>>>,
         kappa: T,
         found: Found<T>,
         cost: Cost,
@@ -115,7 +115,7 @@ impl<'b, T: Real> Solution<'b, T> {
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found, &*self.engine)
+        certify(&self.gap, self.kappa, &self.found, &**self.engine)
     }
 
     /// The largest pressure and its place, as far as a grid of 64 points in each contact and the joints
@@ -150,7 +150,7 @@ impl<'b, T: Real> Solution<'b, T> {
         let contacts = self.intervals();
         let (on, last) = (contacts[contact], contacts.len() - 1);
         let (x, Estimate { value: pressure, .. }) =
-            peak(&*self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
+            peak(&**self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
@@ -190,7 +190,7 @@ impl<'b, T: Real> Solution<'b, T> {
         let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
         let held = [held(0), held(1)];
         let pressing = self.pressing();
-        let (engine, contacts) = (&*self.engine, self.intervals());
+        let (engine, contacts) = (&**self.engine, self.intervals());
         Ok(Pressure { gap, engine, pressing, on, contacts, force, held, cost })
     }
 
@@ -203,7 +203,7 @@ impl<'b, T: Real> Solution<'b, T> {
 
     /// The contacts on their panels, if they are several.
     pub(crate) fn several(&self) -> Option<&Several<T>> {
-        panels::several(&*self.engine)
+        panels::several(&**self.engine)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {

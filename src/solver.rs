@@ -2,6 +2,7 @@
 
 use crate::contact::{Control, Workspace};
 use crate::quadrature::Engine;
+use crate::quadrature::panels::{self, Several};
 use crate::solution::Solution;
 use crate::{Contact, ContactError, Real};
 use std::sync::Arc;
@@ -38,7 +39,7 @@ use std::sync::Arc;
 /// # Ok::<(), ContactError<f64>>(())
 /// ```
 pub struct Solver<T: Real> {
-    engine: Option<Arc<dyn Engine<T>>>,
+    engine: Option<Arc<Box<dyn Engine<T>>>>,
     workspace: Workspace<T>,
     /// The gap last solved, by its number; the contacts found are in the workspace.
     last: Option<u64>,
@@ -63,18 +64,18 @@ impl<T: Real> Solver<T> {
     ) -> Result<Solution<'b, T>, ContactError<T>> {
         let (gap, last) = (contact.gap(), self.last.take());
         let quadrature = contact.chosen_quadrature();
-        let engine = self.engine.take().filter(|engine| quadrature.serves(&**engine));
+        let engine = self.engine.take().filter(|engine| quadrature.serves(&***engine));
         let last = last.filter(|_| engine.is_some());
         let engine = match engine {
             Some(engine) => engine,
-            None => quadrature.engine()?.into(),
+            None => Arc::new(quadrature.engine()?),
         };
         let engine = self.engine.insert(engine);
         let work = loop {
             match Arc::get_mut(engine) {
-                Some(work) => break work,
+                Some(work) => break &mut **work,
                 // A solution that was kept keeps its engine.
-                None => *engine = engine.fork().into(),
+                None => *engine = Arc::new(engine.fork()),
             }
         };
         work.reset(last == Some(gap.number()));
@@ -82,9 +83,10 @@ impl<T: Real> Solver<T> {
             self.workspace.forget();
         }
         let (found, cost) = contact.find(work, &mut self.workspace, control)?;
-        let solution = contact.solution(engine.clone(), found, cost, self.workspace.report)?;
+        let one = std::slice::from_ref(&found.interval);
+        self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
         self.last = Some(gap.number());
-        Ok(solution)
+        Ok(contact.solution(engine.clone(), found, cost, self.workspace.report))
     }
 }
 

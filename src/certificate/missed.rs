@@ -74,37 +74,55 @@ pub(super) fn compare<T: Real>(
     let (mut panels, mut doubt) = (Vec::new(), None);
     let mut missed: Option<(T, ContactError<T>)> = None;
     let mut left = on.left;
+    let mut before: Option<(Interval<T>, usize)> = None;
+    // Beyond its last node a cell does not see: the ends are looked at.
+    let looks = [cells.look_at(gap, 0, on.left), cells.look_at(gap, 1, on.right)];
     while left < on.right {
         let next = left + spacing;
         let right = if next > left { next.min(on.right) } else { on.right };
-        cells.sample_anew(gap, Interval { left, right })?;
+        let cell = Interval { left, right };
+        cells.held = looks;
+        cells.sample_anew(gap, cell)?;
+        let apart = |last: &Panel<T>| {
+            !cells.meets(last, &cells.panels[0], cells.tolerance * steepest) && !gap.is_joint(left)
+        };
+        if let (Some((last, first)), true) = (before, panels.last().is_some_and(apart)) {
+            // So it is where two of them do not meet, and both are sampled again.
+            cells.held[1] = cells.look_at(gap, 1, left);
+            cells.sample_anew(gap, last)?;
+            panels.truncate(first);
+            panels.extend_from_slice(&cells.panels);
+            cells.held = [cells.look_at(gap, 0, left), looks[1]];
+            cells.sample_anew(gap, cell)?;
+        }
+        before = Some((cell, panels.len()));
         panels.extend_from_slice(&cells.panels);
-        // Those halved down to a jump end at one of its two sides, by chance.
-        let short = T::of(SHORT) * (right - left);
-        for cell in cells.panels.iter().filter(|cell| cell.half() > short) {
-            let table = Table::of(cell.n);
-            for &z in &table.z[..cell.n] {
-                let x = cell.x[0] + cell.half() * T::of(1.0 + z);
-                for (i, assumed) in assumed.iter().enumerate() {
-                    let Some((assumed, error)) = assumed.at(x) else { continue };
-                    if i == 1 {
-                        doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
-                    }
-                    let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
-                    let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
-                    if (cell.value(x) - assumed).abs() <= most {
-                        continue;
-                    }
-                    // The series of the cell may itself be off.
-                    let slope = sampler.slope(gap, x)?;
-                    let off = (slope - assumed).abs();
-                    if off > most {
-                        missed = Some((off, ContactError::Missed { x, slope, assumed }));
-                    }
+        left = right;
+    }
+    // Those halved down to a jump end at one of its two sides, by chance.
+    let short = T::of(SHORT) * spacing.min(on.right - on.left);
+    for cell in panels.iter().filter(|cell| cell.half() > short) {
+        let table = Table::of(cell.n);
+        for &z in &table.z[..cell.n] {
+            let x = cell.x[0] + cell.half() * T::of(1.0 + z);
+            for (i, assumed) in assumed.iter().enumerate() {
+                let Some((assumed, error)) = assumed.at(x) else { continue };
+                if i == 1 {
+                    doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
+                }
+                let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
+                let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
+                if (cell.value(x) - assumed).abs() <= most {
+                    continue;
+                }
+                // The series of the cell may itself be off.
+                let slope = sampler.slope(gap, x)?;
+                let off = (slope - assumed).abs();
+                if off > most {
+                    missed = Some((off, ContactError::Missed { x, slope, assumed }));
                 }
             }
         }
-        left = right;
     }
     if let Some((_, error)) = missed {
         return Err(error);

@@ -329,6 +329,7 @@ struct Step<T> {
 }
 
 impl<T: Real> System<T> {
+    #[inline(always)]
     fn new(conditions: &Conditions<T>, on: Interval<T>, load: T, m: &Moments<T>) -> Option<Self> {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
         let trend = m.trend?;

@@ -39,6 +39,9 @@ pub(super) enum Outcome {
     Failed,
 }
 
+/// A gap of so many units of rounding of x is nothing.
+const NOTHING: f64 = 64.0;
+
 /// What cuts a step short: a contact (even) or a gap (odd), by twice its number.
 type Place = usize;
 
@@ -296,7 +299,7 @@ impl<T: Real> Newton<T> {
         let size = one.right.abs().max(other.left.abs());
         let width = doubtful.right - doubtful.left;
         let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * (other.right - one.left);
-        self.gap(i) <= T::of(64.0) * T::epsilon() * size
+        self.gap(i) <= T::of(NOTHING) * T::epsilon() * size
             || is_point && self.gap(i) <= T::of(0.5) * width
     }
 
@@ -318,12 +321,20 @@ impl<T: Real> Newton<T> {
     }
 
     /// The gap after a contact, as far as its limits are in doubt.
-    pub fn doubtful_gap(&self, i: usize) -> Interval<T> {
+    fn doubtful_gap(&self, i: usize) -> Interval<T> {
         let [left, right] = [self.on[i].right, self.on[i + 1].left];
         let doubt = [(i, 2 * i + 1), (i + 1, 2 * i + 2)].map(|(i, limit)| {
             self.errors.get(limit).map_or(T::zero(), |&error| error * self.on[i].half_width())
         });
         Interval { left: left - doubt[0], right: right + doubt[1] }
+    }
+
+    /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts at least.
+    pub fn closed_gap(&self, i: usize) -> Interval<T> {
+        let Interval { left, right } = self.doubtful_gap(i);
+        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
+        let rounding = T::of(NOTHING) * T::epsilon() * size;
+        Interval { left: left - rounding, right: right + rounding }
     }
 
     /// Whether no limit has moved by more than it is in doubt.

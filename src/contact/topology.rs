@@ -357,7 +357,7 @@ impl<T: Real> Search<'_, '_, T> {
             if let Outcome::Closed(i) = outcome
                 && self.workspace.newton.is_nothing(i)
             {
-                self.closed.push(self.workspace.newton.doubtful_gap(i));
+                self.closed.push(self.workspace.newton.closed_gap(i));
             }
             // Where the search has led without an end says little.
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;

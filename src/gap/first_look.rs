@@ -228,12 +228,12 @@ impl<T: Real> FirstLook<T> {
     }
 
     fn find_lowest(&self, knots: &[Knot<T>]) -> T {
-        let size = knots.iter().fold(T::zero(), |size, knot| size.max(knot.height.abs()));
-        let rounding = T::of(8.0) * T::epsilon() * size;
+        // Heights far off may be so large that all of the others are nothing beside their rounding.
+        let rounding = |one: T, other: T| T::of(8.0) * T::epsilon() * (one.abs() + other.abs());
         let mut lowest: Option<(T, [T; 2])> = None;
         let mut consider = |x: T, height: T| match &mut lowest {
             // Next to the last that was as low.
-            Some((least, on)) if height <= *least + rounding && height >= *least - rounding => {
+            Some((least, on)) if (height - *least).abs() <= rounding(height, *least) => {
                 on[1] = x;
             }
             Some((least, _)) if height > *least => {}
@@ -250,7 +250,8 @@ impl<T: Real> FirstLook<T> {
         let [from, to] = lowest.map_or(self.range, |(_, on)| on);
         let middle = T::of(0.5) * from + T::of(0.5) * to;
         // As low at two places apart: the first of them.
-        if self.height(middle) <= self.height(from) + rounding { middle } else { from }
+        let [least, height] = [self.height(from), self.height(middle)];
+        if height <= least + rounding(height, least) { middle } else { from }
     }
 
     fn find_bulging(knots: &[Knot<T>]) -> bool {

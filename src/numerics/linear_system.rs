@@ -56,7 +56,8 @@ impl<T: Real> LinearSystem<T> {
             for row in below.chunks_exact_mut(n) {
                 let factor = row[column] / pivot_row[column];
                 row[column] = factor;
-                if !factor.is_zero() {
+                // A derivative may not be zero where its value is.
+                if !same(factor, T::zero()) {
                     for k in column + 1..n {
                         row[k] -= factor * pivot_row[k];
                     }

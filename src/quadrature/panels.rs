@@ -122,7 +122,7 @@ impl<T: Real> Quadrature<T> for Panels {
 
 /// The edge integrals over an interval that the panels cover.
 pub(crate) fn edge_integrals<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
-    integrals::moments(panels, on, false).0
+    integrals::moments(panels, on, false, &mut None)
 }
 
 #[derive(Clone)]
@@ -164,8 +164,7 @@ pub(crate) fn several<T: Real>(engine: &dyn Engine<T>) -> Option<&Several<T>> {
 
 impl<T: Real> AtWork<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
-        let m;
-        (m, self.over) = integrals::moments(&self.cover.panels, on, false);
+        let m = integrals::moments(&self.cover.panels, on, false, &mut self.over);
         self.moments = Some((on, m));
         m
     }
@@ -244,6 +243,11 @@ impl<T: Real> Engine<T> for AtWork<T> {
         if self.cover.turn(gap.tilt()) {
             self.moments = None;
         }
+        if let Some((last, m)) = &self.moments
+            && last.is_same(&on)
+        {
+            return Ok(*m);
+        }
         let range = gap.range();
         let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());
@@ -252,11 +256,8 @@ impl<T: Real> Engine<T> for AtWork<T> {
                 return Err(ContactError::OutsideBodies { x, range });
             }
         }
-        if let Some((_, m)) = self.moments.filter(|(last, _)| last.is_same(&on)) {
-            return Ok(m);
-        }
         if self.fall.is_some() {
-            return Ok(integrals::moments(&self.cover.panels, on, true).0);
+            return Ok(integrals::moments(&self.cover.panels, on, true, &mut self.over));
         }
         let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         self.cover.extend(gap, sampled)?;

@@ -669,3 +669,26 @@ fn heights_that_are_no_numbers_are_not_certified() {
         assert!(k >= from && k <= to, "{k}");
     }
 }
+
+/// Kinks that nobody declared, next to an edge and anywhere: between the last nodes of two cells, too, where the
+/// cells see nothing of them. The limits are right, and not denied.
+#[test]
+fn a_kink_between_two_cells_is_no_doubt_of_the_limits() {
+    let mut found = 0;
+    for (half_width, from, step) in [(1e-5, -1.05, 1.3e-3), (0.2, -0.4, 1.13e-3)] {
+        for i in 0..150 {
+            let s = 0.3 + half_width * (from + step * f64::from(i));
+            let slope = move |x: f64| {
+                let [t, more] = [x - 0.3, (x - s).max(0.0)];
+                [t * t / 2.0 + more * more / 2.0, t + more]
+            };
+            let body = graph(-4.0, 4.2, slope);
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+            let certified = solution.certify();
+            assert!(certified.is_ok(), "{s}: {:?}", certified.err());
+            found += 1;
+        }
+    }
+    assert_eq!(found, 300);
+}

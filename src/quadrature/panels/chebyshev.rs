@@ -227,33 +227,49 @@ const ABREAST: usize = 4;
 /// Clenshaw's recurrence for `s = middle + reach t`, each number of which is a series in t itself, one
 /// term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+    let mut row = [T::zero(); MOST];
+    expand_to(&mut row, coefficients, [left, right]);
+    row
+}
+
+/// The same in a place for it.
+pub(super) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, right]: [T; 2]) {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
+    let [last, others @ ..] = coefficients else { return };
     // From T_{-1} = T_1 on, all twice, so that every term is as the next.
     let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
-    for (length, &a) in coefficients.iter().rev().enumerate() {
-        // The last step has half of what the others have.
-        let is_last = length + 1 == coefficients.len();
-        let [by_middle, by_reach] =
-            if is_last { [middle, half * reach] } else { [middle + middle, reach] };
-        let count = (length / ABREAST + 1) * ABREAST;
-        let [before, here, after] = [0, 1, 2].map(|from| b1[from..].as_chunks::<ABREAST>().0);
-        let next = b2[1..=count].as_chunks_mut::<ABREAST>().0;
-        for (((next, before), here), after) in next.iter_mut().zip(before).zip(here).zip(after) {
-            for i in 0..ABREAST {
-                let beside = fma(by_reach, before[i] + after[i], -next[i]);
-                next[i] = fma(by_middle, here[i], beside);
-            }
-        }
-        b2[1] += a + a;
-        b2[0] = b2[2];
+    for (length, a) in others.iter().rev().enumerate() {
+        step(b1, b2, length, [middle + middle, reach], *a);
         std::mem::swap(&mut b1, &mut b2);
     }
-    let mut row = [T::zero(); MOST];
-    row.copy_from_slice(&b1[1..=MOST]);
+    // The last step has half of what the others have.
+    step(b1, b2, others.len(), [middle, half * reach], *last);
+    row.copy_from_slice(&b2[1..=MOST]);
     row[0] *= half;
-    row
+}
+
+/// The next number of the recurrence in place of the one before the last, whose series has so many terms.
+#[inline(always)]
+fn step<T: Real>(
+    b1: &[T; MOST + 2],
+    b2: &mut [T; MOST + 2],
+    length: usize,
+    [by_middle, by_reach]: [T; 2],
+    a: T,
+) {
+    for block in 0..(length / ABREAST + 1).min(MOST / ABREAST) {
+        let first = ABREAST * block;
+        let around: [T; ABREAST + 2] = std::array::from_fn(|i| b1[first + i]);
+        let next: [T; ABREAST] = std::array::from_fn(|i| {
+            let beside = fma(by_reach, around[i] + around[i + 2], -b2[first + 1 + i]);
+            fma(by_middle, around[i + 1], beside)
+        });
+        b2[first + 1..=first + ABREAST].copy_from_slice(&next);
+    }
+    b2[1] += a + a;
+    b2[0] = b2[2];
 }
 
 /// The smallest of the [`SIZES`] that holds so many coefficients.

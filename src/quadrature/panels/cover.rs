@@ -101,6 +101,13 @@ impl<T: Real> Cover<T> {
         slope.ok().map(|slope| Held { limit, x, slope })
     }
 
+    /// Looks at both ends of an interval: beyond its last node a panel does not see.
+    pub fn look_at_ends(&mut self, gap: &Gap<'_, T>, on: Interval<T>) {
+        for (end, limit) in [on.left, on.right].into_iter().enumerate() {
+            self.held[end] = self.look_at(gap, end, limit);
+        }
+    }
+
     /// What is covered.
     pub fn interval(&self) -> Option<Interval<T>> {
         let (first, last) = (self.panels.first()?, self.panels.last()?);
@@ -293,6 +300,11 @@ impl<T: Real> Cover<T> {
                     continue;
                 }
             }
+            if let Some(mut before) = before {
+                self.own_up([&mut before, &mut trial.panel], trial.allowed);
+                let last = self.panels.len() - 1;
+                self.panels[last].tail = before.tail;
+            }
             self.panels.push(trial.panel);
             let Some(next) = self.waiting.pop() else { return Ok(()) };
             trial = next;
@@ -316,10 +328,32 @@ impl<T: Real> Cover<T> {
     }
 
     /// Whether two neighbours have the same slope where they meet.
-    fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
-        let [from, to] = [(left, T::one()), (right, -T::one())]
-            .map(|(panel, s)| value_at(panel.coefficients(), s));
-        let doubt = left.tail + right.tail + allowed.max(self.tolerance * self.size);
-        (from - to).abs() <= T::of(16.0) * doubt
+    pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
+        missed(left, right) <= self.doubt(left, right, allowed, T::one())
     }
+
+    /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
+    /// either: something lies between their last nodes.
+    fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
+        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
+        let missed = missed(left, right);
+        let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
+        if missed > least && missed <= most {
+            left.tail = left.tail.max(missed);
+            right.tail = right.tail.max(missed);
+        }
+    }
+
+    /// By how much two neighbours may miss each other, with so much of what is allowed.
+    fn doubt(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
+        let allowed = share * allowed.max(self.tolerance * self.size);
+        T::of(16.0) * (left.tail + right.tail + allowed)
+    }
+}
+
+/// By how much the slopes of two neighbours differ where they meet.
+fn missed<T: Real>(left: &Panel<T>, right: &Panel<T>) -> T {
+    let [from, to] =
+        [(left, T::one()), (right, -T::one())].map(|(panel, s)| value_at(panel.coefficients(), s));
+    (from - to).abs()
 }

@@ -36,25 +36,30 @@ impl<T: Real> Sums<T> {
 }
 
 /// The edge integrals over a contact that the panels cover, or sketch; and where one panel alone holds it,
-/// the [series](Panel::over) of that.
+/// `over` becomes the [series](Panel::over) of that.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
     sketch: bool,
-) -> (Moments<T>, Option<Series<T>>) {
+    over: &mut Option<Series<T>>,
+) -> Moments<T> {
     let within = within(panels, on);
     let mut sums = Sums::new();
-    let mut over = None;
     if let [panel] = within {
-        whole(&mut sums, over.insert(panel.over(on)), panel.tail, on);
-    } else if !by_cosines(&mut sums, within, on) {
-        sums = Sums::new();
-        by_gauss(&mut sums, within, on, sketch);
+        let over = over.get_or_insert_with(|| ([T::zero(); MOST], 0));
+        panel.over_to(over, on);
+        whole(&mut sums, over, panel.tail, on);
+    } else {
+        *over = None;
+        if !by_cosines(&mut sums, within, on) {
+            sums = Sums::new();
+            by_gauss(&mut sums, within, on, sketch);
+        }
     }
     // A formula of a few terms is good to a few units in the last place.
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
     let [by_0, by_1, by_2] = sums.slope;
-    let moments = Moments {
+    Moments {
         mean: sums.g[0].value(),
         first: sums.g[1].value(),
         second: Some(sums.g[2].value()),
@@ -62,8 +67,7 @@ pub(super) fn moments<T: Real>(
         error: sums.error.max(rounding),
         inversion: T::zero(),
         trend: Some(Trend { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
-    };
-    (moments, over)
+    }
 }
 
 /// The coefficients of the derivative by z.
@@ -114,16 +118,17 @@ fn whole<T: Real>(sums: &mut Sums<T>, (series, counting): &Series<T>, tail: T, o
 /// Several panels hold it between them, and their series can be continued over it; `false` if not.
 fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
     let half = T::of(0.5);
-    let mut before = T::zero();
+    let mut before = [T::zero(); 2];
     let every = continued(panels, on, |stretch| {
-        let Stretch { series, integrals, ends: [from, to], .. } = stretch;
+        let Stretch { panel, series, integrals, ends: [from, to], .. } = stretch;
         if !stretch.is_first {
-            jump(sums, *from - before, stretch.start, on);
+            let [before, tail] = before;
+            jump(sums, *from - before, tail + panel.tail, stretch.start, on);
         }
         by_size!(size_for(stretch.terms), N => stretch_of::<N, T>(sums, series, integrals, on));
         sums.size += half * (from.abs() + to.abs()) * integrals[0];
-        sums.error += (stretch.panel.tail + T::epsilon() * stretch.bulk) * integrals[0];
-        before = *to;
+        sums.error += (panel.tail + T::epsilon() * stretch.bulk) * integrals[0];
+        before = [*to, panel.tail];
     });
     sums.scale(T::frac_1_pi());
     every
@@ -171,7 +176,8 @@ fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, s
         let from = if i == 0 { on.left } else { panel.x[0] };
         let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
         if let Some(before) = before {
-            jump(sums, panel.at_ends()[0] - before.at_ends()[1], left, on);
+            let error = before.tail + panel.tail;
+            jump(sums, panel.at_ends()[0] - before.at_ends()[1], error, left, on);
         }
         let right = HalfAngle::of(on, to);
         stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
@@ -224,8 +230,12 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
     sums.error += panel.tail * T::of(4.0) * arc.tangent;
 }
 
-/// Where g jumps, g' is an impulse.
-fn jump<T: Real>(sums: &mut Sums<T>, jump: T, at: HalfAngle<T>, on: Interval<T>) {
+/// Where g jumps, g' is an impulse. What no part of a number tells from the errors of the two series is no jump:
+/// next to an edge it would outweigh all the rest.
+fn jump<T: Real>(sums: &mut Sums<T>, jump: T, error: T, at: HalfAngle<T>, on: Interval<T>) {
+    if (0..T::PARTS).all(|part| jump.part(part).abs() <= error) {
+        return;
+    }
     let impulse = jump / (on.half_width() * at.sine());
     let cosine = at.cosine();
     if impulse.is_finite() {

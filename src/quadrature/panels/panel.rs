@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{MOST, Row, SIZES, expand, size_for, value_at};
+use super::chebyshev::{MOST, Row, SIZES, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -80,11 +80,20 @@ impl<T: Real> Panel<T> {
 
     /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`.
     pub fn over(&self, on: Interval<T>) -> Series<T> {
+        let mut series = ([T::zero(); MOST], 0);
+        self.over_to(&mut series, on);
+        series
+    }
+
+    /// The same in a place for it.
+    pub fn over_to(&self, (series, terms): &mut Series<T>, on: Interval<T>) {
         if same(self.x[0], on.left) && same(self.x[1], on.right) {
-            return (self.series, self.counting);
+            (*series, *terms) = (self.series, self.counting);
+            return;
         }
         let ends = [self.local(on.left), self.local(on.right)];
-        (expand(self.coefficients(), ends), size_for(self.counting))
+        expand_to(series, self.coefficients(), ends);
+        *terms = size_for(self.counting);
     }
 }
 

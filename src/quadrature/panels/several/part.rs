@@ -199,8 +199,8 @@ impl<T: Real> Part<T> {
                 self.panels.push(product);
             }
         }
-        let over;
-        (self.moments, over) = integrals::moments(&self.panels, on, false);
+        let mut over = None;
+        self.moments = integrals::moments(&self.panels, on, false, &mut over);
         self.series = over.unwrap_or_else(|| {
             self.far.set_seen_from_outside(&self.panels, on);
             self.far.cosines()
