@@ -9,6 +9,9 @@
 //! κ h_i + Σ_j K_ij q_j ≥ δ,   q_i = 0    in open ones,      Σ q_i = F
 //! ```
 //!
+//! Where the load is to act at a place x̄ the bodies turn: `h_i + τ (x_i - x̄)` takes the place of `h_i`, and
+//! `Σ q_i (x_i - x̄) = 0` is one more condition. The first cells are then those that rigid bodies would rest on.
+//!
 //! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
 //! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
 //! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three
@@ -20,6 +23,7 @@ mod potential;
 use crate::{ContactError, Interval, Real};
 use nalgebra::{DMatrix, DVector};
 use potential::{Place, Potential};
+use std::cmp::Ordering::Equal;
 use thiserror::Error;
 
 /// Cells at first; where a check has failed, twice as many may see more.
@@ -62,6 +66,8 @@ const LEAST_GAP: f64 = 1e-3;
 pub(super) struct Scene<'s, T> {
     pub kappa: T,
     pub load: T,
+    /// Where the load is to act, if the bodies turn.
+    pub at: Option<T>,
     /// Where both bodies are, or up to their corners.
     pub range: [T; 2],
     /// Cells at first, such as [`FIRST_CELLS`].
@@ -77,6 +83,8 @@ pub(super) struct Scene<'s, T> {
 pub(super) struct Coarse<T> {
     /// From left to right.
     pub intervals: Vec<Interval<T>>,
+    /// By how much body 2 is turned counter-clockwise.
+    pub tilt: T,
     /// Whether the contact reaches the left and the right end of the range.
     pub reaches: [bool; 2],
     #[cfg_attr(not(test), allow(dead_code))]
@@ -162,10 +170,13 @@ struct ActiveSet<T> {
     range: [T; 2],
     kappa: T,
     load: T,
-    /// κ h/F above the lowest cell, the potential, and what their sum is in loaded cells.
+    at: Option<T>,
+    /// κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
+    /// What their sum is in loaded cells: a level, and a slope from where the load is to act.
     level: T,
+    slope: T,
     /// Whether cells were cut since these were found.
     changed: bool,
     count: Count,
@@ -174,8 +185,9 @@ struct ActiveSet<T> {
 
 impl<T: Real> ActiveSet<T> {
     fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
-        let Scene { kappa, load, range, cells, .. } = *scene;
+        let Scene { kappa, load, at, range, cells, .. } = *scene;
         let [kappa, load] = [kappa, load].map(|value| value.part(0));
+        let at = at.map(|at| at.part(0));
         let range = range.map(|end| end.part(0));
         let width = range[1] - range[0];
         let positive = |value: T| value > T::zero() && value.is_finite();
@@ -190,9 +202,11 @@ impl<T: Real> ActiveSet<T> {
             range,
             kappa,
             load,
+            at,
             rise: Vec::new(),
             potential: Vec::new(),
             level: T::zero(),
+            slope: T::zero(),
             changed: true,
             count: Count::default(),
             work: 0,
@@ -208,18 +222,62 @@ impl<T: Real> ActiveSet<T> {
                 left = right;
             }
         }
-        if let Some(lowest) = set.lowest() {
-            set.cells[lowest].loaded = true;
+        // There have to be cells on both sides of the place where the load acts.
+        while let (Some(_), Some(last)) = (at, set.cells.len().checked_sub(1)) {
+            let [left, right] = [0, last].map(|i| set.arm(set.cells[i].centre()) > T::zero());
+            let marks: Vec<_> = (0..=last).map(|i| i == 0 && left || i == last && !right).collect();
+            if !set.cut(&marks, height)? {
+                break;
+            }
         }
+        set.rest();
         Ok(set)
     }
 
     fn lowest(&self) -> Option<usize> {
         let by_height = |&i: &usize, &j: &usize| {
             let [one, other] = [i, j].map(|i| self.cells[i].height);
-            one.partial_cmp(&other).unwrap_or(std::cmp::Ordering::Equal)
+            one.partial_cmp(&other).unwrap_or(Equal)
         };
         (0..self.cells.len()).min_by(by_height)
+    }
+
+    /// How far to the right of the place where the load is to act, as a share of the range.
+    fn arm(&self, x: T) -> T {
+        self.at.map_or(T::zero(), |at| (x - at) / (self.range[1] - self.range[0]))
+    }
+
+    /// Loads the cells that rigid bodies rest on: the lowest, or two of which the line between them is the lowest
+    /// where the load acts.
+    fn rest(&mut self) {
+        self.cells.iter_mut().for_each(|cell| cell.loaded = false);
+        let arms: Vec<T> = self.cells.iter().map(|cell| self.arm(cell.centre())).collect();
+        let middle = arms.partition_point(|&arm| arm <= T::zero());
+        let line = |&(i, j): &(usize, usize)| {
+            let share = arms[i] / (arms[i] - arms[j]);
+            self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
+        };
+        let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| (i, j)));
+        let by_line = |one: &_, other: &_| line(one).partial_cmp(&line(other)).unwrap_or(Equal);
+        let lowest = self.lowest().map(|lowest| (lowest, lowest));
+        if let Some((i, j)) = pairs.min_by(by_line).or(lowest) {
+            (self.cells[i].loaded, self.cells[j].loaded) = (true, true);
+        }
+    }
+
+    /// Whether forces in the loaded cells can act where they have to.
+    fn bears(&self) -> bool {
+        let arms = || {
+            let loaded = self.cells.iter().filter(|cell| cell.loaded);
+            loaded.map(|cell| self.arm(cell.centre()))
+        };
+        self.at.is_none() || arms().any(|arm| arm <= T::zero()) && arms().any(|arm| arm > T::zero())
+    }
+
+    /// How far open the gap is in a cell.
+    fn gap(&self, i: usize) -> T {
+        let aside = self.slope * self.arm(self.cells[i].centre());
+        self.rise[i] + self.potential[i] - self.level - aside
     }
 
     fn add(
@@ -319,12 +377,17 @@ impl<T: Real> ActiveSet<T> {
         self.rise = self.cells.iter().map(rise).collect();
         let (mut least, mut in_vain) = (usize::MAX, 0);
         for _ in 0..MOST_CHANGES {
+            if !self.bears() {
+                self.rest();
+                if !self.bears() {
+                    break;
+                }
+            }
             let rounding = self.solve(&potential);
-            let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
             let wrong: Vec<_> = (0..self.cells.len())
                 .filter(|&i| {
                     let Cell { loaded, force, .. } = self.cells[i];
-                    if loaded { force < -rounding } else { gap(i) < -rounding }
+                    if loaded { force < -rounding } else { self.gap(i) < -rounding }
                 })
                 .collect();
             if wrong.is_empty() {
@@ -350,10 +413,11 @@ impl<T: Real> ActiveSet<T> {
     fn solve(&mut self, potential: &Potential<T>) -> T {
         self.count.solves += 1;
         let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
-        let exact = if on.len() <= DENSE { self.eliminate(potential, &on) } else { None };
+        let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
+        let exact = if on.len() <= DENSE { self.eliminate(potential, &on, &arms) } else { None };
         let found = exact.is_some();
         self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
-        let forces = exact.unwrap_or_else(|| self.iterate(potential, &on));
+        let forces = exact.unwrap_or_else(|| self.iterate(potential, &on, &arms));
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
         for (&i, &force) in on.iter().zip(&forces) {
@@ -363,31 +427,35 @@ impl<T: Real> ActiveSet<T> {
         }
         self.potential = all.clone();
         potential.of(&all, |_| true, &mut self.potential);
-        let total: T = on.iter().fold(T::zero(), |sum, &i| sum + self.rise[i] + self.potential[i]);
-        self.level = total / T::count(on.len());
+        let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
+        [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
         if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
     }
 
-    /// By elimination: `K q = level - rise` with `Σ q = 1`.
-    fn eliminate(&self, potential: &Potential<T>, on: &[usize]) -> Option<Vec<T>> {
+    /// By elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
+    /// `Σ q arm = 0`.
+    fn eliminate(&self, potential: &Potential<T>, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
         let n = on.len();
         let matrix = DMatrix::from_fn(n, n, |i, j| potential.entry(on[i], on[j]));
         let factor = matrix.cholesky()?;
         let lowest = on.iter().fold(None, |low: Option<T>, &i| {
             Some(low.map_or(self.rise[i], |low| low.min(self.rise[i])))
         })?;
-        let ones = factor.solve(&DVector::from_element(n, T::one()));
+        let arms = DVector::from_column_slice(arms);
+        let even = factor.solve(&DVector::from_element(n, T::one()));
+        let leaning = factor.solve(&arms);
         let rise = factor.solve(&DVector::from_fn(n, |i, _| self.rise[on[i]] - lowest));
-        let level = (T::one() + rise.sum()) / ones.sum();
+        let products = [even.sum(), leaning.sum(), leaning.dot(&arms)];
+        let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
         let forces: Vec<_> =
-            ones.iter().zip(&rise).map(|(&one, &rise)| level * one - rise).collect();
+            (0..n).map(|i| level * even[i] + slope * leaning[i] - rise[i]).collect();
         forces.iter().all(|force| force.is_finite()).then_some(forces)
     }
 
-    /// By conjugate gradients among forces of one sum.
-    fn iterate(&self, potential: &Potential<T>, on: &[usize]) -> Vec<T> {
-        let (n, zero) = (T::count(on.len()), T::zero());
+    /// By conjugate gradients among forces of one sum, and one moment where the bodies turn.
+    fn iterate(&self, potential: &Potential<T>, on: &[usize], arms: &[T]) -> Vec<T> {
+        let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];
         let mut sunk = all.clone();
         let mut times = |forces: &[T], result: &mut [T]| {
@@ -399,18 +467,21 @@ impl<T: Real> ActiveSet<T> {
                 *result = sunk[i];
             }
         };
-        let sum = |values: &[T]| values.iter().fold(zero, |sum, &value| sum + value);
-        let dot = |a: &[T], b: &[T]| a.iter().zip(b).fold(zero, |sum, (&a, &b)| sum + a * b);
+        let subtract = |values: &mut [T], [level, slope]: [T; 2]| {
+            for (value, &arm) in values.iter_mut().zip(arms) {
+                *value -= level + slope * arm;
+            }
+        };
         let mut forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
-        let missing = (T::one() - sum(&forces)) / n;
-        forces.iter_mut().for_each(|force| *force += missing);
+        let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
+        subtract(&mut forces, line(arms, excess));
         let mut product = vec![zero; on.len()];
         times(&forces, &mut product);
         let mut left: Vec<_> =
             on.iter().zip(&product).map(|(&i, &sunk)| -sunk - self.rise[i]).collect();
         let centred = |values: &mut [T]| {
-            let mean = sum(values) / n;
-            values.iter_mut().for_each(|value| *value -= mean);
+            let products = [sum(values), dot(values, arms)];
+            subtract(values, line(arms, products));
         };
         centred(&mut left);
         let mut way = left.clone();
@@ -481,7 +552,7 @@ impl<T: Real> ActiveSet<T> {
             }
         }
         // A minimum of the open gap that may close: lower than what it rises by to a neighbour.
-        let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
+        let gap = |i: usize| self.gap(i);
         for i in (0..n).filter(|&i| !self.cells[i].loaded) {
             let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
             let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
@@ -527,7 +598,8 @@ impl<T: Real> ActiveSet<T> {
             if cell.width() < T::of(CLOSEST) * beside.part(0) {
                 continue;
             }
-            let gap = self.rise_of(height, lowest) + self.potential_at(x, i) - self.level;
+            let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);
+            let gap = self.rise_of(height, lowest) - sunk;
             let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
             let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));
             if !cell.loaded {
@@ -601,8 +673,32 @@ impl<T: Real> ActiveSet<T> {
             runs.last().is_some_and(|run| run[1] == last),
         ];
         self.count.cells = self.cells.len();
-        Coarse { intervals, reaches, count: self.count }
+        let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
+        Coarse { intervals, tilt, reaches, count: self.count }
     }
+}
+
+fn sum<T: Real>(values: &[T]) -> T {
+    values.iter().fold(T::zero(), |sum, &value| sum + value)
+}
+
+fn dot<T: Real>(one: &[T], other: &[T]) -> T {
+    one.iter().zip(other).fold(T::zero(), |sum, (&one, &other)| sum + one * other)
+}
+
+/// The level and the slope of the line through values of which the sum and the moment are given; level where no
+/// arm is any but zero.
+fn line<T: Real>(arms: &[T], of_values: [T; 2]) -> [T; 2] {
+    multiples([T::count(arms.len()), sum(arms), dot(arms, arms)], of_values)
+}
+
+/// The multiples of two vectors with given products with both, from the products of the first with itself, with
+/// the second, and of that with itself. The second may be zero.
+fn multiples<T: Real>([own, with, other]: [T; 3], [first, second]: [T; 2]) -> [T; 2] {
+    let share = with / own;
+    let rest = other - share * with;
+    let slope = if rest > T::zero() { (second - share * first) / rest } else { T::zero() };
+    [(first - with * slope) / own, slope]
 }
 
 /// The right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
@@ -626,7 +722,7 @@ mod tests {
 
     fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
         let cells = FIRST_CELLS;
-        Scene { kappa: FRAC_PI_2, load, range, cells, known: &[], start: &[] }
+        Scene { kappa: FRAC_PI_2, load, at: None, range, cells, known: &[], start: &[] }
     }
 
     fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Found {
@@ -825,6 +921,7 @@ mod tests {
             let scene = Scene {
                 kappa: std::f32::consts::FRAC_PI_2,
                 load,
+                at: None,
                 range: [-2.0f32, 2.0],
                 cells: FIRST_CELLS,
                 known: &[],

@@ -83,7 +83,10 @@ impl<T: Real> Newton<T> {
         at: Option<T>,
     ) -> Result<Outcome, ContactError<T>> {
         self.errors.clear();
-        let mut turned = gap.tilted(if at.is_some() { self.tilt } else { gap.tilt() });
+        if at.is_none() {
+            self.tilt = gap.tilt();
+        }
+        let mut turned = gap.tilted(self.tilt);
         let (one, half) = (T::one(), T::of(0.5));
         let mut before: Option<T> = None;
         let mut cut: Option<(Place, usize)> = None;
@@ -207,7 +210,7 @@ impl<T: Real> Newton<T> {
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             force: None,
             trend: None,
-            tilt: T::zero(),
+            tilt: self.tilt,
             ends,
         }
     }

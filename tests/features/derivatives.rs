@@ -510,7 +510,6 @@ fn a_tilt_by_the_moment() {
 
 /// Of two contacts, and of one that is held at a corner: against differences.
 #[test]
-#[ignore = "bug: a derivative of the tilt is NaN"]
 fn a_tilt_of_several_contacts_by_the_moment() {
     fn quartic<T: Real>() -> impl ParametricProfile<T> {
         Curve::new([T::of(-3.0), T::of(3.0)], |k: T| {

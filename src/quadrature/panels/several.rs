@@ -369,14 +369,6 @@ impl<T: Real> Several<T> {
         self.weight.corners()
     }
 
-    /// The moment of `P/κ` about a place, of contacts that meet their conditions under a load F/κ: far away
-    /// Φ is `F/x + M/x²`.
-    pub fn moment(&self, about: T, load: T) -> T {
-        let powers = self.powers(about);
-        let borne = powers[if self.corners() == [false; 2] { 2 } else { 1 }];
-        borne - self.afar(about)[0] * load
-    }
-
     /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:
     ///
     /// ```text
