@@ -20,8 +20,8 @@
 
 mod potential;
 
+use crate::numerics::{Cholesky, dot};
 use crate::{ContactError, Interval, Real};
-use nalgebra::{DMatrix, DVector};
 use potential::{Place, Potential};
 use std::cmp::Ordering::Equal;
 use thiserror::Error;
@@ -46,6 +46,12 @@ const MOST_IN_VAIN: usize = 4;
 
 /// Loaded cells up to which their equations are solved by elimination.
 const DENSE: usize = 120;
+
+/// Neighbours whose equations are solved together in each step of conjugate gradients.
+const NEIGHBOURS: usize = 32;
+
+/// The share of the forces that conjugate gradients may miss.
+const ENOUGH: f64 = 1e-4;
 
 /// Steps of conjugate gradients for one system.
 const MOST_STEPS: usize = 300;
@@ -130,8 +136,8 @@ pub(super) fn active_set<T: Real>(
     set.take_up(scene.start, height)?;
     for _ in 0..MOST_CUTS {
         set.settle()?;
-        let marks = set.marks(scene.known);
-        if !set.cut(&marks, height)? {
+        let (marks, intervals) = (set.marks(scene.known), set.intervals());
+        if !set.cut(&marks, &intervals, height)? {
             break;
         }
     }
@@ -149,6 +155,8 @@ struct Cell<T> {
     /// As a share of the load.
     force: T,
     loaded: bool,
+    /// Its number before cells were cut, unless it is new.
+    number: Option<usize>,
 }
 
 impl<T: Real> Cell<T> {
@@ -174,6 +182,10 @@ struct ActiveSet<T> {
     /// κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
+    matrix: Potential<T>,
+    /// That of the loaded cells, factored, in this order; or empty.
+    factor: Cholesky<T>,
+    order: Vec<usize>,
     /// What their sum is in loaded cells: a level, and a slope from where the load is to act.
     level: T,
     slope: T,
@@ -205,6 +217,9 @@ impl<T: Real> ActiveSet<T> {
             at,
             rise: Vec::new(),
             potential: Vec::new(),
+            matrix: Potential::new(),
+            factor: Cholesky::new(),
+            order: Vec::new(),
             level: T::zero(),
             slope: T::zero(),
             changed: true,
@@ -218,7 +233,7 @@ impl<T: Real> ActiveSet<T> {
             let right = if i == cells { range[1] } else { range[0] + share * width };
             // A range of a few units in the last place has fewer cells.
             if right > left {
-                set.add(left, right, T::zero(), false, None, height)?;
+                set.add([left, right], None, height)?;
                 left = right;
             }
         }
@@ -226,7 +241,7 @@ impl<T: Real> ActiveSet<T> {
         while let (Some(_), Some(last)) = (at, set.cells.len().checked_sub(1)) {
             let [left, right] = [0, last].map(|i| set.arm(set.cells[i].centre()) > T::zero());
             let marks: Vec<_> = (0..=last).map(|i| i == 0 && left || i == last && !right).collect();
-            if !set.cut(&marks, height)? {
+            if !set.cut(&marks, &[], height)? {
                 break;
             }
         }
@@ -282,14 +297,12 @@ impl<T: Real> ActiveSet<T> {
 
     fn add(
         &mut self,
-        left: T,
-        right: T,
-        force: T,
-        loaded: bool,
+        [left, right]: [T; 2],
         known: Option<T>,
         height: Height<'_, T>,
-    ) -> Result<(), NotFound<T>> {
-        let mut cell = Cell { left, right, height: T::zero(), force, loaded };
+    ) -> Result<&mut Cell<T>, NotFound<T>> {
+        let (force, loaded, number) = (T::zero(), false, None);
+        let mut cell = Cell { left, right, height: T::zero(), force, loaded, number };
         cell.height = match known {
             Some(height) => height,
             None => {
@@ -302,30 +315,42 @@ impl<T: Real> ActiveSet<T> {
                 height
             }
         };
+        let number = self.cells.len();
         self.cells.push(cell);
-        Ok(())
+        Ok(&mut self.cells[number])
     }
 
-    /// Cuts the marked cells in three; whether there were any that can be.
-    fn cut(&mut self, marks: &[bool], height: Height<'_, T>) -> Result<bool, NotFound<T>> {
+    /// Cuts the marked cells in three, of which those are loaded that lie in intervals; whether there were any that
+    /// can be.
+    fn cut(
+        &mut self,
+        marks: &[bool],
+        intervals: &[Interval<T>],
+        height: Height<'_, T>,
+    ) -> Result<bool, NotFound<T>> {
         let room = MOST_CELLS.saturating_sub(self.cells.len()) / 2;
         let cells = std::mem::take(&mut self.cells);
         let mut cut = 0;
         for (cell, &mark) in cells.iter().zip(marks) {
-            let Cell { left, right, height: middle, force, loaded } = *cell;
-            let width = cell.width();
+            let Cell { left, right, height: middle, force, .. } = *cell;
+            let third = cell.width() / T::of(3.0);
             // The centre stays where it is.
-            let inner = [left + width / T::of(3.0), right - width / T::of(3.0)];
+            let [from, to] = [left + third, right - third];
             let finest = T::of(64.0) * T::epsilon() * left.abs().max(right.abs());
-            if !mark || cut >= room || width <= finest || inner[0] >= inner[1] {
+            if !mark || cut >= room || cell.width() <= finest || from >= to {
                 self.cells.push(*cell);
                 continue;
             }
             cut += 1;
-            let force = force / T::of(3.0);
-            self.add(left, inner[0], force, loaded, None, height)?;
-            self.add(inner[0], inner[1], force, loaded, Some(middle), height)?;
-            self.add(inner[1], right, force, loaded, None, height)?;
+            let thirds = [([left, from], None), ([from, to], Some(middle)), ([to, right], None)];
+            for (ends, known) in thirds {
+                let third = self.add(ends, known, height)?;
+                let x = third.centre();
+                let first = intervals.partition_point(|on| on.right <= x);
+                if intervals.get(first).is_some_and(|on| on.contains(x)) {
+                    (third.loaded, third.force) = (true, force / T::of(3.0));
+                }
+            }
         }
         self.changed |= cut > 0;
         Ok(cut > 0)
@@ -349,7 +374,7 @@ impl<T: Real> ActiveSet<T> {
                 touched(cell).is_some_and(|on| cell.width() > sixth(on))
             };
             let marks: Vec<_> = self.cells.iter().map(wide).collect();
-            if !self.cut(&marks, height)? {
+            if !self.cut(&marks, &[], height)? {
                 break;
             }
         }
@@ -369,7 +394,13 @@ impl<T: Real> ActiveSet<T> {
             centre: (cell.centre() - left) / (right - left),
             width: cell.width() / (right - left),
         };
-        let potential = Potential::new(self.cells.iter().map(place).collect());
+        let before: Vec<_> = self.cells.iter().map(|cell| cell.number).collect();
+        let places = self.cells.iter().map(place).collect();
+        self.matrix.set(places, &before, |j| self.cells[j].loaded);
+        for (i, cell) in self.cells.iter_mut().enumerate() {
+            cell.number = Some(i);
+        }
+        self.order.clear();
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         // Beyond that it is all one how high a cell is.
         let highest = T::epsilon().recip().powi(4);
@@ -383,7 +414,7 @@ impl<T: Real> ActiveSet<T> {
                     break;
                 }
             }
-            let rounding = self.solve(&potential);
+            let rounding = self.solve();
             let wrong: Vec<_> = (0..self.cells.len())
                 .filter(|&i| {
                     let Cell { loaded, force, .. } = self.cells[i];
@@ -410,14 +441,19 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// Closes the gap in the loaded cells; how far off the forces may be.
-    fn solve(&mut self, potential: &Potential<T>) -> T {
+    fn solve(&mut self) -> T {
         self.count.solves += 1;
-        let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        let mut on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        on.iter().for_each(|&i| self.matrix.load(i));
+        let found = on.len() <= DENSE && self.factor(&on);
+        if found {
+            on.clone_from(&self.order);
+        }
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
-        let exact = if on.len() <= DENSE { self.eliminate(potential, &on, &arms) } else { None };
+        let exact = if found { self.eliminate(&arms) } else { None };
         let found = exact.is_some();
         self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
-        let forces = exact.unwrap_or_else(|| self.iterate(potential, &on, &arms));
+        let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
         for (&i, &force) in on.iter().zip(&forces) {
@@ -426,85 +462,118 @@ impl<T: Real> ActiveSet<T> {
             largest = largest.max(force.abs());
         }
         self.potential = all.clone();
-        potential.of(&all, |_| true, &mut self.potential);
+        self.matrix.of(&all, |_| true, &mut self.potential);
         let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
         [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
         if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
     }
 
+    /// Factors the matrix of the loaded cells: anew from the first on that is no longer one of them.
+    fn factor(&mut self, on: &[usize]) -> bool {
+        let kept = self.order.iter().take_while(|&&i| self.cells[i].loaded).count();
+        self.factor.truncate(kept);
+        self.order.truncate(kept);
+        let mut known = vec![false; self.cells.len()];
+        self.order.iter().for_each(|&i| known[i] = true);
+        for &i in on.iter().filter(|&&i| !known[i]) {
+            self.order.push(i);
+            let row = self.order.iter().map(|&j| self.matrix.entry(i, j)).collect();
+            if !self.factor.push(row) {
+                self.order.clear();
+                return false;
+            }
+        }
+        true
+    }
+
     /// By elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
     /// `Σ q arm = 0`.
-    fn eliminate(&self, potential: &Potential<T>, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
-        let n = on.len();
-        let matrix = DMatrix::from_fn(n, n, |i, j| potential.entry(on[i], on[j]));
-        let factor = matrix.cholesky()?;
-        let lowest = on.iter().fold(None, |low: Option<T>, &i| {
-            Some(low.map_or(self.rise[i], |low| low.min(self.rise[i])))
-        })?;
-        let arms = DVector::from_column_slice(arms);
-        let even = factor.solve(&DVector::from_element(n, T::one()));
-        let leaning = factor.solve(&arms);
-        let rise = factor.solve(&DVector::from_fn(n, |i, _| self.rise[on[i]] - lowest));
-        let products = [even.sum(), leaning.sum(), leaning.dot(&arms)];
-        let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
-        let forces: Vec<_> =
-            (0..n).map(|i| level * even[i] + slope * leaning[i] - rise[i]).collect();
+    fn eliminate(&self, arms: &[T]) -> Option<Vec<T>> {
+        let rises = || self.order.iter().map(|&i| self.rise[i]);
+        let lowest = rises().reduce(|low, rise| low.min(rise))?;
+        let even = self.factor.forward(vec![T::one(); arms.len()]);
+        let leaning = self.factor.forward(arms.to_vec());
+        let rise = self.factor.forward(rises().map(|rise| rise - lowest).collect());
+        let products = [dot(&even, &even), dot(&even, &leaning), dot(&leaning, &leaning)];
+        let conditions = [T::one() + dot(&even, &rise), dot(&leaning, &rise)];
+        let [level, slope] = multiples(products, conditions);
+        let half = (0..arms.len()).map(|i| level * even[i] + slope * leaning[i] - rise[i]);
+        let forces = self.factor.backward(half.collect());
         forces.iter().all(|force| force.is_finite()).then_some(forces)
     }
 
-    /// By conjugate gradients among forces of one sum, and one moment where the bodies turn.
-    fn iterate(&self, potential: &Potential<T>, on: &[usize], arms: &[T]) -> Vec<T> {
+    /// By conjugate gradients among forces of one sum, and one moment where the bodies turn. What is missed is
+    /// made up for in each contact as if it were alone.
+    fn iterate(&self, on: &[usize], arms: &[T]) -> Vec<T> {
         let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];
         let mut sunk = all.clone();
-        let mut times = |forces: &[T], result: &mut [T]| {
+        let mut times = |forces: &[T]| -> Vec<T> {
             for (&i, &force) in on.iter().zip(forces) {
                 all[i] = force;
             }
-            potential.of(&all, |i| self.cells[i].loaded, &mut sunk);
-            for (&i, result) in on.iter().zip(result) {
-                *result = sunk[i];
-            }
+            self.matrix.of(&all, |i| self.cells[i].loaded, &mut sunk);
+            on.iter().map(|&i| sunk[i]).collect()
         };
-        let subtract = |values: &mut [T], [level, slope]: [T; 2]| {
-            for (value, &arm) in values.iter_mut().zip(arms) {
-                *value -= level + slope * arm;
+        let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
+        let alone: Vec<_> = runs
+            .map(|run| {
+                let mut factor = Cholesky::new();
+                for (n, &i) in run.iter().enumerate() {
+                    factor.push(run[..=n].iter().map(|&j| self.matrix.entry(i, j)).collect());
+                }
+                (run.len(), factor)
+            })
+            .collect();
+        let made_up = |missed: &[T]| {
+            let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
+            for (count, factor) in &alone {
+                let (run, others) = rest.split_at(*count);
+                forces.extend(factor.backward(factor.forward(run.to_vec())));
+                rest = others;
             }
+            forces
         };
-        let mut forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
+        let [even, leaning] = [made_up(&vec![T::one(); on.len()]), made_up(arms)];
+        let products = [sum(&even), dot(&even, arms), dot(&leaning, arms)];
+        let without = |mut forces: Vec<T>, excess: [T; 2]| {
+            let [level, slope] = multiples(products, excess);
+            for (force, (&even, &leaning)) in forces.iter_mut().zip(even.iter().zip(&leaning)) {
+                *force -= level * even + slope * leaning;
+            }
+            forces
+        };
+        let balanced = |missed: &[T]| {
+            let forces = made_up(missed);
+            let excess = [sum(&forces), dot(&forces, arms)];
+            without(forces, excess)
+        };
+        let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
         let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
-        subtract(&mut forces, line(arms, excess));
-        let mut product = vec![zero; on.len()];
-        times(&forces, &mut product);
-        let mut left: Vec<_> =
-            on.iter().zip(&product).map(|(&i, &sunk)| -sunk - self.rise[i]).collect();
-        let centred = |values: &mut [T]| {
-            let products = [sum(values), dot(values, arms)];
-            subtract(values, line(arms, products));
-        };
-        centred(&mut left);
-        let mut way = left.clone();
-        let mut size = dot(&left, &left);
+        let mut forces = without(forces, excess);
+        let sunk = times(&forces);
+        let mut missed: Vec<_> =
+            on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
+        let mut next = balanced(&missed);
+        let (mut way, mut size) = (next.clone(), dot(&missed, &next));
         for _ in 0..MOST_STEPS {
-            let allowed = T::of(1e-4);
-            // What is missed in a cell changes its force by as much.
-            if size <= allowed * allowed * dot(&forces, &forces) {
+            if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
                 break;
             }
-            times(&way, &mut product);
+            let product = times(&way);
             let step = size / dot(&way, &product);
             if !step.is_finite() {
                 break;
             }
             for i in 0..on.len() {
                 forces[i] += step * way[i];
-                left[i] -= step * product[i];
+                missed[i] -= step * product[i];
             }
-            centred(&mut left);
-            let before = std::mem::replace(&mut size, dot(&left, &left));
-            for (way, &left) in way.iter_mut().zip(&left) {
-                *way = left + size / before * *way;
+            next = balanced(&missed);
+            let before = std::mem::replace(&mut size, dot(&missed, &next));
+            for (way, &next) in way.iter_mut().zip(&next) {
+                *way = next + size / before * *way;
             }
         }
         forces
@@ -633,8 +702,21 @@ impl<T: Real> ActiveSet<T> {
         }
     }
 
-    /// The runs as intervals.
+    /// What was found.
     fn found(mut self) -> Coarse<T> {
+        let (intervals, runs) = (self.intervals(), self.runs());
+        let last = self.cells.len().saturating_sub(1);
+        let reaches = [
+            runs.first().is_some_and(|run| run[0] == 0),
+            runs.last().is_some_and(|run| run[1] == last),
+        ];
+        self.count.cells = self.cells.len();
+        let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
+        Coarse { intervals, tilt, reaches, count: self.count }
+    }
+
+    /// The runs as intervals.
+    fn intervals(&self) -> Vec<Interval<T>> {
         let runs = self.runs();
         let last = self.cells.len().saturating_sub(1);
         let interval = |&[from, to]: &[usize; 2]| {
@@ -668,22 +750,12 @@ impl<T: Real> ActiveSet<T> {
             }
             one
         });
-        let reaches = [
-            runs.first().is_some_and(|run| run[0] == 0),
-            runs.last().is_some_and(|run| run[1] == last),
-        ];
-        self.count.cells = self.cells.len();
-        let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
-        Coarse { intervals, tilt, reaches, count: self.count }
+        intervals
     }
 }
 
 fn sum<T: Real>(values: &[T]) -> T {
     values.iter().fold(T::zero(), |sum, &value| sum + value)
-}
-
-fn dot<T: Real>(one: &[T], other: &[T]) -> T {
-    one.iter().zip(other).fold(T::zero(), |sum, (&one, &other)| sum + one * other)
 }
 
 /// The level and the slope of the line through values of which the sum and the moment are given; level where no

@@ -5,6 +5,7 @@
 //! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
 
 use super::Found;
+use super::single::MOST_DOUBT;
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
@@ -164,10 +165,11 @@ impl<T: Real> Newton<T> {
             let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
             // Rounding keeps the steps from falling any further.
             let stalled = ratio >= T::of(0.25);
-            if done || stalled {
+            let small = size <= T::epsilon().sqrt() || self.is_small();
+            if done || stalled && small {
                 self.estimate(corners);
             }
-            if done || stalled && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
+            if done || stalled && small && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
                 if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {
                     return Ok(Outcome::Closed(i));
                 }
@@ -327,6 +329,12 @@ impl<T: Real> Newton<T> {
             self.errors.get(limit).map_or(T::zero(), |&error| error * self.on[i].half_width())
         });
         Interval { left: left - doubt[0], right: right + doubt[1] }
+    }
+
+    /// Whether no limit has moved by more than it may be in doubt.
+    fn is_small(&self) -> bool {
+        let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
+        half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
     }
 
     /// Whether no limit has moved by more than it is in doubt.
