@@ -10,8 +10,7 @@
 //! ```
 //!
 //! Where the load is to act at a place x̄ the bodies turn: `h_i + τ (x_i - x̄)` takes the place of `h_i`, and
-//! `Σ q_i (x_i - x̄) = 0` is one more condition. The first cells are then those that rigid bodies would rest on.
-//!
+//! `Σ q_i (x_i - x̄) = 0` is one more condition. //!
 //! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
 //! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
 //! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three
@@ -37,6 +36,10 @@ const MOST_CUTS: usize = 48;
 
 /// Loaded cells that a run must have.
 const CELLS_OF_A_RUN: usize = 6;
+
+/// How far below the level of its edges the gap of a round contact is on an average, times κ/F: two thirds of
+/// `κ h(L)/F`, that is one.
+const ABOVE: f64 = 2.0 / 3.0;
 
 /// Changes of the set of loaded cells before the search is given up.
 const MOST_CHANGES: usize = 400;
@@ -262,22 +265,44 @@ impl<T: Real> ActiveSet<T> {
         self.at.map_or(T::zero(), |at| (x - at) / (self.range[1] - self.range[0]))
     }
 
-    /// Loads the cells that rigid bodies rest on: the lowest, or two of which the line between them is the lowest
-    /// where the load acts.
+    /// Loads cells to start with, as if each gave way for itself: those that are below a line on which the load
+    /// acts where it has to. What [`ABOVE`] says of the line is right for one round contact.
     fn rest(&mut self) {
-        self.cells.iter_mut().for_each(|cell| cell.loaded = false);
+        let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         let arms: Vec<T> = self.cells.iter().map(|cell| self.arm(cell.centre())).collect();
+        let rises = self.cells.iter().map(|cell| self.rise_of(cell.height, lowest));
+        let rises: Vec<T> = rises.collect();
+        let [first, second] = self.supports(&arms);
+        let mut loaded: Vec<usize> = (0..arms.len()).collect();
+        for _ in 0..MOST_CHANGES {
+            let [on, above]: [Vec<T>; 2] =
+                [&arms, &rises].map(|of| loaded.iter().map(|&i| of[i]).collect());
+            let excess = T::of(ABOVE) * T::count(loaded.len());
+            let [level, slope] = line(&on, [sum(&above) + excess, dot(&on, &above)]);
+            let is_below =
+                |i: usize| rises[i] < level + slope * arms[i] || i == first || i == second;
+            let next: Vec<_> = (0..arms.len()).filter(|&i| is_below(i)).collect();
+            if next == loaded {
+                break;
+            }
+            loaded = next;
+        }
+        self.cells.iter_mut().for_each(|cell| cell.loaded = false);
+        loaded.iter().for_each(|&i| self.cells[i].loaded = true);
+    }
+
+    /// The cells that rigid bodies would rest on: the lowest, or the two of which the line between them is the
+    /// lowest where the load acts.
+    fn supports(&self, arms: &[T]) -> [usize; 2] {
         let middle = arms.partition_point(|&arm| arm <= T::zero());
-        let line = |&(i, j): &(usize, usize)| {
+        let line = |&[i, j]: &[usize; 2]| {
             let share = arms[i] / (arms[i] - arms[j]);
             self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
         };
-        let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| (i, j)));
+        let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| [i, j]));
         let by_line = |one: &_, other: &_| line(one).partial_cmp(&line(other)).unwrap_or(Equal);
-        let lowest = self.lowest().map(|lowest| (lowest, lowest));
-        if let Some((i, j)) = pairs.min_by(by_line).or(lowest) {
-            (self.cells[i].loaded, self.cells[j].loaded) = (true, true);
-        }
+        let lowest = self.lowest().unwrap_or(0);
+        pairs.min_by(by_line).unwrap_or([lowest; 2])
     }
 
     /// Whether forces in the loaded cells can act where they have to.
@@ -478,8 +503,7 @@ impl<T: Real> ActiveSet<T> {
         self.order.iter().for_each(|&i| known[i] = true);
         for &i in on.iter().filter(|&&i| !known[i]) {
             self.order.push(i);
-            let row = self.order.iter().map(|&j| self.matrix.entry(i, j)).collect();
-            if !self.factor.push(row) {
+            if !self.factor.push(self.order.iter().map(|&j| self.matrix.entry(i, j))) {
                 self.order.clear();
                 return false;
             }
@@ -521,7 +545,7 @@ impl<T: Real> ActiveSet<T> {
             .map(|run| {
                 let mut factor = Cholesky::new();
                 for (n, &i) in run.iter().enumerate() {
-                    factor.push(run[..=n].iter().map(|&j| self.matrix.entry(i, j)).collect());
+                    factor.push(run[..=n].iter().map(|&j| self.matrix.entry(i, j)));
                 }
                 (run.len(), factor)
             })
@@ -965,6 +989,26 @@ mod tests {
             for (end, at, x) in [(0, 0, -1.0), (1, n - 1, 1.0)] {
                 let on = found.intervals[at];
                 assert_eq!([on.left, on.right][end] == x, found.reaches[end]);
+            }
+        }
+    }
+
+    /// x²/2 rolls until it touches around the line of the load, by elimination and by conjugate gradients.
+    #[test]
+    fn a_parabola_rolls() {
+        for (load, at) in [(1e-6, 0.3), (0.01, -0.7), (0.3, 0.01), (0.3, 0.9)] {
+            let scene = Scene { at: Some(at), ..scene(load, [-2.0, 2.0]) };
+            let half = (4.0 * load / PI).sqrt();
+            let due = Interval { left: at - half, right: at + half };
+            let h = |x: f64| 0.5 * x * x;
+            let coarse = find(&scene, h).unwrap();
+            assert_eq!(coarse.intervals.len(), 1);
+            assert!(off(coarse.intervals[0], due) < 0.12, "{load} {at}: {coarse:?}");
+            assert!((coarse.tilt + at).abs() < 0.1 * half, "{load} {at}: {coarse:?}");
+            if load > 0.1 {
+                let fine = even(&scene, 2001, h);
+                assert!(off(fine.intervals[0], due) < 0.01, "{load} {at}: {fine:?}");
+                assert!((fine.tilt + at).abs() < 0.01 * half, "{load} {at}: {fine:?}");
             }
         }
     }

@@ -5,36 +5,50 @@ use crate::Real;
 
 #[derive(Clone)]
 pub(crate) struct Cholesky<T> {
-    /// Row by row, up to the diagonal.
-    rows: Vec<Vec<T>>,
+    /// Row by row, each up to the diagonal.
+    rows: Vec<T>,
+    count: usize,
+}
+
+/// Where a row starts.
+fn start(row: usize) -> usize {
+    row * (row + 1) / 2
 }
 
 impl<T: Real> Cholesky<T> {
     pub fn new() -> Self {
-        Self { rows: Vec::new() }
+        Self { rows: Vec::new(), count: 0 }
     }
 
     /// Leaves no more than the first rows.
-    pub fn truncate(&mut self, rows: usize) {
-        self.rows.truncate(rows);
+    pub fn truncate(&mut self, count: usize) {
+        self.count = self.count.min(count);
+        self.rows.truncate(start(self.count));
     }
 
     /// Adds a row of the matrix, up to its diagonal; `false` if that is no longer positive, or not finite.
-    pub fn push(&mut self, mut row: Vec<T>) -> bool {
-        for (j, before) in self.rows.iter().enumerate() {
-            row[j] = (row[j] - dot(&row[..j], &before[..j])) / before[j];
+    pub fn push(&mut self, row: impl Iterator<Item = T>) -> bool {
+        let n = self.count;
+        self.rows.extend(row);
+        let (before, row) = self.rows.split_at_mut(start(n));
+        for j in 0..n {
+            let other = &before[start(j)..start(j + 1)];
+            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
         }
-        let n = self.rows.len();
         let rest = row[n] - dot(&row[..n], &row[..n]);
         row[n] = rest.max(T::zero()).sqrt();
-        let positive = rest > T::zero() && rest.is_finite();
-        self.rows.push(row);
-        positive
+        self.count += 1;
+        rest > T::zero() && rest.is_finite()
+    }
+
+    fn row(&self, i: usize) -> &[T] {
+        &self.rows[start(i)..start(i + 1)]
     }
 
     /// Half of a solution: the factor's inverse times the right side.
     pub fn forward(&self, mut values: Vec<T>) -> Vec<T> {
-        for (i, row) in self.rows.iter().enumerate() {
+        for i in 0..self.count {
+            let row = self.row(i);
             values[i] = (values[i] - dot(&row[..i], &values[..i])) / row[i];
         }
         values
@@ -42,7 +56,8 @@ impl<T: Real> Cholesky<T> {
 
     /// The other half: its transpose's inverse.
     pub fn backward(&self, mut values: Vec<T>) -> Vec<T> {
-        for (i, row) in self.rows.iter().enumerate().rev() {
+        for i in (0..self.count).rev() {
+            let row = self.row(i);
             let value = values[i] / row[i];
             values[i] = value;
             for (rest, &a) in values[..i].iter_mut().zip(row) {
@@ -65,7 +80,7 @@ mod tests {
             factor.truncate(2);
             let rows = if cells.len() == 5 { 0 } else { 2 };
             for n in rows..cells.len() {
-                assert!(factor.push((0..=n).map(|j| entry(cells[n], cells[j])).collect()));
+                assert!(factor.push((0..=n).map(|j| entry(cells[n], cells[j]))));
             }
             let right: Vec<f64> = (0..cells.len()).map(|i| i as f64 - 2.0).collect();
             let solution = factor.backward(factor.forward(right.clone()));
@@ -74,6 +89,6 @@ mod tests {
                 assert!((each.sum::<f64>() - right).abs() < 1e-14);
             }
         }
-        assert!(!factor.push(vec![1.0; 7]));
+        assert!(!factor.push([1.0; 7].into_iter()));
     }
 }
