@@ -87,9 +87,8 @@ pub enum Control<T> {
     /// not matter which body turns, nor about which point. The load must be positive, and the moment such
     /// that the load acts at a place of the bodies, `x₀ + M/F`.
     ///
-    /// For one contact M is one more equation of the same search (Johnson, *Contact Mechanics*, 1985, §2.7,
-    /// has the flat punch under an eccentric load). Where the bodies touch in several places, or one interval
-    /// is not found at once, contacts of bodies turned by trial values of the tilt lead to it.
+    /// M is one more equation of the same search, and the tilt one more unknown (Johnson, *Contact Mechanics*,
+    /// 1985, §2.7, has the flat punch under an eccentric load).
     Moment {
         /// The load per unit length F = ∫ P dx: force/length.
         load: T,

@@ -9,6 +9,8 @@
 //! κ h_i + Σ_j K_ij q_j ≥ δ,   q_i = 0    in open ones,      Σ q_i = F
 //! ```
 //!
+//! Where the load is to act at a place x̄ the bodies turn: `h_i + τ (x_i - x̄)` takes the place of `h_i`, and
+//! `Σ q_i (x_i - x̄) = 0` is one more condition. //!
 //! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
 //! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
 //! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three
@@ -17,9 +19,10 @@
 
 mod potential;
 
+use crate::numerics::{Cholesky, dot};
 use crate::{ContactError, Interval, Real};
-use nalgebra::{DMatrix, DVector};
 use potential::{Place, Potential};
+use std::cmp::Ordering::Equal;
 use thiserror::Error;
 
 /// Cells at first; where a check has failed, twice as many may see more.
@@ -34,6 +37,10 @@ const MOST_CUTS: usize = 48;
 /// Loaded cells that a run must have.
 const CELLS_OF_A_RUN: usize = 6;
 
+/// How far below the level of its edges the gap of a round contact is on an average, times κ/F: two thirds of
+/// `κ h(L)/F`, that is one.
+const ABOVE: f64 = 2.0 / 3.0;
+
 /// Changes of the set of loaded cells before the search is given up.
 const MOST_CHANGES: usize = 400;
 
@@ -42,6 +49,12 @@ const MOST_IN_VAIN: usize = 4;
 
 /// Loaded cells up to which their equations are solved by elimination.
 const DENSE: usize = 120;
+
+/// Neighbours whose equations are solved together in each step of conjugate gradients.
+const NEIGHBOURS: usize = 32;
+
+/// The share of the forces that conjugate gradients may miss.
+const ENOUGH: f64 = 1e-4;
 
 /// Steps of conjugate gradients for one system.
 const MOST_STEPS: usize = 300;
@@ -62,6 +75,8 @@ const LEAST_GAP: f64 = 1e-3;
 pub(super) struct Scene<'s, T> {
     pub kappa: T,
     pub load: T,
+    /// Where the load is to act, if the bodies turn.
+    pub at: Option<T>,
     /// Where both bodies are, or up to their corners.
     pub range: [T; 2],
     /// Cells at first, such as [`FIRST_CELLS`].
@@ -77,6 +92,8 @@ pub(super) struct Scene<'s, T> {
 pub(super) struct Coarse<T> {
     /// From left to right.
     pub intervals: Vec<Interval<T>>,
+    /// By how much body 2 is turned counter-clockwise.
+    pub tilt: T,
     /// Whether the contact reaches the left and the right end of the range.
     pub reaches: [bool; 2],
     #[cfg_attr(not(test), allow(dead_code))]
@@ -122,8 +139,8 @@ pub(super) fn active_set<T: Real>(
     set.take_up(scene.start, height)?;
     for _ in 0..MOST_CUTS {
         set.settle()?;
-        let marks = set.marks(scene.known);
-        if !set.cut(&marks, height)? {
+        let (marks, intervals) = (set.marks(scene.known), set.intervals());
+        if !set.cut(&marks, &intervals, height)? {
             break;
         }
     }
@@ -141,6 +158,8 @@ struct Cell<T> {
     /// As a share of the load.
     force: T,
     loaded: bool,
+    /// Its number before cells were cut, unless it is new.
+    number: Option<usize>,
 }
 
 impl<T: Real> Cell<T> {
@@ -162,10 +181,17 @@ struct ActiveSet<T> {
     range: [T; 2],
     kappa: T,
     load: T,
-    /// κ h/F above the lowest cell, the potential, and what their sum is in loaded cells.
+    at: Option<T>,
+    /// κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
+    matrix: Potential<T>,
+    /// That of the loaded cells, factored, in this order; or empty.
+    factor: Cholesky<T>,
+    order: Vec<usize>,
+    /// What their sum is in loaded cells: a level, and a slope from where the load is to act.
     level: T,
+    slope: T,
     /// Whether cells were cut since these were found.
     changed: bool,
     count: Count,
@@ -174,8 +200,9 @@ struct ActiveSet<T> {
 
 impl<T: Real> ActiveSet<T> {
     fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
-        let Scene { kappa, load, range, cells, .. } = *scene;
+        let Scene { kappa, load, at, range, cells, .. } = *scene;
         let [kappa, load] = [kappa, load].map(|value| value.part(0));
+        let at = at.map(|at| at.part(0));
         let range = range.map(|end| end.part(0));
         let width = range[1] - range[0];
         let positive = |value: T| value > T::zero() && value.is_finite();
@@ -190,9 +217,14 @@ impl<T: Real> ActiveSet<T> {
             range,
             kappa,
             load,
+            at,
             rise: Vec::new(),
             potential: Vec::new(),
+            matrix: Potential::new(),
+            factor: Cholesky::new(),
+            order: Vec::new(),
             level: T::zero(),
+            slope: T::zero(),
             changed: true,
             count: Count::default(),
             work: 0,
@@ -204,34 +236,98 @@ impl<T: Real> ActiveSet<T> {
             let right = if i == cells { range[1] } else { range[0] + share * width };
             // A range of a few units in the last place has fewer cells.
             if right > left {
-                set.add(left, right, T::zero(), false, None, height)?;
+                set.add([left, right], None, height)?;
                 left = right;
             }
         }
-        if let Some(lowest) = set.lowest() {
-            set.cells[lowest].loaded = true;
+        // There have to be cells on both sides of the place where the load acts.
+        while let (Some(_), Some(last)) = (at, set.cells.len().checked_sub(1)) {
+            let [left, right] = [0, last].map(|i| set.arm(set.cells[i].centre()) > T::zero());
+            let marks: Vec<_> = (0..=last).map(|i| i == 0 && left || i == last && !right).collect();
+            if !set.cut(&marks, &[], height)? {
+                break;
+            }
         }
+        set.rest();
         Ok(set)
     }
 
     fn lowest(&self) -> Option<usize> {
         let by_height = |&i: &usize, &j: &usize| {
             let [one, other] = [i, j].map(|i| self.cells[i].height);
-            one.partial_cmp(&other).unwrap_or(std::cmp::Ordering::Equal)
+            one.partial_cmp(&other).unwrap_or(Equal)
         };
         (0..self.cells.len()).min_by(by_height)
     }
 
+    /// How far to the right of the place where the load is to act, as a share of the range.
+    fn arm(&self, x: T) -> T {
+        self.at.map_or(T::zero(), |at| (x - at) / (self.range[1] - self.range[0]))
+    }
+
+    /// Loads cells to start with, as if each gave way for itself: those that are below a line on which the load
+    /// acts where it has to. What [`ABOVE`] says of the line is right for one round contact.
+    fn rest(&mut self) {
+        let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
+        let arms: Vec<T> = self.cells.iter().map(|cell| self.arm(cell.centre())).collect();
+        let rises = self.cells.iter().map(|cell| self.rise_of(cell.height, lowest));
+        let rises: Vec<T> = rises.collect();
+        let [first, second] = self.supports(&arms);
+        let mut loaded: Vec<usize> = (0..arms.len()).collect();
+        for _ in 0..MOST_CHANGES {
+            let [on, above]: [Vec<T>; 2] =
+                [&arms, &rises].map(|of| loaded.iter().map(|&i| of[i]).collect());
+            let excess = T::of(ABOVE) * T::count(loaded.len());
+            let [level, slope] = line(&on, [sum(&above) + excess, dot(&on, &above)]);
+            let is_below =
+                |i: usize| rises[i] < level + slope * arms[i] || i == first || i == second;
+            let next: Vec<_> = (0..arms.len()).filter(|&i| is_below(i)).collect();
+            if next == loaded {
+                break;
+            }
+            loaded = next;
+        }
+        self.cells.iter_mut().for_each(|cell| cell.loaded = false);
+        loaded.iter().for_each(|&i| self.cells[i].loaded = true);
+    }
+
+    /// The cells that rigid bodies would rest on: the lowest, or the two of which the line between them is the
+    /// lowest where the load acts.
+    fn supports(&self, arms: &[T]) -> [usize; 2] {
+        let middle = arms.partition_point(|&arm| arm <= T::zero());
+        let line = |&[i, j]: &[usize; 2]| {
+            let share = arms[i] / (arms[i] - arms[j]);
+            self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
+        };
+        let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| [i, j]));
+        let by_line = |one: &_, other: &_| line(one).partial_cmp(&line(other)).unwrap_or(Equal);
+        let lowest = self.lowest().unwrap_or(0);
+        pairs.min_by(by_line).unwrap_or([lowest; 2])
+    }
+
+    /// Whether forces in the loaded cells can act where they have to.
+    fn bears(&self) -> bool {
+        let arms = || {
+            let loaded = self.cells.iter().filter(|cell| cell.loaded);
+            loaded.map(|cell| self.arm(cell.centre()))
+        };
+        self.at.is_none() || arms().any(|arm| arm <= T::zero()) && arms().any(|arm| arm > T::zero())
+    }
+
+    /// How far open the gap is in a cell.
+    fn gap(&self, i: usize) -> T {
+        let aside = self.slope * self.arm(self.cells[i].centre());
+        self.rise[i] + self.potential[i] - self.level - aside
+    }
+
     fn add(
         &mut self,
-        left: T,
-        right: T,
-        force: T,
-        loaded: bool,
+        [left, right]: [T; 2],
         known: Option<T>,
         height: Height<'_, T>,
-    ) -> Result<(), NotFound<T>> {
-        let mut cell = Cell { left, right, height: T::zero(), force, loaded };
+    ) -> Result<&mut Cell<T>, NotFound<T>> {
+        let (force, loaded, number) = (T::zero(), false, None);
+        let mut cell = Cell { left, right, height: T::zero(), force, loaded, number };
         cell.height = match known {
             Some(height) => height,
             None => {
@@ -244,30 +340,42 @@ impl<T: Real> ActiveSet<T> {
                 height
             }
         };
+        let number = self.cells.len();
         self.cells.push(cell);
-        Ok(())
+        Ok(&mut self.cells[number])
     }
 
-    /// Cuts the marked cells in three; whether there were any that can be.
-    fn cut(&mut self, marks: &[bool], height: Height<'_, T>) -> Result<bool, NotFound<T>> {
+    /// Cuts the marked cells in three, of which those are loaded that lie in intervals; whether there were any that
+    /// can be.
+    fn cut(
+        &mut self,
+        marks: &[bool],
+        intervals: &[Interval<T>],
+        height: Height<'_, T>,
+    ) -> Result<bool, NotFound<T>> {
         let room = MOST_CELLS.saturating_sub(self.cells.len()) / 2;
         let cells = std::mem::take(&mut self.cells);
         let mut cut = 0;
         for (cell, &mark) in cells.iter().zip(marks) {
-            let Cell { left, right, height: middle, force, loaded } = *cell;
-            let width = cell.width();
+            let Cell { left, right, height: middle, force, .. } = *cell;
+            let third = cell.width() / T::of(3.0);
             // The centre stays where it is.
-            let inner = [left + width / T::of(3.0), right - width / T::of(3.0)];
+            let [from, to] = [left + third, right - third];
             let finest = T::of(64.0) * T::epsilon() * left.abs().max(right.abs());
-            if !mark || cut >= room || width <= finest || inner[0] >= inner[1] {
+            if !mark || cut >= room || cell.width() <= finest || from >= to {
                 self.cells.push(*cell);
                 continue;
             }
             cut += 1;
-            let force = force / T::of(3.0);
-            self.add(left, inner[0], force, loaded, None, height)?;
-            self.add(inner[0], inner[1], force, loaded, Some(middle), height)?;
-            self.add(inner[1], right, force, loaded, None, height)?;
+            let thirds = [([left, from], None), ([from, to], Some(middle)), ([to, right], None)];
+            for (ends, known) in thirds {
+                let third = self.add(ends, known, height)?;
+                let x = third.centre();
+                let first = intervals.partition_point(|on| on.right <= x);
+                if intervals.get(first).is_some_and(|on| on.contains(x)) {
+                    (third.loaded, third.force) = (true, force / T::of(3.0));
+                }
+            }
         }
         self.changed |= cut > 0;
         Ok(cut > 0)
@@ -291,7 +399,7 @@ impl<T: Real> ActiveSet<T> {
                 touched(cell).is_some_and(|on| cell.width() > sixth(on))
             };
             let marks: Vec<_> = self.cells.iter().map(wide).collect();
-            if !self.cut(&marks, height)? {
+            if !self.cut(&marks, &[], height)? {
                 break;
             }
         }
@@ -311,7 +419,13 @@ impl<T: Real> ActiveSet<T> {
             centre: (cell.centre() - left) / (right - left),
             width: cell.width() / (right - left),
         };
-        let potential = Potential::new(self.cells.iter().map(place).collect());
+        let before: Vec<_> = self.cells.iter().map(|cell| cell.number).collect();
+        let places = self.cells.iter().map(place).collect();
+        self.matrix.set(places, &before, |j| self.cells[j].loaded);
+        for (i, cell) in self.cells.iter_mut().enumerate() {
+            cell.number = Some(i);
+        }
+        self.order.clear();
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         // Beyond that it is all one how high a cell is.
         let highest = T::epsilon().recip().powi(4);
@@ -319,12 +433,17 @@ impl<T: Real> ActiveSet<T> {
         self.rise = self.cells.iter().map(rise).collect();
         let (mut least, mut in_vain) = (usize::MAX, 0);
         for _ in 0..MOST_CHANGES {
-            let rounding = self.solve(&potential);
-            let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
+            if !self.bears() {
+                self.rest();
+                if !self.bears() {
+                    break;
+                }
+            }
+            let rounding = self.solve();
             let wrong: Vec<_> = (0..self.cells.len())
                 .filter(|&i| {
                     let Cell { loaded, force, .. } = self.cells[i];
-                    if loaded { force < -rounding } else { gap(i) < -rounding }
+                    if loaded { force < -rounding } else { self.gap(i) < -rounding }
                 })
                 .collect();
             if wrong.is_empty() {
@@ -347,13 +466,19 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// Closes the gap in the loaded cells; how far off the forces may be.
-    fn solve(&mut self, potential: &Potential<T>) -> T {
+    fn solve(&mut self) -> T {
         self.count.solves += 1;
-        let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
-        let exact = if on.len() <= DENSE { self.eliminate(potential, &on) } else { None };
+        let mut on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        on.iter().for_each(|&i| self.matrix.load(i));
+        let found = on.len() <= DENSE && self.factor(&on);
+        if found {
+            on.clone_from(&self.order);
+        }
+        let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
+        let exact = if found { self.eliminate(&arms) } else { None };
         let found = exact.is_some();
         self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
-        let forces = exact.unwrap_or_else(|| self.iterate(potential, &on));
+        let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
         for (&i, &force) in on.iter().zip(&forces) {
@@ -362,78 +487,117 @@ impl<T: Real> ActiveSet<T> {
             largest = largest.max(force.abs());
         }
         self.potential = all.clone();
-        potential.of(&all, |_| true, &mut self.potential);
-        let total: T = on.iter().fold(T::zero(), |sum, &i| sum + self.rise[i] + self.potential[i]);
-        self.level = total / T::count(on.len());
+        self.matrix.of(&all, |_| true, &mut self.potential);
+        let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
+        [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
         if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
     }
 
-    /// By elimination: `K q = level - rise` with `Σ q = 1`.
-    fn eliminate(&self, potential: &Potential<T>, on: &[usize]) -> Option<Vec<T>> {
-        let n = on.len();
-        let matrix = DMatrix::from_fn(n, n, |i, j| potential.entry(on[i], on[j]));
-        let factor = matrix.cholesky()?;
-        let lowest = on.iter().fold(None, |low: Option<T>, &i| {
-            Some(low.map_or(self.rise[i], |low| low.min(self.rise[i])))
-        })?;
-        let ones = factor.solve(&DVector::from_element(n, T::one()));
-        let rise = factor.solve(&DVector::from_fn(n, |i, _| self.rise[on[i]] - lowest));
-        let level = (T::one() + rise.sum()) / ones.sum();
-        let forces: Vec<_> =
-            ones.iter().zip(&rise).map(|(&one, &rise)| level * one - rise).collect();
+    /// Factors the matrix of the loaded cells: anew from the first on that is no longer one of them.
+    fn factor(&mut self, on: &[usize]) -> bool {
+        let kept = self.order.iter().take_while(|&&i| self.cells[i].loaded).count();
+        self.factor.truncate(kept);
+        self.order.truncate(kept);
+        let mut known = vec![false; self.cells.len()];
+        self.order.iter().for_each(|&i| known[i] = true);
+        for &i in on.iter().filter(|&&i| !known[i]) {
+            self.order.push(i);
+            if !self.factor.push(self.order.iter().map(|&j| self.matrix.entry(i, j))) {
+                self.order.clear();
+                return false;
+            }
+        }
+        true
+    }
+
+    /// By elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
+    /// `Σ q arm = 0`.
+    fn eliminate(&self, arms: &[T]) -> Option<Vec<T>> {
+        let rises = || self.order.iter().map(|&i| self.rise[i]);
+        let lowest = rises().reduce(|low, rise| low.min(rise))?;
+        let even = self.factor.forward(vec![T::one(); arms.len()]);
+        let leaning = self.factor.forward(arms.to_vec());
+        let rise = self.factor.forward(rises().map(|rise| rise - lowest).collect());
+        let products = [dot(&even, &even), dot(&even, &leaning), dot(&leaning, &leaning)];
+        let conditions = [T::one() + dot(&even, &rise), dot(&leaning, &rise)];
+        let [level, slope] = multiples(products, conditions);
+        let half = (0..arms.len()).map(|i| level * even[i] + slope * leaning[i] - rise[i]);
+        let forces = self.factor.backward(half.collect());
         forces.iter().all(|force| force.is_finite()).then_some(forces)
     }
 
-    /// By conjugate gradients among forces of one sum.
-    fn iterate(&self, potential: &Potential<T>, on: &[usize]) -> Vec<T> {
-        let (n, zero) = (T::count(on.len()), T::zero());
+    /// By conjugate gradients among forces of one sum, and one moment where the bodies turn. What is missed is
+    /// made up for in each contact as if it were alone.
+    fn iterate(&self, on: &[usize], arms: &[T]) -> Vec<T> {
+        let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];
         let mut sunk = all.clone();
-        let mut times = |forces: &[T], result: &mut [T]| {
+        let mut times = |forces: &[T]| -> Vec<T> {
             for (&i, &force) in on.iter().zip(forces) {
                 all[i] = force;
             }
-            potential.of(&all, |i| self.cells[i].loaded, &mut sunk);
-            for (&i, result) in on.iter().zip(result) {
-                *result = sunk[i];
+            self.matrix.of(&all, |i| self.cells[i].loaded, &mut sunk);
+            on.iter().map(|&i| sunk[i]).collect()
+        };
+        let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
+        let alone: Vec<_> = runs
+            .map(|run| {
+                let mut factor = Cholesky::new();
+                for (n, &i) in run.iter().enumerate() {
+                    factor.push(run[..=n].iter().map(|&j| self.matrix.entry(i, j)));
+                }
+                (run.len(), factor)
+            })
+            .collect();
+        let made_up = |missed: &[T]| {
+            let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
+            for (count, factor) in &alone {
+                let (run, others) = rest.split_at(*count);
+                forces.extend(factor.backward(factor.forward(run.to_vec())));
+                rest = others;
             }
+            forces
         };
-        let sum = |values: &[T]| values.iter().fold(zero, |sum, &value| sum + value);
-        let dot = |a: &[T], b: &[T]| a.iter().zip(b).fold(zero, |sum, (&a, &b)| sum + a * b);
-        let mut forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
-        let missing = (T::one() - sum(&forces)) / n;
-        forces.iter_mut().for_each(|force| *force += missing);
-        let mut product = vec![zero; on.len()];
-        times(&forces, &mut product);
-        let mut left: Vec<_> =
-            on.iter().zip(&product).map(|(&i, &sunk)| -sunk - self.rise[i]).collect();
-        let centred = |values: &mut [T]| {
-            let mean = sum(values) / n;
-            values.iter_mut().for_each(|value| *value -= mean);
+        let [even, leaning] = [made_up(&vec![T::one(); on.len()]), made_up(arms)];
+        let products = [sum(&even), dot(&even, arms), dot(&leaning, arms)];
+        let without = |mut forces: Vec<T>, excess: [T; 2]| {
+            let [level, slope] = multiples(products, excess);
+            for (force, (&even, &leaning)) in forces.iter_mut().zip(even.iter().zip(&leaning)) {
+                *force -= level * even + slope * leaning;
+            }
+            forces
         };
-        centred(&mut left);
-        let mut way = left.clone();
-        let mut size = dot(&left, &left);
+        let balanced = |missed: &[T]| {
+            let forces = made_up(missed);
+            let excess = [sum(&forces), dot(&forces, arms)];
+            without(forces, excess)
+        };
+        let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
+        let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
+        let mut forces = without(forces, excess);
+        let sunk = times(&forces);
+        let mut missed: Vec<_> =
+            on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
+        let mut next = balanced(&missed);
+        let (mut way, mut size) = (next.clone(), dot(&missed, &next));
         for _ in 0..MOST_STEPS {
-            let allowed = T::of(1e-4);
-            // What is missed in a cell changes its force by as much.
-            if size <= allowed * allowed * dot(&forces, &forces) {
+            if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
                 break;
             }
-            times(&way, &mut product);
+            let product = times(&way);
             let step = size / dot(&way, &product);
             if !step.is_finite() {
                 break;
             }
             for i in 0..on.len() {
                 forces[i] += step * way[i];
-                left[i] -= step * product[i];
+                missed[i] -= step * product[i];
             }
-            centred(&mut left);
-            let before = std::mem::replace(&mut size, dot(&left, &left));
-            for (way, &left) in way.iter_mut().zip(&left) {
-                *way = left + size / before * *way;
+            next = balanced(&missed);
+            let before = std::mem::replace(&mut size, dot(&missed, &next));
+            for (way, &next) in way.iter_mut().zip(&next) {
+                *way = next + size / before * *way;
             }
         }
         forces
@@ -481,7 +645,7 @@ impl<T: Real> ActiveSet<T> {
             }
         }
         // A minimum of the open gap that may close: lower than what it rises by to a neighbour.
-        let gap = |i: usize| self.rise[i] + self.potential[i] - self.level;
+        let gap = |i: usize| self.gap(i);
         for i in (0..n).filter(|&i| !self.cells[i].loaded) {
             let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
             let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
@@ -527,7 +691,8 @@ impl<T: Real> ActiveSet<T> {
             if cell.width() < T::of(CLOSEST) * beside.part(0) {
                 continue;
             }
-            let gap = self.rise_of(height, lowest) + self.potential_at(x, i) - self.level;
+            let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);
+            let gap = self.rise_of(height, lowest) - sunk;
             let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
             let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));
             if !cell.loaded {
@@ -561,8 +726,21 @@ impl<T: Real> ActiveSet<T> {
         }
     }
 
-    /// The runs as intervals.
+    /// What was found.
     fn found(mut self) -> Coarse<T> {
+        let (intervals, runs) = (self.intervals(), self.runs());
+        let last = self.cells.len().saturating_sub(1);
+        let reaches = [
+            runs.first().is_some_and(|run| run[0] == 0),
+            runs.last().is_some_and(|run| run[1] == last),
+        ];
+        self.count.cells = self.cells.len();
+        let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
+        Coarse { intervals, tilt, reaches, count: self.count }
+    }
+
+    /// The runs as intervals.
+    fn intervals(&self) -> Vec<Interval<T>> {
         let runs = self.runs();
         let last = self.cells.len().saturating_sub(1);
         let interval = |&[from, to]: &[usize; 2]| {
@@ -596,13 +774,27 @@ impl<T: Real> ActiveSet<T> {
             }
             one
         });
-        let reaches = [
-            runs.first().is_some_and(|run| run[0] == 0),
-            runs.last().is_some_and(|run| run[1] == last),
-        ];
-        self.count.cells = self.cells.len();
-        Coarse { intervals, reaches, count: self.count }
+        intervals
     }
+}
+
+fn sum<T: Real>(values: &[T]) -> T {
+    values.iter().fold(T::zero(), |sum, &value| sum + value)
+}
+
+/// The level and the slope of the line through values of which the sum and the moment are given; level where no
+/// arm is any but zero.
+fn line<T: Real>(arms: &[T], of_values: [T; 2]) -> [T; 2] {
+    multiples([T::count(arms.len()), sum(arms), dot(arms, arms)], of_values)
+}
+
+/// The multiples of two vectors with given products with both, from the products of the first with itself, with
+/// the second, and of that with itself. The second may be zero.
+fn multiples<T: Real>([own, with, other]: [T; 3], [first, second]: [T; 2]) -> [T; 2] {
+    let share = with / own;
+    let rest = other - share * with;
+    let slope = if rest > T::zero() { (second - share * first) / rest } else { T::zero() };
+    [(first - with * slope) / own, slope]
 }
 
 /// The right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
@@ -626,7 +818,7 @@ mod tests {
 
     fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
         let cells = FIRST_CELLS;
-        Scene { kappa: FRAC_PI_2, load, range, cells, known: &[], start: &[] }
+        Scene { kappa: FRAC_PI_2, load, at: None, range, cells, known: &[], start: &[] }
     }
 
     fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Found {
@@ -801,6 +993,26 @@ mod tests {
         }
     }
 
+    /// x²/2 rolls until it touches around the line of the load, by elimination and by conjugate gradients.
+    #[test]
+    fn a_parabola_rolls() {
+        for (load, at) in [(1e-6, 0.3), (0.01, -0.7), (0.3, 0.01), (0.3, 0.9)] {
+            let scene = Scene { at: Some(at), ..scene(load, [-2.0, 2.0]) };
+            let half = (4.0 * load / PI).sqrt();
+            let due = Interval { left: at - half, right: at + half };
+            let h = |x: f64| 0.5 * x * x;
+            let coarse = find(&scene, h).unwrap();
+            assert_eq!(coarse.intervals.len(), 1);
+            assert!(off(coarse.intervals[0], due) < 0.12, "{load} {at}: {coarse:?}");
+            assert!((coarse.tilt + at).abs() < 0.1 * half, "{load} {at}: {coarse:?}");
+            if load > 0.1 {
+                let fine = even(&scene, 2001, h);
+                assert!(off(fine.intervals[0], due) < 0.01, "{load} {at}: {fine:?}");
+                assert!((fine.tilt + at).abs() < 0.01 * half, "{load} {at}: {fine:?}");
+            }
+        }
+    }
+
     #[test]
     fn from_the_last_contact_with_fewer_solves() {
         let h = |x: f64| x.powi(4) - 2.0 * x * x;
@@ -825,6 +1037,7 @@ mod tests {
             let scene = Scene {
                 kappa: std::f32::consts::FRAC_PI_2,
                 load,
+                at: None,
                 range: [-2.0f32, 2.0],
                 cells: FIRST_CELLS,
                 known: &[],

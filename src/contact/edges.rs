@@ -63,6 +63,14 @@ impl<T: Real> Conditions<T> {
         }
     }
 
+    /// Where the load acts, if that is given.
+    pub fn at(&self) -> Option<T> {
+        match self.given {
+            Given::Centre { at, .. } => Some(at),
+            Given::Load(_) | Given::HalfWidth(_) => None,
+        }
+    }
+
     /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`. By roots, so as not to
     /// underflow.
     pub fn pull(&self, half_width: T) -> [T; 2] {

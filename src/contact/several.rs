@@ -5,6 +5,7 @@
 //! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
 
 use super::Found;
+use super::single::MOST_DOUBT;
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
@@ -86,7 +87,10 @@ impl<T: Real> Newton<T> {
         at: Option<T>,
     ) -> Result<Outcome, ContactError<T>> {
         self.errors.clear();
-        let mut turned = gap.tilted(if at.is_some() { self.tilt } else { gap.tilt() });
+        if at.is_none() {
+            self.tilt = gap.tilt();
+        }
+        let mut turned = gap.tilted(self.tilt);
         let (one, half) = (T::one(), T::of(0.5));
         let mut before: Option<T> = None;
         let mut cut: Option<(Place, usize)> = None;
@@ -164,10 +168,11 @@ impl<T: Real> Newton<T> {
             let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
             // Rounding keeps the steps from falling any further.
             let stalled = ratio >= T::of(0.25);
-            if done || stalled {
+            let small = size <= T::epsilon().sqrt() || self.is_small();
+            if done || stalled && small {
                 self.estimate(corners);
             }
-            if done || stalled && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
+            if done || stalled && small && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
                 if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {
                     return Ok(Outcome::Closed(i));
                 }
@@ -210,7 +215,7 @@ impl<T: Real> Newton<T> {
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             force: None,
             trend: None,
-            tilt: T::zero(),
+            tilt: self.tilt,
             ends,
         }
     }
@@ -335,6 +340,12 @@ impl<T: Real> Newton<T> {
         let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
         let rounding = T::of(NOTHING) * T::epsilon() * size;
         Interval { left: left - rounding, right: right + rounding }
+    }
+
+    /// Whether no limit has moved by more than it may be in doubt.
+    fn is_small(&self) -> bool {
+        let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
+        half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
     }
 
     /// Whether no limit has moved by more than it is in doubt.

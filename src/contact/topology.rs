@@ -55,22 +55,6 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    pub(super) fn newton(&mut self) -> &mut Newton<T> {
-        &mut self.newton
-    }
-
-    /// Newton's method at the contacts last found, of bodies turned by so much.
-    pub(super) fn start_from_last(&mut self, tilt: T) -> &mut Newton<T> {
-        self.newton.on.clone_from(&self.last);
-        self.newton.tilt = tilt;
-        &mut self.newton
-    }
-
-    /// The contacts last found.
-    pub fn last(&self) -> &[Interval<T>] {
-        &self.last
-    }
-
     /// Forgets the contacts last found.
     pub fn forget(&mut self) {
         self.last.clear();
@@ -123,6 +107,7 @@ pub(super) fn find<T: Real>(
     let closed = Vec::new();
     let mut search =
         Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None };
+    let turns = search.turns();
     if contact.single_interval || given {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Verdict::Unchecked);
@@ -136,7 +121,7 @@ pub(super) fn find<T: Real>(
         {
             return Ok(found);
         }
-        let (start, found) = search.one(!convex);
+        let (start, found) = search.one(!convex && !turns);
         match found {
             Ok(found) => match search.checked(&found, convex)? {
                 None => {
@@ -148,8 +133,13 @@ pub(super) fn find<T: Real>(
                     fault = Some(error);
                 }
             },
-            Err(error) if convex || !error.may_be_several() => return Err(error),
-            Err(error) if search.workspace.look(gap, search.cost)?.bulges() => return Err(error),
+            Err(error) if !error.may_be_several() => return Err(error),
+            // Of bodies that turn, one contact may be hard to find too.
+            Err(error)
+                if !turns && (convex || search.workspace.look(gap, search.cost)?.bulges()) =>
+            {
+                return Err(error);
+            }
             Err(error) => {
                 search.workspace.report.add(start, Verdict::NotFound);
                 fault = Some(error);
@@ -157,21 +147,6 @@ pub(super) fn find<T: Real>(
         }
     }
     search.several(fault)
-}
-
-/// What a contact that was found as one interval fails by as the contact of its bodies, if anything.
-pub(super) fn fault<T: Real>(
-    contact: &Contact<'_, T>,
-    found: &Found<T>,
-    engine: &mut dyn Engine<T>,
-    workspace: &mut Workspace<T>,
-    cost: &mut Cost,
-) -> Result<Option<ContactError<T>>, ContactError<T>> {
-    let sought = Sought::Peak(T::zero());
-    let convex = contact.gap.is_convex();
-    let (cells, closed) = (FIRST_CELLS, Vec::new());
-    Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None }
-        .checked(found, convex)
 }
 
 struct Search<'s, 'b, T: Real> {
@@ -192,9 +167,9 @@ impl<T: Real> Search<'_, '_, T> {
     /// Seeks one contact: where it was, where the user says, or at the lowest gap. Without a
     /// look at the bodies it starts in their middle.
     fn one(&mut self, looks: bool) -> (Start, Result<Found<T>, ContactError<T>>) {
+        let mut start = if self.turns() { Start::LineOfLoad } else { Start::Middle };
         let (contact, cost) = (self.contact, &mut *self.cost);
         let last = self.workspace.last.first().copied();
-        let mut start = Start::Middle;
         let mut look = None;
         if looks {
             start = Start::LowestGap;
@@ -231,7 +206,7 @@ impl<T: Real> Search<'_, '_, T> {
         if convex {
             return Ok(None);
         }
-        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
         // Where the engine has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
         if panels::several(self.engine).is_none() {
@@ -283,11 +258,20 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(!look.bulges() && !look.is_one_valley())
     }
 
+    /// Whether the bodies turn until the load acts at a given place.
+    fn turns(&self) -> bool {
+        matches!(self.sought, Sought::By(Conditions { given: Given::Centre { .. }, .. }))
+    }
+
     /// Whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
         let adhesive = |edge: &Edge<T>| matches!(edge, Edge::Adhesive(_));
         // Engines of the user's, and the paper's, know but one contact; so do the searches.
-        matches!(self.sought, Sought::By(Conditions { given: Given::Load(_), .. }))
+        let by_load = matches!(
+            self.sought,
+            Sought::By(Conditions { given: Given::Load(_) | Given::Centre { .. }, .. })
+        );
+        by_load
             && !self.contact.edges.iter().any(adhesive)
             && self.contact.search.is_none()
             && panels::is_panels(self.engine)
@@ -407,7 +391,7 @@ impl<T: Real> Search<'_, '_, T> {
             let (conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
             let found =
                 Single { contact, conditions, start, look, engine, cost, bears }.find(start)?;
-            newton.on[0] = found.interval;
+            (newton.on[0], newton.tilt) = (found.interval, found.tilt);
             return Ok(Ok(found));
         }
         for (side, corner) in corners.into_iter().enumerate() {
@@ -422,8 +406,14 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(Err(Outcome::Failed));
         };
         let load = conditions.load();
-        let outcome =
-            newton.settle(several, &contact.gap, load / conditions.kappa, corners, ends, None)?;
+        let outcome = newton.settle(
+            several,
+            &contact.gap,
+            load / conditions.kappa,
+            corners,
+            ends,
+            conditions.at(),
+        )?;
         if outcome != Outcome::Found {
             return Ok(Err(outcome));
         }
@@ -483,14 +473,8 @@ impl<T: Real> Search<'_, '_, T> {
         // As many as have not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(16 * FIRST_CELLS);
-        let turned: Vec<_>;
-        let known = if gap.tilt().is_zero() {
-            look.heights()
-        } else {
-            turned = look.heights().iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect();
-            &turned
-        };
-        let scene = Scene { kappa, load, range, cells, known, start: &newton.on };
+        let (known, start) = (look.heights(), &newton.on[..]);
+        let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;
@@ -500,7 +484,7 @@ impl<T: Real> Search<'_, '_, T> {
                     self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
                 let side = (0..2).find(|&side| coarse.reaches[side] && !corner[side]);
                 self.runs_out = side.map(|side| ContactError::RunsOut { end: range[side], load });
-                newton.on = coarse.intervals;
+                (newton.on, newton.tilt) = (coarse.intervals, coarse.tilt);
                 Ok(())
             }
             Err(NotFound::Height(error)) => Err(error),

@@ -2,6 +2,7 @@
 //!
 //! It keeps its storage from one system to the next.
 
+use super::dot;
 use crate::Real;
 use crate::real::same;
 
@@ -58,8 +59,9 @@ impl<T: Real> LinearSystem<T> {
                 row[column] = factor;
                 // A derivative may not be zero where its value is.
                 if !same(factor, T::zero()) {
-                    for k in column + 1..n {
-                        row[k] -= factor * pivot_row[k];
+                    let rest = column + 1..n;
+                    for (a, &pivot) in row[rest.clone()].iter_mut().zip(&pivot_row[rest]) {
+                        *a -= factor * pivot;
                     }
                 }
             }
@@ -74,17 +76,14 @@ impl<T: Real> LinearSystem<T> {
         solution.extend(self.order.iter().map(|&row| right_side[row] / self.scales[row]));
         let first = solution.iter().position(|&value| !same(value, T::zero())).unwrap_or(n);
         for row in first..n {
-            for k in first..row {
-                let known = solution[k];
-                solution[row] -= self.factors[row * n + k] * known;
-            }
+            let factors = &self.factors[row * n..(row + 1) * n];
+            let known = dot(&factors[first..row], &solution[first..row]);
+            solution[row] -= known;
         }
         for row in (0..n).rev() {
-            for k in row + 1..n {
-                let known = solution[k];
-                solution[row] -= self.factors[row * n + k] * known;
-            }
-            solution[row] /= self.factors[row * n + row];
+            let factors = &self.factors[row * n..(row + 1) * n];
+            let known = dot(&factors[row + 1..], &solution[row + 1..]);
+            solution[row] = (solution[row] - known) / factors[row];
         }
     }
 }

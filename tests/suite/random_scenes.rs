@@ -409,3 +409,43 @@ fn a_hundred_random_scenes() {
 fn a_thousand_random_scenes() {
     assert_eq!(run(0..1000), [0, 0], "refused, wrong");
 }
+
+/// The contact under a load is that of bodies which may turn, with the load where it acts: they stay as they are.
+#[test]
+fn the_load_where_it_acts() {
+    let mut refused = Vec::new();
+    let mut several = 0;
+    for number in 0..200 {
+        let scene = scene(number);
+        let bodies = scene.bodies();
+        let contact = Contact::new(&*bodies[0], &*bodies[1]).unwrap().kappa(scene.kappa);
+        let edge = |x| if scene.kind == Kind::Cornered { Edge::UpTo(x) } else { Edge::Free };
+        let contact = contact.edges(edge(scene.range[0]), edge(scene.range[1]));
+        let Ok(known) = contact.solve(Control::Load(scene.load)) else { continue };
+        let at = known.centre_of_pressure().unwrap();
+        let control = Control::CentreOfPressure { load: scene.load, at };
+        let solution = match contact.solve(control) {
+            Ok(solution) => solution,
+            Err(error) => {
+                refused.push((number, scene.kind, error.to_string()));
+                continue;
+            }
+        };
+        let [on, due] = [&solution, &known].map(intervals);
+        several += usize::from(on.len() > 1);
+        assert_eq!(on.len(), due.len(), "{number}: {on:?} {due:?}");
+        let narrowest = due.iter().map(Interval::half_width).fold(f64::INFINITY, f64::min);
+        let error = |solution: &Solution<f64>| solution.limits_error().unwrap_or(0.0);
+        for (on, due) in on.iter().zip(&due) {
+            let off = (on.left - due.left).abs().max((on.right - due.right).abs());
+            let allowed = 1e-7 + 100.0 * (error(&solution) + error(&known));
+            let off = off / narrowest;
+            assert!(off <= allowed, "{number} {:?}: off {off:e} of {allowed:e}", scene.kind);
+        }
+    }
+    println!("{} refused, {several} with several contacts", refused.len());
+    for refused in &refused {
+        println!("{refused:?}");
+    }
+    assert!(refused.is_empty() && several > 20);
+}

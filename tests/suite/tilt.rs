@@ -103,7 +103,7 @@ fn a_wedge_leans() {
             let m = share * load * load / (2.0 * t);
             let theta = f64::atan2(1.0, -2.0 * t * m / (load * load));
             let solution = contact.solve(moment(load, m)).unwrap();
-            // Where the tip is close to an edge, trial values of the tilt have to help.
+            // Where the tip is close to an edge, the first search may not find it.
             let trials = solution.report().trials().len();
             assert!(trials == 1 || share > 2.0, "{load} {share}");
             near(solution.tilt(), t * (1.0 - 2.0 * theta / PI), t, "tilt");

@@ -1,17 +1,18 @@
 //! How far forces on cells press the surface in: the logarithm of the distance, averaged over the
 //! cell that bears the force and over the cell that is looked at.
 //!
-//! A few hundred cells take a full matrix. Of more, cells next to each other do; the forces of those far
-//! off act through their moments (Barnes and Hut, *Nature* 324, 1986, 446), and what they do is
+//! Of a few hundred cells each that bears a force has a column of a matrix, which is kept from cut to cut.
+//! Of more, cells next to each other have matrices; the forces of those far off act through their moments (Barnes and Hut, *Nature* 324, 1986, 446), and what they do is
 //! interpolated between a few places of a block of cells.
 
 use crate::Real;
+use crate::numerics::dot;
 
-/// Cells up to which the matrix is full.
+/// Cells up to which there are columns.
 const FULL: usize = 320;
 
 /// Cells of a block, where there are more.
-const BLOCK: usize = 32;
+const BLOCK: usize = 16;
 
 /// Moments of the forces of a group, and places in a block: both leave errors of about 1e-5.
 const MOMENTS: usize = 10;
@@ -35,7 +36,7 @@ pub(super) struct Place<T> {
 pub(super) fn mean_log<T: Real>(one: Place<T>, other: Place<T>) -> T {
     let distance = (one.centre - other.centre).abs();
     let (v, w) = (one.width, other.width);
-    if distance > T::of(3.0) * v.max(w) {
+    if distance > T::of(1.9) * v.max(w) {
         let inverse = T::one() / (distance * distance);
         let [v, w] = [v * v * inverse, w * w * inverse];
         let second = (v + w) / T::of(24.0);
@@ -58,6 +59,9 @@ pub(super) fn mean_log<T: Real>(one: Place<T>, other: Place<T>) -> T {
 /// The potential of forces on given cells.
 pub(super) struct Potential<T> {
     cells: Vec<Place<T>>,
+    /// What a unit force on a cell does to each; empty until it is asked for.
+    columns: Vec<Vec<T>>,
+    /// Where there are many cells.
     groups: Vec<Group<T>>,
     blocks: Vec<Block<T>>,
 }
@@ -84,32 +88,85 @@ struct Block<T> {
 }
 
 impl<T: Real> Potential<T> {
-    pub fn new(cells: Vec<Place<T>>) -> Self {
-        let mut groups = Vec::new();
-        let block = if cells.len() <= FULL { FULL } else { BLOCK };
-        let root = group(&cells, [0, cells.len()], block, &mut groups);
-        let mut blocks = Vec::new();
-        for target in groups.iter().filter(|group| group.halves.is_none()) {
-            blocks.push(Block::new(&cells, &groups, target, root));
+    pub fn new() -> Self {
+        let (cells, columns) = (Vec::new(), Vec::new());
+        Self { cells, columns, groups: Vec::new(), blocks: Vec::new() }
+    }
+
+    /// Turns to other cells, some of which had a number before. The columns of those that are wanted are kept.
+    pub fn set(
+        &mut self,
+        cells: Vec<Place<T>>,
+        before: &[Option<usize>],
+        wanted: impl Fn(usize) -> bool,
+    ) {
+        let known = std::mem::take(&mut self.columns);
+        self.cells = cells;
+        self.groups.clear();
+        self.blocks.clear();
+        if self.cells.len() > FULL {
+            let root = group(&self.cells, [0, self.cells.len()], BLOCK, &mut self.groups);
+            for target in self.groups.iter().filter(|group| group.halves.is_none()) {
+                self.blocks.push(Block::new(&self.cells, &self.groups, target, root));
+            }
+            return;
         }
-        Self { cells, groups, blocks }
+        for (j, &number) in before.iter().enumerate() {
+            let column = number.and_then(|number| known.get(number)).filter(|_| wanted(j));
+            self.columns.push(match column {
+                Some(column) if !column.is_empty() => {
+                    let entry = |(i, number): (usize, &Option<usize>)| {
+                        number.map_or_else(|| self.mean_log(i, j), |number| column[number])
+                    };
+                    before.iter().enumerate().map(entry).collect()
+                }
+                _ => Vec::new(),
+            });
+        }
+    }
+
+    /// Makes ready for forces on a cell.
+    pub fn load(&mut self, j: usize) {
+        if self.columns.get(j).is_some_and(Vec::is_empty) {
+            // The matrix is symmetric.
+            let entry = |i: usize| match self.columns[i].get(j) {
+                Some(&entry) => entry,
+                None => self.mean_log(i, j),
+            };
+            self.columns[j] = (0..self.cells.len()).map(entry).collect();
+        }
+    }
+
+    fn mean_log(&self, i: usize, j: usize) -> T {
+        mean_log(self.cells[i], self.cells[j])
     }
 
     /// The share of the force on one cell in the potential of another.
     pub fn entry(&self, i: usize, j: usize) -> T {
-        match self.blocks.as_slice() {
-            [Block { near, .. }] if near.len() == 1 => near[0].1[i * self.cells.len() + j],
-            _ => mean_log(self.cells[i], self.cells[j]),
+        if let Some(column) = self.columns.get(j) {
+            return column[i];
+        }
+        let block = &self.blocks[self.blocks.partition_point(|block| block.cells[1] <= i)];
+        let near = block.near.iter().find(|([first, end], _)| (*first..*end).contains(&j));
+        match near {
+            Some(([first, end], matrix)) => {
+                matrix[(i - block.cells[0]) * (end - first) + j - first]
+            }
+            None => self.mean_log(i, j),
         }
     }
 
-    /// The potential of the forces in every cell where it is wanted.
+    /// The potential of the forces in every cell, of many where it is wanted.
     pub fn of(&self, forces: &[T], wanted: impl Fn(usize) -> bool, potential: &mut [T]) {
-        let moments: Vec<_> = if self.blocks.len() > 1 {
-            self.groups.iter().map(|group| group.moments(forces)).collect()
-        } else {
-            Vec::new()
-        };
+        if !self.columns.is_empty() {
+            potential.fill(T::zero());
+            for (column, &force) in self.columns.iter().zip(forces).filter(|of| !of.1.is_zero()) {
+                for (potential, &entry) in potential.iter_mut().zip(column) {
+                    *potential += force * entry;
+                }
+            }
+        }
+        let moments: Vec<_> = self.groups.iter().map(|group| group.moments(forces)).collect();
         for block in &self.blocks {
             let mut at_places = [T::zero(); PLACES];
             for (group, transfer) in &block.far {
@@ -130,22 +187,6 @@ impl<T: Real> Potential<T> {
     }
 }
 
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    let mut sums = [T::zero(); 4];
-    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest = a4.remainder().iter().zip(b4.remainder());
-    let mut total = rest.fold(T::zero(), |sum, (&a, &b)| sum + a * b);
-    for (a, b) in a4.zip(b4) {
-        for i in 0..4 {
-            sums[i] += a[i] * b[i];
-        }
-    }
-    for sum in sums {
-        total += sum;
-    }
-    total
-}
-
 /// Adds a group and all those within it; its number.
 fn group<T: Real>(
     cells: &[Place<T>],
@@ -161,21 +202,19 @@ fn group<T: Real>(
     let (first, last) = (cells[from], cells[to - 1]);
     let [left, right] = [first.centre - half * first.width, last.centre + half * last.width];
     let (centre, radius) = (half * (left + right), half * (right - left));
-    let mut powers = Vec::new();
-    if cells.len() > block {
-        powers.extend(cells[from..to].iter().map(|cell| {
-            let mut mean = [T::zero(); MOMENTS];
-            for (at, weight) in GAUSS {
-                let t = (cell.centre - centre + T::of(at) * cell.width) / radius;
-                let mut power = T::of(weight);
-                for mean in &mut mean {
-                    *mean += power;
-                    power *= t;
-                }
+    let powers = cells[from..to].iter().map(|cell| {
+        let mut mean = [T::zero(); MOMENTS];
+        for (at, weight) in GAUSS {
+            let t = (cell.centre - centre + T::of(at) * cell.width) / radius;
+            let mut power = T::of(weight);
+            for mean in &mut mean {
+                *mean += power;
+                power *= t;
             }
-            mean
-        }));
-    }
+        }
+        mean
+    });
+    let powers = powers.collect();
     groups.push(Group { cells: [from, to], centre, radius, powers, halves });
     groups.len() - 1
 }
@@ -323,7 +362,8 @@ mod tests {
         let force = |i: usize| ((i * 7919) % 101) as f64 / 101.0;
         let forces: Vec<_> = (0..cells.len()).map(force).collect();
         let total: f64 = forces.iter().sum();
-        let potential = Potential::new(cells.clone());
+        let mut potential = Potential::new();
+        potential.set(cells.clone(), &vec![None; cells.len()], |_| true);
         let mut found = vec![0.0; cells.len()];
         potential.of(&forces, |_| true, &mut found);
         for (&cell, &found) in cells.iter().zip(&found) {

@@ -72,7 +72,9 @@ pub(crate) struct System<T> {
     pub jacobian: Vec<T>,
     /// Which of the conditions is that of the load.
     pub load_row: usize,
-    /// V at the limits, from left to right, and at the zeros of p.
+    /// The limits, from left to right.
+    limits: Vec<T>,
+    /// V at the limits, and at the zeros of p.
     at_ends: Vec<T>,
     at_zeros: Vec<T>,
     /// `∫ S/p dx` over the last gap, where that has no zero of p.
@@ -83,13 +85,14 @@ pub(crate) struct System<T> {
 
 impl<T: Real> System<T> {
     pub fn new() -> Self {
-        let [residual, open, jacobian, at_ends, at_zeros, sums] =
+        let [residual, open, jacobian, limits, at_ends, at_zeros, sums] =
             std::array::from_fn(|_| Vec::new());
         Self {
             residual,
             open,
             jacobian,
             load_row: 0,
+            limits,
             at_ends,
             at_zeros,
             sums,
@@ -207,8 +210,19 @@ impl<T: Real> Several<T> {
         let corners = self.weight.corners();
         let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
         let centre = hull.plain().centre();
-        let System { residual, open, jacobian, load_row, at_ends, at_zeros, sums, over_last } =
-            system;
+        let System {
+            residual,
+            open,
+            jacobian,
+            load_row,
+            limits,
+            at_ends,
+            at_zeros,
+            sums,
+            over_last,
+        } = system;
+        limits.clear();
+        limits.extend(self.parts().iter().flat_map(|part| [part.on.left, part.on.right]));
         at_ends.clear();
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
@@ -221,7 +235,7 @@ impl<T: Real> Several<T> {
         residual.clear();
         open.clear();
         jacobian.clear();
-        let (is_free, end) = (|i: usize| self.is_free(i), |i: usize| self.limit(i));
+        let (is_free, end) = (|i: usize| self.is_free(i), |i: usize| limits[i]);
         let mut row = |value: T, error: T, by: &mut dyn FnMut(usize) -> T| {
             residual.push(value);
             open.push(error);
@@ -298,15 +312,15 @@ impl<T: Real> Several<T> {
                             *over_last += scale;
                         }
                         size += (scale * without).abs() / T::pi();
-                        for (i, sum) in sums.iter_mut().enumerate() {
-                            let away = if i == 2 * k + 1 {
-                                from_left
-                            } else if i == 2 * k + 2 {
-                                -to_right
-                            } else {
-                                x - end(i)
-                            };
-                            *sum += scale / away;
+                        let (before, beside) = sums.split_at_mut(2 * k + 1);
+                        let (beside, after) = beside.split_at_mut(2);
+                        for (sum, &end) in before.iter_mut().zip(&*limits) {
+                            *sum += scale / (x - end);
+                        }
+                        beside[0] += scale / from_left;
+                        beside[1] -= scale / to_right;
+                        for (sum, &end) in after.iter_mut().zip(&limits[2 * k + 3..]) {
+                            *sum += scale / (x - end);
                         }
                     }
                 }
@@ -367,14 +381,6 @@ impl<T: Real> Several<T> {
     /// Whether the outermost limits are corners.
     pub fn corners(&self) -> [bool; 2] {
         self.weight.corners()
-    }
-
-    /// The moment of `P/κ` about a place, of contacts that meet their conditions under a load F/κ: far away
-    /// Φ is `F/x + M/x²`.
-    pub fn moment(&self, about: T, load: T) -> T {
-        let powers = self.powers(about);
-        let borne = powers[if self.corners() == [false; 2] { 2 } else { 1 }];
-        borne - self.afar(about)[0] * load
     }
 
     /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:

@@ -7,7 +7,7 @@ use crate::{Interval, Real};
 use std::ops::Range;
 
 /// Contacts from which on the far ones are taken together.
-const MANY: usize = 16;
+const MANY: usize = 8;
 
 #[derive(Clone)]
 pub(super) struct Apart<T> {
