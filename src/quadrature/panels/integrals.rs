@@ -123,7 +123,7 @@ fn by_cosines<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>)
         let Stretch { panel, series, integrals, ends: [from, to], .. } = stretch;
         if !stretch.is_first {
             let [before, tail] = before;
-            jump(sums, *from - before, tail + panel.tail, stretch.start, on);
+            jump(sums, [before, *from], tail + panel.tail, stretch.start, on);
         }
         by_size!(size_for(stretch.terms), N => stretch_of::<N, T>(sums, series, integrals, on));
         sums.size += half * (from.abs() + to.abs()) * integrals[0];
@@ -177,7 +177,7 @@ fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, s
         let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
         if let Some(before) = before {
             let error = before.tail + panel.tail;
-            jump(sums, panel.at_ends()[0] - before.at_ends()[1], error, left, on);
+            jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
         }
         let right = HalfAngle::of(on, to);
         stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
@@ -232,7 +232,15 @@ fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, 
 
 /// Where g jumps, g' is an impulse. What no part of a number tells from the errors of the two series is no jump:
 /// next to an edge it would outweigh all the rest.
-fn jump<T: Real>(sums: &mut Sums<T>, jump: T, error: T, at: HalfAngle<T>, on: Interval<T>) {
+fn jump<T: Real>(
+    sums: &mut Sums<T>,
+    [before, after]: [T; 2],
+    error: T,
+    at: HalfAngle<T>,
+    on: Interval<T>,
+) {
+    let jump = after - before;
+    let error = error + T::of(4.0) * T::epsilon() * (before.abs() + after.abs());
     if (0..T::PARTS).all(|part| jump.part(part).abs() <= error) {
         return;
     }
