@@ -416,11 +416,11 @@ impl<T: Real> System<T> {
         };
         match conditions.edges.map(|edge| edge.limit()) {
             [None, None] => {
-                let [[bb, ba], [ab, aa]] = self.jacobian;
-                let [by_left, by_right] = [ab - bb, aa - ba];
-                let lean = (by_left - by_right) / (by_left + by_right);
-                let lean = if lean.is_finite() { lean.max(-one).min(one) } else { zero };
-                let along = along + lean * (wider - asked);
+                let along = match conditions.given {
+                    // Where the bodies turn the balance is another.
+                    Given::Centre { .. } => along.max(-one).min(one),
+                    _ => along + self.lean() * (wider - asked),
+                };
                 Interval {
                     left: on.left + (along - wider) * half_width,
                     right: on.right + (along + wider) * half_width,
@@ -431,6 +431,14 @@ impl<T: Real> System<T> {
                 right: right.unwrap_or(on.right + (wider + wider) * half_width),
             },
         }
+    }
+
+    /// By how much the centre moves in balance for each unit of the half-width, `dc/dL`.
+    fn lean(&self) -> T {
+        let [[bb, ba], [ab, aa]] = self.jacobian;
+        let [by_left, by_right] = [ab - bb, aa - ba];
+        let lean = (by_left - by_right) / (by_left + by_right);
+        if lean.is_finite() { lean.max(-T::one()).min(T::one()) } else { T::zero() }
     }
 
     /// Whether the contact grows with its load: where it does not, another does.
