@@ -1,9 +1,7 @@
 //! Mathematics without contact.
 
-mod cholesky;
 mod linear_system;
 
-pub(crate) use cholesky::Cholesky;
 pub(crate) use linear_system::LinearSystem;
 
 use crate::Real;

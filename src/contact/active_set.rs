@@ -19,8 +19,9 @@
 
 mod potential;
 
-use crate::numerics::{Cholesky, dot};
+use crate::numerics::dot;
 use crate::{ContactError, Interval, Real};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use potential::{Place, Potential};
 use std::cmp::Ordering::Equal;
 use thiserror::Error;
@@ -186,9 +187,6 @@ struct ActiveSet<T> {
     rise: Vec<T>,
     potential: Vec<T>,
     matrix: Potential<T>,
-    /// That of the loaded cells, factored, in this order; or empty.
-    factor: Cholesky<T>,
-    order: Vec<usize>,
     /// What their sum is in loaded cells: a level, and a slope from where the load is to act.
     level: T,
     slope: T,
@@ -221,8 +219,6 @@ impl<T: Real> ActiveSet<T> {
             rise: Vec::new(),
             potential: Vec::new(),
             matrix: Potential::new(),
-            factor: Cholesky::new(),
-            order: Vec::new(),
             level: T::zero(),
             slope: T::zero(),
             changed: true,
@@ -425,7 +421,6 @@ impl<T: Real> ActiveSet<T> {
         for (i, cell) in self.cells.iter_mut().enumerate() {
             cell.number = Some(i);
         }
-        self.order.clear();
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         // Beyond that it is all one how high a cell is.
         let highest = T::epsilon().recip().powi(4);
@@ -468,14 +463,10 @@ impl<T: Real> ActiveSet<T> {
     /// Closes the gap in the loaded cells; how far off the forces may be.
     fn solve(&mut self) -> T {
         self.count.solves += 1;
-        let mut on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
         on.iter().for_each(|&i| self.matrix.load(i));
-        let found = on.len() <= DENSE && self.factor(&on);
-        if found {
-            on.clone_from(&self.order);
-        }
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
-        let exact = if found { self.eliminate(&arms) } else { None };
+        let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
         let found = exact.is_some();
         self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
         let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
@@ -494,37 +485,24 @@ impl<T: Real> ActiveSet<T> {
         if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
     }
 
-    /// Factors the matrix of the loaded cells: anew from the first on that is no longer one of them.
-    fn factor(&mut self, on: &[usize]) -> bool {
-        let kept = self.order.iter().take_while(|&&i| self.cells[i].loaded).count();
-        self.factor.truncate(kept);
-        self.order.truncate(kept);
-        let mut known = vec![false; self.cells.len()];
-        self.order.iter().for_each(|&i| known[i] = true);
-        for &i in on.iter().filter(|&&i| !known[i]) {
-            self.order.push(i);
-            if !self.factor.push(self.order.iter().map(|&j| self.matrix.entry(i, j))) {
-                self.order.clear();
-                return false;
-            }
-        }
-        true
+    /// The matrix of some loaded cells, factored.
+    fn factor(&self, on: &[usize]) -> Option<Cholesky<T, Dyn>> {
+        DMatrix::from_fn(on.len(), on.len(), |i, j| self.matrix.entry(on[i], on[j])).cholesky()
     }
 
     /// By elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
     /// `Σ q arm = 0`.
-    fn eliminate(&self, arms: &[T]) -> Option<Vec<T>> {
-        let rises = || self.order.iter().map(|&i| self.rise[i]);
-        let lowest = rises().reduce(|low, rise| low.min(rise))?;
-        let even = self.factor.forward(vec![T::one(); arms.len()]);
-        let leaning = self.factor.forward(arms.to_vec());
-        let rise = self.factor.forward(rises().map(|rise| rise - lowest).collect());
-        let products = [dot(&even, &even), dot(&even, &leaning), dot(&leaning, &leaning)];
-        let conditions = [T::one() + dot(&even, &rise), dot(&leaning, &rise)];
-        let [level, slope] = multiples(products, conditions);
-        let half = (0..arms.len()).map(|i| level * even[i] + slope * leaning[i] - rise[i]);
-        let forces = self.factor.backward(half.collect());
-        forces.iter().all(|force| force.is_finite()).then_some(forces)
+    fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
+        let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
+        let factor = self.factor(on)?;
+        let even = factor.solve(&DVector::from_element(on.len(), T::one()));
+        let leaning = factor.solve(&DVector::from_column_slice(arms));
+        let rise = factor.solve(&DVector::from_fn(on.len(), |i, _| self.rise[on[i]] - lowest));
+        let arms = DVector::from_column_slice(arms);
+        let products = [even.sum(), even.dot(&arms), leaning.dot(&arms)];
+        let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
+        let forces = even * level + leaning * slope - rise;
+        forces.iter().all(|force| force.is_finite()).then(|| forces.data.into())
     }
 
     /// By conjugate gradients among forces of one sum, and one moment where the bodies turn. What is missed is
@@ -541,20 +519,15 @@ impl<T: Real> ActiveSet<T> {
             on.iter().map(|&i| sunk[i]).collect()
         };
         let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
-        let alone: Vec<_> = runs
-            .map(|run| {
-                let mut factor = Cholesky::new();
-                for (n, &i) in run.iter().enumerate() {
-                    factor.push(run[..=n].iter().map(|&j| self.matrix.entry(i, j)));
-                }
-                (run.len(), factor)
-            })
-            .collect();
+        let alone: Vec<_> = runs.map(|run| (run.len(), self.factor(run))).collect();
         let made_up = |missed: &[T]| {
             let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
             for (count, factor) in &alone {
                 let (run, others) = rest.split_at(*count);
-                forces.extend(factor.backward(factor.forward(run.to_vec())));
+                match factor {
+                    Some(factor) => forces.extend(&factor.solve(&DVector::from_column_slice(run))),
+                    None => forces.extend(run),
+                }
                 rest = others;
             }
             forces
