@@ -35,8 +35,8 @@
 //! stays where it is. The balance itself is linearised without the factor L that both rows have: that of a
 //! parabola is linear in c, and one step leads to its centre from however far.
 //!
-//! A long step that ends where the bodies do not open, or where the limits do not act on the slope, as on a
-//! flat, is halved. One that would leave the bodies goes half the way to their end.
+//! A step that ends where the limits do not act on the slope, as on a flat, is halved. One that would leave the
+//! bodies goes half the way to their end.
 
 use super::edges::{Conditions, Edge, Given};
 use super::single::MOST_DOUBT;
@@ -50,8 +50,7 @@ const MOST_STEPS: usize = 60;
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
 
-/// A step that may have been too long, in half-widths, and how often it is halved then.
-const LONG: f64 = 0.05;
+/// How often a step is halved.
 const MOST_HALVES: usize = 12;
 
 /// A contact that meets its conditions.
@@ -114,12 +113,8 @@ pub(super) fn settle<T: Real>(
             (right - left).abs() + (right + left).abs() <= T::of(MOST_STEP) && force.is_finite()
         };
         let step = step.filter(leads);
-        // A step too far: the limits do not act on the slope there, or the bodies open no more.
-        let too_far = |last: &&mut Step<T>| {
-            let opens = |on| opens(engine, conditions, on, system.tilt);
-            let more = last.halved < MOST_HALVES && last.size > T::of(LONG);
-            more && (step.is_none() || !opens(on) && opens(last.from))
-        };
+        // Where the limits do not act on the slope, half of the last step was enough.
+        let too_far = |last: &&mut Step<T>| step.is_none() && last.halved < MOST_HALVES;
         if let Some(last) = last.as_mut().filter(too_far) {
             last.halved += 1;
             (on, load) = (last.from.towards(on, half), half * last.load + half * load);
@@ -142,7 +137,7 @@ pub(super) fn settle<T: Real>(
             continue;
         };
         let (from, size) = (on, right.abs() + left.abs());
-        last = Some(Step { from, load, size, halved: 0 });
+        last = Some(Step { from, load, halved: 0 });
         load += force;
         on = system.moved(
             conditions,
@@ -322,8 +317,6 @@ struct System<T> {
 struct Step<T> {
     from: Interval<T>,
     load: T,
-    /// How long it was meant to be, in half-widths.
-    size: T,
     /// How often it was halved since.
     halved: usize,
 }
