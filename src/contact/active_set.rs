@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Where the load is to act at a place x̄ the bodies turn: `h_i + τ (x_i - x̄)` takes the place of `h_i`, and
-//! `Σ q_i (x_i - x̄) = 0` is one more condition. //!
+//! `Σ q_i (x_i - x̄) = 0` is one more condition.
 //! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
 //! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
 //! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three

@@ -23,9 +23,11 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_SKETCHES: usize = 120;
 
-/// Sketches that may reach for an end of the bodies, and steps in full, before it is asked what these bear.
-/// (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+/// Steps beyond an end of the bodies in a sketch, after which another is made; and in full, after which it is
+/// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
 const MOST_AT_END: [usize; 2] = [8, 24];
+
+/// Sketches that may reach for an end before it is asked what the bodies bear.
 const MOST_SKETCHES_AT_END: usize = 40;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
