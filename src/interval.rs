@@ -23,15 +23,6 @@ impl<T: Real> Interval<T> {
         same(self.left, other.left) && same(self.right, other.right)
     }
 
-    /// The interval on the way to another, at a share of that.
-    pub(crate) fn towards(&self, other: Self, share: T) -> Self {
-        let rest = T::one() - share;
-        Self {
-            left: rest * self.left + share * other.left,
-            right: rest * self.right + share * other.right,
-        }
-    }
-
     /// Half-width `L = (a + b)/2`.
     pub fn half_width(&self) -> T {
         T::of(0.5) * (self.right - self.left)

@@ -32,7 +32,7 @@ use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 use derivatives::differentiate;
-use first_contact::first_contact;
+pub(super) use first_contact::first_contact;
 use place::Placed;
 
 /// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is

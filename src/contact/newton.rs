@@ -44,14 +44,14 @@ use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
 
-/// Steps before the search is given up.
-const MOST_STEPS: usize = 60;
+/// Trials before the search is given up.
+const MOST_STEPS: usize = 200;
 
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
 
-/// How often a step is halved.
-const MOST_HALVES: usize = 12;
+/// The least share of a step that is taken.
+const LEAST_SHARE: f64 = 1e-12;
 
 /// A contact that meets its conditions.
 #[derive(Clone, Copy)]
@@ -95,9 +95,9 @@ pub(super) fn settle<T: Real>(
     let range = gap.range();
     let mut on = conditions.with_given(start, range);
     let mut load = conditions.load();
-    let (mut before, mut last, mut at_end) = (None, None::<Step<T>>, 0);
+    let (mut before, mut last, mut at_end) = (None::<[T; 2]>, None::<Step<T>>, 0);
     // A step that was cut short tells nothing of the next.
-    let certain = |size: T| Some(size).filter(|&size| size <= T::of(0.25));
+    let certain = |sizes: [T; 2]| Some(sizes).filter(|&[left, right]| left + right <= T::of(0.25));
     for _ in 0..MOST_STEPS {
         let half_width = on.half_width();
         if !(half_width > zero && half_width.is_finite()) {
@@ -107,50 +107,44 @@ pub(super) fn settle<T: Real>(
         let Some(system) = System::new(conditions, on, load, &m) else {
             return Ok(Outcome::Astray);
         };
-        let inverse = system.matrix.try_inverse();
-        let step = inverse.map(|inverse| (inverse, system.step(&inverse)));
-        let leads = |&(_, [left, right, force]): &(_, [T; 3])| {
-            (right - left).abs() + (right + left).abs() <= T::of(MOST_STEP) && force.is_finite()
+        let step = system.step(on, load, conditions.kappa * half_width * m.first);
+        let too_far = |last: &&mut Step<T>| {
+            last.share > T::of(LEAST_SHARE) && step.as_ref().is_none_or(|step| last.grew_to(step))
         };
-        let step = step.filter(leads);
-        // Where the limits do not act on the slope, half of the last step was enough.
-        let too_far = |last: &&mut Step<T>| step.is_none() && last.halved < MOST_HALVES;
         if let Some(last) = last.as_mut().filter(too_far) {
-            last.halved += 1;
-            (on, load) = (last.from.towards(on, half), half * last.load + half * load);
+            last.share *= half;
+            (on, load) = last.end(conditions);
+            on = before_ends(conditions, last.from, on, range);
             before = None;
             continue;
         }
-        let Some((inverse, [left, right, force])) = step else {
-            // On to where they act, if there is load left.
-            let wider = system.moved(conditions, on, [T::of(-3.0), T::of(3.0)], one);
-            let next = before_ends(on, wider, range);
+        let is_open = system.by_load && system.residual[0] + system.residual[1] > zero;
+        let leads = |step: &Step<T>| !is_open || step.system.is_stable(conditions);
+        let Some(step) = step.filter(leads) else {
+            // Where less is carried than asked for, and less still by a wider contact, one that is wider yet grows
+            // with its load.
+            let wider = system.moved(conditions, on, [-one, one], one);
+            let next = before_ends(conditions, on, wider, range);
             at_end += usize::from(next != wider);
             if at_end > most_at_end {
                 return Ok(Outcome::AtEnd);
             }
-            let is_open = last.is_none() && system.residual[0] + system.residual[1] > zero;
             if !is_open || next.is_same(&on) {
                 return Ok(Outcome::Astray);
             }
-            on = next;
+            (on, before, last) = (next, None, None);
             continue;
         };
-        let (from, size) = (on, right.abs() + left.abs());
-        last = Some(Step { from, load, halved: 0 });
-        load += force;
-        on = system.moved(
-            conditions,
-            on,
-            [left, right],
-            load / (conditions.kappa * half_width * m.first),
-        );
+        let from = on;
+        (on, load) = step.end(conditions);
+        let ([left, right], size, inverse) = (step.limits, step.size(), step.inverse);
+        let system = &last.insert(step).system;
         // What is much narrower than the stretch is to be seen in a closer one.
         if effort == Effort::Sketch && on.half_width() < T::of(1e-6) * start.half_width() {
             return Ok(Outcome::Settled(Settled { on, load, error: size.max(one), force: size }));
         }
         on = rounded_within(on, range);
-        let next = before_ends(from, on, range);
+        let next = before_ends(conditions, from, on, range);
         if next != on {
             at_end += 1;
             if at_end > most_at_end || next.is_same(&from) {
@@ -159,8 +153,7 @@ pub(super) fn settle<T: Real>(
             (on, before) = (next, None);
             continue;
         }
-        let share = before.map_or(one, |before| size / before);
-        let next = share * share * size;
+        let sizes = [left.abs(), right.abs()];
         if effort == Effort::Sketch {
             if size <= T::of(0.03) {
                 let sound =
@@ -168,14 +161,21 @@ pub(super) fn settle<T: Real>(
                 let settled = Settled { on, load, error: size, force: size };
                 return Ok(if sound { Outcome::Settled(settled) } else { Outcome::Astray });
             }
-            before = certain(size);
+            before = certain(sizes);
             continue;
         }
-        let small = next <= half * T::epsilon() && size <= half * half;
+        // What the next step leaves of each limit.
+        let next: [T; 2] = std::array::from_fn(|i| match before {
+            Some(before) if sizes[i] < before[i] => {
+                (sizes[i] / before[i]) * (sizes[i] / before[i]) * sizes[i]
+            }
+            _ => sizes[i],
+        });
+        let small = next[0] + next[1] <= half * T::epsilon() && size <= half * half;
         // Across a kink a step is as much too long as the one before has been.
         let crossed = small && size > T::of(4.0) * T::epsilon() && crosses_joint(gap, from, on);
         let done = small && !crossed;
-        let slow = before.is_some() && share >= T::of(0.25);
+        let slow = before.is_some_and(|[left, right]| size >= half * half * (left + right));
         if done || slow {
             let noise = system.error(&inverse, &m);
             let rounding = [on.left, on.right].map(|x| T::epsilon() * x.abs() / on.half_width());
@@ -185,12 +185,11 @@ pub(super) fn settle<T: Real>(
                 if !(opens(engine, conditions, on, system.tilt) && system.is_stable(conditions)) {
                     return Ok(Outcome::Astray);
                 }
-                let left_over = (if stalled { one } else { share * share }) * half;
+                let left_over = if stalled { sizes } else { next };
                 // The noise is known from a few coefficients only.
-                let error = |i: usize, step: T| {
-                    T::of(4.0) * (noise[i] + rounding[i]) + left_over * step.abs()
-                };
-                let errors = [error(0, left), error(1, right)];
+                let errors = std::array::from_fn(|i| {
+                    T::of(4.0) * (noise[i] + rounding[i]) + half * left_over[i]
+                });
                 let force = system.force(errors);
                 if errors[0].max(errors[1]) > T::of(MOST_DOUBT) {
                     return Ok(Outcome::Astray);
@@ -200,7 +199,7 @@ pub(super) fn settle<T: Real>(
                 return Ok(Outcome::Settled(Settled { on, load, error, force }));
             }
         }
-        before = certain(size).filter(|_| !crossed);
+        before = certain(sizes).filter(|_| !crossed);
     }
     Ok(Outcome::Astray)
 }
@@ -225,7 +224,7 @@ fn further<T: Real>(
         let m = engine.moments(gap, on)?;
         let Some(system) = System::new(conditions, on, load, &m) else { break };
         let Some(inverse) = system.matrix.try_inverse() else { break };
-        let [left, right, force] = system.step(&inverse);
+        let [left, right, force] = system.solve(&inverse, system.scale, T::one());
         load += force;
         on = system.moved(conditions, on, [left, right], T::one());
     }
@@ -242,7 +241,8 @@ pub(super) fn load_of<T: Real>(
     m: &Moments<T>,
 ) -> T {
     let more = System::new(conditions, on, load, m).and_then(|system| {
-        let [.., more] = system.step(&system.matrix.try_inverse()?);
+        let inverse = system.matrix.try_inverse()?;
+        let [.., more] = system.solve(&inverse, system.scale, T::one());
         Some(load + more)
     });
     more.filter(|load| load.is_finite()).unwrap_or(load)
@@ -260,15 +260,26 @@ fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
     }
 }
 
-/// A step, or as much of it as leads half the way to an end of the bodies: the slope may be infinite there.
-fn before_ends<T: Real>(from: Interval<T>, to: Interval<T>, range: [T; 2]) -> Interval<T> {
-    let ways = [
-        (from.left - to.left, from.left - range[0]),
-        (to.right - from.right, range[1] - from.right),
-    ];
-    let share = |(way, room): (T, T)| if way > room { T::of(0.5) * room / way } else { T::one() };
-    let share = share(ways[0]).min(share(ways[1]));
-    if share < T::one() { from.towards(to, share) } else { to }
+/// A step that would leave the bodies is moved so that it goes half the way to their end, where the slope may
+/// be infinite. What is too wide for that is cut.
+fn before_ends<T: Real>(
+    conditions: &Conditions<T>,
+    from: Interval<T>,
+    to: Interval<T>,
+    range: [T; 2],
+) -> Interval<T> {
+    if to.left >= range[0] && to.right <= range[1] {
+        return to;
+    }
+    let half = T::of(0.5);
+    let ends = [half * (from.left + range[0]), half * (from.right + range[1])];
+    let [left, right] = conditions.edges.map(|edge| edge.limit());
+    let back = (to.right - ends[1]).max(T::zero());
+    let on = (ends[0] - to.left).max(T::zero());
+    Interval {
+        left: left.unwrap_or((to.left - back).max(ends[0])),
+        right: right.unwrap_or((to.right + on).min(ends[1])),
+    }
 }
 
 /// Whether adhesion acts, under which the bodies need not open at the other edge either.
@@ -299,6 +310,7 @@ fn doubtful<T: Real>(noise: T) -> T {
 
 /// The equations, linearised: rows for -b and a. Limits are in units of the half-width, forces in
 /// those of `scale`.
+#[derive(Clone, Copy)]
 struct System<T> {
     /// By -b and by a.
     jacobian: [[T; 2]; 2],
@@ -306,6 +318,8 @@ struct System<T> {
     /// By the two unknowns: -b and a; or both at once and the load, where the half-width is given.
     matrix: Matrix2<T>,
     by_load: bool,
+    /// Whether the difference of the rows is the balance.
+    is_balance: bool,
     /// A force per unit length.
     scale: T,
     stiffness: T,
@@ -313,12 +327,43 @@ struct System<T> {
     tilt: T,
 }
 
-/// A step that was taken.
+/// A step.
 struct Step<T> {
     from: Interval<T>,
     load: T,
-    /// How often it was halved since.
-    halved: usize,
+    /// The load that the contact it is taken from would carry.
+    carried: T,
+    system: System<T>,
+    inverse: Matrix2<T>,
+    /// Of -b and of a, in half-widths.
+    limits: [T; 2],
+    force: T,
+    /// How much of it is taken.
+    share: T,
+}
+
+impl<T: Real> Step<T> {
+    /// How long it is, in half-widths.
+    fn size(&self) -> T {
+        self.limits[0].abs() + self.limits[1].abs()
+    }
+
+    /// Where it leads, and under which load.
+    fn end(&self, conditions: &Conditions<T>) -> (Interval<T>, T) {
+        let load = self.load + self.share * self.force;
+        let limits = self.limits.map(|step| self.share * step);
+        (self.system.moved(conditions, self.from, limits, load / self.carried), load)
+    }
+
+    /// Whether the next one would be longer by the same Jacobian (the natural monotonicity test of Deuflhard,
+    /// *Newton Methods for Nonlinear Problems*, 2004, §3.3).
+    fn grew_to(&self, next: &Self) -> bool {
+        let [one, other] = [self.from.half_width(), next.from.half_width()];
+        let rounding = T::epsilon() * (next.from.left.abs() + next.from.right.abs()) / other;
+        let [left, right, _] = next.system.solve(&self.inverse, self.system.scale, one / other);
+        let certain = T::epsilon().sqrt().max(T::of(64.0) * rounding);
+        self.size() > certain && left.abs() + right.abs() >= self.size()
+    }
 }
 
 impl<T: Real> System<T> {
@@ -372,16 +417,36 @@ impl<T: Real> System<T> {
         };
         let by_load = !matches!(conditions.given, Given::HalfWidth(_));
         let tilt = conditions.tilt(on, m);
-        Some(Self { jacobian, residual, matrix, by_load, scale, stiffness, tilt })
+        Some(Self { jacobian, residual, matrix, by_load, is_balance, scale, stiffness, tilt })
     }
 
-    /// The steps of -b and of a, in half-widths, and that of the load.
-    fn step(&self, inverse: &Matrix2<T>) -> [T; 3] {
-        let step = -(inverse * Vector2::new(self.residual[0], self.residual[1]));
+    /// The step from an interval; `None` where the limits do not act on the slope, as on a flat.
+    fn step(self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
+        let inverse = self.matrix.try_inverse()?;
+        let [left, right, force] = self.solve(&inverse, self.scale, T::one());
+        let size = (right - left).abs() + (right + left).abs();
+        let leads = size <= T::of(MOST_STEP) && force.is_finite();
+        let limits = [left, right];
+        let (system, share) = (self, T::one());
+        leads.then_some(Step { from, load, carried, system, inverse, limits, force, share })
+    }
+
+    /// The steps of -b and of a, in half-widths, and that of the load, by a Jacobian in a unit of force, of a
+    /// contact of so many times the width.
+    fn solve(&self, inverse: &Matrix2<T>, unit: T, width: T) -> [T; 3] {
+        let (half, share) = (T::of(0.5), self.scale / unit);
+        let [at_b, at_a] = if self.is_balance {
+            let [at_b, at_a] = self.residual;
+            let [load, balance] = [half * (at_a + at_b), half * width * (at_a - at_b)];
+            [load - balance, load + balance]
+        } else {
+            self.residual
+        };
+        let step = -(inverse * Vector2::new(share * at_b, share * at_a));
         if self.by_load {
             [step[0], step[1], T::zero()]
         } else {
-            [step[0], step[0], step[1] * self.scale]
+            [step[0], step[0], step[1] * unit]
         }
     }
 

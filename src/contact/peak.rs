@@ -181,8 +181,10 @@ fn by_search<T: Real>(
     let hertz = T::frac_pi_2() * wanted * half_width;
     let begin = trials.at(Given::HalfWidth(half_width));
     let mut bears = trials.bears.flatten();
+    // The load of a width that fits on a flat is nothing but rounding.
+    let carries = |found: &Found<T>| found.load > found.force.unwrap_or(zero);
     let mut begin =
-        begin.ok().filter(|(found, pressure, _)| found.load > zero && pressure.is_finite());
+        begin.ok().filter(|(found, pressure, _)| carries(found) && pressure.is_finite());
     let first = match (&begin, bears) {
         (Some((found, ..)), _) => found.load,
         (None, Some(widest)) => widest.load,

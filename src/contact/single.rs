@@ -13,8 +13,8 @@ use super::equations::{Equations, relative_error};
 use super::nested::{self, Nested};
 use super::newton::{self, Effort, Outcome, Settled, load_of};
 use super::{Contact, Found};
-use crate::gap::{Cost, FirstLook};
-use crate::quadrature::{Engine, Moments};
+use crate::gap::{Cost, FirstLook, Sampler};
+use crate::quadrature::{Engine, Moments, panels};
 use crate::{ContactError, Interval, ProfileError, Real};
 
 /// More doubt than this, as a share of the half-width, is no contact found.
@@ -138,25 +138,28 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         }
         self.engine.hold(gap, limits);
         let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
-        let settled = if self.contact.search.is_none() {
-            self.by_newton(last).map_err(|error| self.because(error))?
-        } else {
-            None
-        };
-        match (settled, self.conditions.given) {
-            (Some(settled), _) => self.contact_of(settled),
-            // A search of one limit at a time knows no tilt.
-            (None, Given::Centre { at, .. }) => {
-                Err(ContactError::NoBalance { half_width: self.start().half_width(), near: at })
-            }
-            (None, _) => {
-                // It takes far more samples to find that the bodies do not bear as much.
-                if self.contact.search.is_none() && self.engine.covered().is_some() {
-                    self.check()?;
-                }
-                self.by_nested_search().map_err(|error| self.because(error))
+        // A search of one limit at a time knows no tilt.
+        let turns = matches!(self.conditions.given, Given::Centre { .. });
+        if !turns && (self.contact.search.is_some() || !panels::is_panels(self.engine)) {
+            return self.by_nested_search().map_err(|error| self.because(error));
+        }
+        if let Some(settled) = self.by_newton(last).map_err(|error| self.because(error))? {
+            return self.contact_of(settled);
+        }
+        self.check()?;
+        let mut sampler = Sampler::default();
+        let first = nested::first_contact(&mut sampler, gap, self.start);
+        *self.cost += sampler.cost;
+        let (near, half_width) = (first?, self.start().half_width());
+        // From elsewhere the way to where the bodies close may be blocked.
+        if self.start_if_known().is_none_or(|start| !start.contains(near)) {
+            let reach = half_width.min(T::of(0.25) * (near - range[0]).min(range[1] - near));
+            self.start = Some(Interval { left: near - reach, right: near + reach });
+            if let Some(settled) = self.by_newton(None).map_err(|error| self.because(error))? {
+                return self.contact_of(settled);
             }
         }
+        Err(ContactError::NoBalance { half_width, near })
     }
 
     /// By Newton's method; `None` where that goes astray.
@@ -221,46 +224,23 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         })
     }
 
-    /// By one limit at a time, on panels made for the contact in the end.
+    /// By one limit at a time.
     fn by_nested_search(&mut self) -> Result<Found<T>, ContactError<T>> {
         self.engine.forget();
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
         let equations = Equations::Strength { conditions, load: conditions.load() };
-        let find = |single: &mut Self, start| {
-            nested::find(contact, equations, single.engine, start, single.cost)
-        };
-        let mut nested = find(self, self.start_if_known())?;
-        // Panels much wider than the contact are not as good as they look: search again on new ones.
-        for _ in 0..3 {
-            let covered = self.engine.covered().map(|on| on.half_width());
-            let wide = |covered: T| covered > T::of(1.25) * nested.on.half_width();
-            if contact.search.is_none() || !covered.is_some_and(wide) {
-                break;
-            }
-            let ([left, right], range) = (self.beyond(nested.on, T::of(ABOUT)), gap.range());
-            let stretch = Interval { left: left.max(range[0]), right: right.min(range[1]) };
-            self.engine.cover(gap, self.up_to_corners(stretch), false)?;
-            nested = find(self, Some(nested.on))?;
-        }
-        if contact.search.is_none()
-            && let Some(settled) = self.in_full(nested.on, T::zero())?
-        {
-            return self.contact_of(settled);
-        }
+        let start = self.start_if_known();
+        let nested = nested::find(contact, equations, self.engine, start, self.cost)?;
         let on = nested.on;
         let m = self.engine.moments(gap, on)?;
         let load = match conditions.given {
             Given::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(T::zero()),
             Given::Load(load) | Given::Centre { load, .. } => load,
         };
-        // A strategy and a rule of one's own are as good as one has asked for.
-        let own = contact.search.is_some() || m.trend.is_none();
-        let much = |error: T| error > T::of(MOST_DOUBT);
-        let error = strength_error(&conditions, &nested, load, &m);
-        let Some(error) = error.filter(|&error| own || !much(error)) else {
+        let Some(error) = strength_error(&conditions, &nested, load, &m) else {
             return Err(ContactError::NoBalance { half_width: on.half_width(), near: on.centre() });
         };
-        if much(error) || (!own && error > T::epsilon().sqrt()) {
+        if error > T::of(MOST_DOUBT) {
             self.check()?;
         }
         Ok(Found::new(&conditions, on, load, Some(error), &m))

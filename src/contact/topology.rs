@@ -374,6 +374,8 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.report.add(start, verdict);
             start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
         }
+        // What one contact alone has failed by says more than that it was not found.
+        let first = first.filter(|fault| !matches!(fault, ContactError::NoBalance { .. }));
         Err(first.or(self.runs_out.take()).or(fault).unwrap_or(no_balance))
     }
 

@@ -231,7 +231,13 @@ fn a_punch_in_a_groove_bears_nothing_in_one_place() {
     // It touches with both of its edges.
     assert_eq!(contact.solve(Control::Load(1e-3)).unwrap().intervals().len(), 2);
     let contact = contact.single_interval(true);
-    for load in [1e-3, 1.0, 1e3] {
+    // One edge alone is as good as a parabola of its radius, but the other would overlap.
+    let edge = contact.solve(Control::Load(1e-3)).unwrap();
+    let half_width = (2.0 * 1e-3 / (1.0 / 0.1 - 1.0 / 3.0f64)).sqrt();
+    assert!((edge.hull().half_width() / half_width - 1.0).abs() < 0.02, "{edge:?}");
+    let error = edge.certify().map(|_| ()).unwrap_err();
+    assert!(matches!(error, ContactError::Overlap { .. }), "{error}");
+    for load in [1.0, 1e3] {
         let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
         assert!(matches!(error, ContactError::NoBalance { .. }), "{load}: {error}");
     }
