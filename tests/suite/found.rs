@@ -372,3 +372,33 @@ fn a_gap_closes_a_rounding_beside_its_jump() {
         assert!(left.abs() < 1e-8 * load, "{x}: {left:e}");
     }
 }
+
+/// Seeds 12951 and 19634: a jump that nobody has declared, on a panel that cannot be halved. What it rises by is
+/// part of the derivatives by the limits: without it Newton's steps fall by a thousandth each, and are believed
+/// to fall faster.
+#[test]
+fn limits_beside_a_jump_that_is_not_declared() {
+    let l = 0.7;
+    for (jump, steep) in [(0.9, 0.5), (0.3, 2.0), (5.0, 1.0)] {
+        let rise = move |x: f64| (steep * x).sinh() + x;
+        let [mean, first] = edge_integrals(Interval { left: -l, right: l }, rise);
+        for i in 0..20 {
+            let x0 = l * (-0.95 + 0.0977 * f64::from(i));
+            let (theta, sin) = ((x0 / l).acos(), (1.0 - (x0 / l).powi(2)).sqrt());
+            let tilt = -mean - jump * theta / PI;
+            let load = l * (first + jump * sin / PI);
+            let body = graph(-4.0, 4.0, move |x| {
+                let more = if x > x0 { jump } else { 0.0 };
+                let y = (steep * x).cosh() / steep + x * x / 2.0 + tilt * x;
+                [y + more * (x - x0), rise(x) + tilt + more]
+            });
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            for contact in [contact.clone(), contact.edges(Edge::Fixed(-l), Edge::Free)] {
+                let solution = contact.solve(Control::Load(load)).unwrap();
+                let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
+                let estimate = solution.limits_error().unwrap();
+                assert!(off <= 3.0 * estimate + 1e-15, "{jump} {x0}: {off:e}, {estimate:e}");
+            }
+        }
+    }
+}
