@@ -402,3 +402,49 @@ fn limits_beside_a_jump_that_is_not_declared() {
         }
     }
 }
+
+/// Seed 1537: an edge a little beyond a joint, a loose tolerance and a given width. The pressure is worked out on
+/// panels that end at the joint, the load is that of the panels before.
+#[test]
+fn pressures_on_better_panels_than_the_load() {
+    let (stiff, joint, left, l) =
+        (524288.0, -0.47497372326566323, -0.43943851960966, 1.0089767759354913);
+    let (c, k, x0) = (1.3136823574014551, 2.329986997957129, 0.419674834852655);
+    let bend = move |x: f64| {
+        let t = x + 0.17941607890192268;
+        let slope =
+            c * (k * (x - x0)).sinh() + 0.5790229839221257 * x + 3.5264995803082235 * t.powi(3);
+        let y = c / k * (k * (x - x0)).cosh()
+            + 0.5790229839221257 * x * x / 2.0
+            + 3.5264995803082235 * t.powi(4) / 4.0;
+        [y, slope]
+    };
+    let on = Interval { left, right: left + 2.0 * l };
+    let rise = move |x: f64| bend(x)[1] + stiff * (x - joint);
+    let [mean, _] = edge_integrals(on, rise);
+    let tilted = move |x: f64, t: f64| {
+        let [y, dy] = bend(x);
+        [y - mean * x + stiff * t * t / 2.0, dy - mean + stiff * t]
+    };
+    let beyond = graph(joint, 4.5, move |x| tilted(x, x - joint));
+    let body = join(vec![graph(-4.5, joint, move |x| tilted(x, 0.0)), beyond]);
+    for tolerance in [4.7e-7, 1e-6, 1e-5] {
+        let rule = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        const N: usize = 2000;
+        for i in (100..N).step_by(200) {
+            let z = (PI * i as f64 / N as f64).cos();
+            let term = |i: usize| {
+                let t = (PI * (i as f64 + 0.5) / N as f64).cos();
+                (rise(on.centre() + l * t) - mean) / (t - z) / N as f64
+            };
+            let exact = (1.0 - z * z).sqrt() / PI * (0..N).map(term).sum::<f64>();
+            let got = pressure.estimate(on.centre() + l * z, &mut Cost::default()).unwrap();
+            let off = (got.value - exact).abs();
+            assert!(off <= 3.0 * got.error, "{tolerance} {z}: {off:e}, {:e}", got.error);
+            assert!(got.error < 1e-3 * exact, "{tolerance} {z}: {:e} of {exact:e}", got.error);
+        }
+    }
+}
