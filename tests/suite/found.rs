@@ -448,3 +448,35 @@ fn pressures_on_better_panels_than_the_load() {
         }
     }
 }
+
+/// Seed 13762: a kink between a corner and the first node that only a loose tolerance lets pass. The slope at the
+/// corner tells by how much the panel is off.
+#[test]
+fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
+    for (tolerance, share) in [(1e-3, 0.03), (1e-3, 0.01), (1e-4, 0.003), (1e-2, 0.03)] {
+        let x0 = share - 1.0;
+        let rise = move |x: f64| x + f64::max(x - x0, 0.0);
+        let [mean, first] = edge_integrals(Interval { left: -1.0, right: 1.0 }, rise);
+        let body = graph(-4.0, 4.0, move |x| {
+            let t = f64::max(x - x0, 0.0);
+            [(x * x + t * t) / 2.0 - mean * x, rise(x) - mean]
+        });
+        let rule = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let contact = contact.edges(Edge::Fixed(-1.0), Edge::Free).single_interval(true);
+        let solution = contact.solve(Control::Load(first)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        const N: usize = 6000;
+        for i in [20, 1000, 3000, 4500, 5400, 5600, 5700, 5800, 5850, 5880] {
+            let z = (PI * i as f64 / N as f64).cos();
+            let term = |i: usize| {
+                let t = (PI * (i as f64 + 0.5) / N as f64).cos();
+                (rise(t) - mean) / (t - z) / N as f64
+            };
+            let exact = (1.0 - z * z).sqrt() / PI * (0..N).map(term).sum::<f64>();
+            let got = pressure.estimate(z, &mut Cost::default()).unwrap();
+            let off = (got.value - exact).abs();
+            assert!(off <= 3.0 * got.error + 1e-6, "{tolerance} {z}: {off:e}, {:e}", got.error);
+        }
+    }
+}
