@@ -275,7 +275,9 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let m = self.moments(gap, on)?;
         // Nor is it to what little the contact has beyond a joint.
         if self.fall.is_none() && self.is_poor(&m) && self.cover.overshoots(gap, on) {
-            self.sample_anew(gap, on)?;
+            let sampled = self.sample_anew(gap, on)?;
+            // But limits and load are those of the panels before.
+            self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
         let Cover { panels, size, tolerance, .. } = &self.cover;
         self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);

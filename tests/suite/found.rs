@@ -372,3 +372,111 @@ fn a_gap_closes_a_rounding_beside_its_jump() {
         assert!(left.abs() < 1e-8 * load, "{x}: {left:e}");
     }
 }
+
+/// Seeds 12951 and 19634: a jump that nobody has declared, on a panel that cannot be halved. What it rises by is
+/// part of the derivatives by the limits: without it Newton's steps fall by a thousandth each, and are believed
+/// to fall faster.
+#[test]
+fn limits_beside_a_jump_that_is_not_declared() {
+    let l = 0.7;
+    for (jump, steep) in [(0.9, 0.5), (0.3, 2.0), (5.0, 1.0)] {
+        let rise = move |x: f64| (steep * x).sinh() + x;
+        let [mean, first] = edge_integrals(Interval { left: -l, right: l }, rise);
+        for i in 0..20 {
+            let x0 = l * (-0.95 + 0.0977 * f64::from(i));
+            let (theta, sin) = ((x0 / l).acos(), (1.0 - (x0 / l).powi(2)).sqrt());
+            let tilt = -mean - jump * theta / PI;
+            let load = l * (first + jump * sin / PI);
+            let body = graph(-4.0, 4.0, move |x| {
+                let more = if x > x0 { jump } else { 0.0 };
+                let y = (steep * x).cosh() / steep + x * x / 2.0 + tilt * x;
+                [y + more * (x - x0), rise(x) + tilt + more]
+            });
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            for contact in [contact.clone(), contact.edges(Edge::Fixed(-l), Edge::Free)] {
+                let solution = contact.solve(Control::Load(load)).unwrap();
+                let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
+                let estimate = solution.limits_error().unwrap();
+                assert!(off <= 3.0 * estimate + 1e-15, "{jump} {x0}: {off:e}, {estimate:e}");
+            }
+        }
+    }
+}
+
+/// Seed 1537: an edge a little beyond a joint, a loose tolerance and a given width. The pressure is worked out on
+/// panels that end at the joint, the load is that of the panels before.
+#[test]
+fn pressures_on_better_panels_than_the_load() {
+    let (stiff, joint, left, l) =
+        (524288.0, -0.47497372326566323, -0.43943851960966, 1.0089767759354913);
+    let (c, k, x0) = (1.3136823574014551, 2.329986997957129, 0.419674834852655);
+    let bend = move |x: f64| {
+        let t = x + 0.17941607890192268;
+        let slope =
+            c * (k * (x - x0)).sinh() + 0.5790229839221257 * x + 3.5264995803082235 * t.powi(3);
+        let y = c / k * (k * (x - x0)).cosh()
+            + 0.5790229839221257 * x * x / 2.0
+            + 3.5264995803082235 * t.powi(4) / 4.0;
+        [y, slope]
+    };
+    let on = Interval { left, right: left + 2.0 * l };
+    let rise = move |x: f64| bend(x)[1] + stiff * (x - joint);
+    let [mean, _] = edge_integrals(on, rise);
+    let tilted = move |x: f64, t: f64| {
+        let [y, dy] = bend(x);
+        [y - mean * x + stiff * t * t / 2.0, dy - mean + stiff * t]
+    };
+    let beyond = graph(joint, 4.5, move |x| tilted(x, x - joint));
+    let body = join(vec![graph(-4.5, joint, move |x| tilted(x, 0.0)), beyond]);
+    for tolerance in [4.7e-7, 1e-6, 1e-5] {
+        let rule = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let solution = contact.solve(Control::HalfWidth(l)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        const N: usize = 2000;
+        for i in (100..N).step_by(200) {
+            let z = (PI * i as f64 / N as f64).cos();
+            let term = |i: usize| {
+                let t = (PI * (i as f64 + 0.5) / N as f64).cos();
+                (rise(on.centre() + l * t) - mean) / (t - z) / N as f64
+            };
+            let exact = (1.0 - z * z).sqrt() / PI * (0..N).map(term).sum::<f64>();
+            let got = pressure.estimate(on.centre() + l * z, &mut Cost::default()).unwrap();
+            let off = (got.value - exact).abs();
+            assert!(off <= 3.0 * got.error, "{tolerance} {z}: {off:e}, {:e}", got.error);
+            assert!(got.error < 1e-3 * exact, "{tolerance} {z}: {:e} of {exact:e}", got.error);
+        }
+    }
+}
+
+/// Seed 13762: a kink between a corner and the first node that only a loose tolerance lets pass. The slope at the
+/// corner tells by how much the panel is off.
+#[test]
+fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
+    for (tolerance, share) in [(1e-3, 0.03), (1e-3, 0.01), (1e-4, 0.003), (1e-2, 0.03)] {
+        let x0 = share - 1.0;
+        let rise = move |x: f64| x + f64::max(x - x0, 0.0);
+        let [mean, first] = edge_integrals(Interval { left: -1.0, right: 1.0 }, rise);
+        let body = graph(-4.0, 4.0, move |x| {
+            let t = f64::max(x - x0, 0.0);
+            [(x * x + t * t) / 2.0 - mean * x, rise(x) - mean]
+        });
+        let rule = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let contact = contact.edges(Edge::Fixed(-1.0), Edge::Free).single_interval(true);
+        let solution = contact.solve(Control::Load(first)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        const N: usize = 6000;
+        for i in [20, 1000, 3000, 4500, 5400, 5600, 5700, 5800, 5850, 5880] {
+            let z = (PI * i as f64 / N as f64).cos();
+            let term = |i: usize| {
+                let t = (PI * (i as f64 + 0.5) / N as f64).cos();
+                (rise(t) - mean) / (t - z) / N as f64
+            };
+            let exact = (1.0 - z * z).sqrt() / PI * (0..N).map(term).sum::<f64>();
+            let got = pressure.estimate(z, &mut Cost::default()).unwrap();
+            let off = (got.value - exact).abs();
+            assert!(off <= 3.0 * got.error + 1e-6, "{tolerance} {z}: {off:e}, {:e}", got.error);
+        }
+    }
+}

@@ -285,6 +285,9 @@ impl<T: Real> Cover<T> {
                 trial = one;
                 continue;
             }
+            if trial.split && !is_long(trial.panel.x) {
+                trial.panel.straighten();
+            }
             // What happens between the last node and the end of a panel shows at its neighbour.
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);

@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{MOST, Row, SIZES, expand_to, size_for, value_at};
+use super::chebyshev::{MOST, Row, SIZES, Table, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -41,6 +41,15 @@ impl<T: Real> Panel<T> {
         // In derivatives the noise is another.
         let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
         self.counting = counting(self.coefficients(), 1..T::PARTS, rounding).max(by_value);
+    }
+
+    /// Takes a straight line from the first to the last node in place of the series, which overshoots where the
+    /// slope jumps: all that it rises is then between its neighbours, and no seam is left.
+    pub fn straighten(&mut self) {
+        let (half, z) = (T::of(0.5), &Table::of(self.n).z[..self.n]);
+        let [first, last] = [z[0], z[self.n - 1]].map(|z| value_at(self.coefficients(), T::of(z)));
+        (self.series[0], self.series[1]) = (half * (first + last), half * (last - first));
+        self.counting = 2;
     }
 
     /// Turns it from one tilt to another. Back and forth it is what it was.

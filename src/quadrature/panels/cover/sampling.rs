@@ -1,7 +1,7 @@
 //! One panel: sampled, with as many nodes as it takes, and judged.
 
-use super::Cover;
 use super::trial::Trial;
+use super::{Cover, Held};
 use crate::gap::{Gap, aim};
 use crate::quadrature::panels::chebyshev::{SIZES, Table, by_size};
 use crate::quadrature::panels::nodes::{at_nodes, left_open, missed_at_ends};
@@ -52,6 +52,8 @@ impl<T: Real> Cover<T> {
             if level == 0 {
                 self.size = self.size.max(slope);
             }
+            let counts = level < LEVELS_OF_A_TIP;
+            let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
             // Next to a singularity the slope may be large, or noisy, beyond all that counts
             // elsewhere.
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
@@ -59,7 +61,7 @@ impl<T: Real> Cover<T> {
             let (tail, next, split) = match verdict {
                 // The first sign of a tip looks like noise.
                 Verdict::Good(tail) | Verdict::Noise(tail)
-                    if level < LEVELS_OF_A_TIP && self.misses_a_tip(missed, allowed.max(tail)) =>
+                    if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(tail)) =>
                 {
                     (tail, None, true)
                 }
@@ -67,7 +69,8 @@ impl<T: Real> Cover<T> {
                     let more = SIZES.into_iter().find(|&more| more > n);
                     (tail.max(off), more, true)
                 }
-                Verdict::Good(tail) => (tail.max(off), None, false),
+                // What only a loose tolerance lets pass is an error.
+                Verdict::Good(tail) => (tail.max(off).max(at_limit), None, false),
                 Verdict::Noise(size) => {
                     panel.drop_noise(size);
                     (size, None, false)
@@ -105,6 +108,16 @@ impl<T: Real> Cover<T> {
     /// the panel.
     fn misses_a_tip(&self, missed: T, noise: T) -> bool {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
+    }
+
+    /// By how much it misses the slope at a limit that is given, if that is more than rounding.
+    fn missed_at_limits(&self, panel: &Panel<T>) -> T {
+        let rounding = T::epsilon().sqrt() * self.size;
+        let at_end = |(held, end): (&Option<Held<T>>, T)| {
+            let held = held.filter(|held| held.limit == end && !self.rough)?;
+            Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
+        };
+        self.held.iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
 
     /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they
@@ -169,11 +182,6 @@ impl<T: Real> Cover<T> {
         }
         panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
         panel.count(N);
-        for (held, end) in self.held.iter().zip(x) {
-            if let Some(held) = held.filter(|held| held.limit == end && !self.rough) {
-                seen.missed = seen.missed.max((panel.value(held.x) - held.slope).abs());
-            }
-        }
         self.derivatives.clear();
         for part in 1..T::PARTS {
             let [lower, upper] =
