@@ -76,9 +76,18 @@ pub(super) enum Effort {
 /// How Newton's method ends.
 pub(super) enum Outcome<T> {
     Settled(Settled<T>),
-    /// Step after step leads beyond an end of the bodies.
-    AtEnd,
+    /// Step after step leads beyond an end of the bodies; how far they went.
+    AtEnd(Interval<T>),
     Astray,
+}
+
+impl<T> Outcome<T> {
+    pub fn settled(self) -> Option<Settled<T>> {
+        match self {
+            Self::Settled(settled) => Some(settled),
+            Self::AtEnd(_) | Self::Astray => None,
+        }
+    }
 }
 
 /// Finds the limits from a start nearby. `most_at_end` steps may lead beyond an end of the bodies: each takes
@@ -127,7 +136,7 @@ pub(super) fn settle<T: Real>(
             let next = before_ends(conditions, on, wider, range);
             at_end += usize::from(next != wider);
             if at_end > most_at_end {
-                return Ok(Outcome::AtEnd);
+                return Ok(Outcome::AtEnd(next));
             }
             if !is_open || next.is_same(&on) {
                 return Ok(Outcome::Astray);
@@ -148,7 +157,7 @@ pub(super) fn settle<T: Real>(
         if next != on {
             at_end += 1;
             if at_end > most_at_end || next.is_same(&from) {
-                return Ok(Outcome::AtEnd);
+                return Ok(Outcome::AtEnd(next));
             }
             (on, before) = (next, None);
             continue;

@@ -25,7 +25,7 @@ const MOST_SKETCHES: usize = 120;
 
 /// Steps beyond an end of the bodies in a sketch, after which another is made; and in full, after which it is
 /// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
-const MOST_AT_END: [usize; 2] = [8, 24];
+const MOST_AT_END: [usize; 2] = [2, 24];
 
 /// Sketches that may reach for an end before it is asked what the bodies bear.
 const MOST_SKETCHES_AT_END: usize = 40;
@@ -180,7 +180,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 let wide = |settled: &Settled<T>| {
                     settled.on.half_width() >= T::of(0.3) * covered.half_width()
                 };
-                if let Some(settled) = known(self.settle(last, Effort::Full))?.filter(wide) {
+                if let Some(settled) = known(self.settle(last, Effort::Full).map(Outcome::settled))?.filter(wide) {
                     return Ok(Some(settled));
                 }
             }
@@ -203,7 +203,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         &mut self,
         from: Interval<T>,
         effort: Effort,
-    ) -> Result<Option<Settled<T>>, ContactError<T>> {
+    ) -> Result<Outcome<T>, ContactError<T>> {
         let most_at_end = match effort {
             Effort::Sketch => MOST_AT_END[0],
             Effort::Full if self.bears.is_some() => usize::MAX,
@@ -214,14 +214,11 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             newton::settle(engine, gap, &conditions, from, effort, most_at_end)
         };
         let mut outcome = find(self.engine, most_at_end)?;
-        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd) {
+        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd(_)) {
             self.check()?;
             outcome = find(self.engine, usize::MAX)?;
         }
-        Ok(match outcome {
-            Outcome::Settled(settled) => Some(settled),
-            Outcome::AtEnd | Outcome::Astray => None,
-        })
+        Ok(outcome)
     }
 
     /// By one limit at a time.
@@ -300,7 +297,9 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             if self.engine.cover(gap, stretch, false)?.is_none() {
                 return Ok(None);
             }
-            let Some(settled) = self.settle(guess, Effort::Full)? else { return Ok(None) };
+            let Some(settled) = self.settle(guess, Effort::Full)?.settled() else {
+                return Ok(None);
+            };
             // Panels much wider than the contact are not as good as they look.
             let covered = self.engine.covered().unwrap_or(stretch);
             if settled.on.half_width() >= T::of(0.8) * covered.half_width() {
@@ -327,8 +326,15 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             }
             let Some(doubt) = self.engine.cover(gap, stretch, true)? else { return Ok(None) };
             let begin = on.unwrap_or(stretch);
-            let guess = self.settle(begin, Effort::Sketch)?;
-            let Some(Settled { on: guess, error, .. }) = guess else { return Ok(None) };
+            let (guess, error) = match self.settle(begin, Effort::Sketch)? {
+                Outcome::Settled(Settled { on, error, .. }) => (on, error),
+                Outcome::AtEnd(reached) => {
+                    (stretch, on) = (self.up_to_corners(reached.plain()), None);
+                    self.reaches_end(&mut at_end)?;
+                    continue;
+                }
+                Outcome::Astray => return Ok(None),
+            };
             let guess = guess.plain();
             on = Some(guess);
             let within = guess.left >= stretch.left && guess.right <= stretch.right;
@@ -369,13 +375,17 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 left: half_way(next.left, guess.left, range[0], is_beyond[0]),
                 right: half_way(next.right, guess.right, range[1], is_beyond[1]),
             });
-            // One that comes to an end again and again is perhaps more than the bodies bear.
-            at_end += usize::from(is_beyond[0] || is_beyond[1]);
-            if at_end == MOST_SKETCHES_AT_END {
-                self.check()?;
+            if is_beyond[0] || is_beyond[1] {
+                self.reaches_end(&mut at_end)?;
             }
         }
         Ok(None)
+    }
+
+    /// Counts a sketch that comes to an end of the bodies: it is perhaps more than they bear.
+    fn reaches_end(&mut self, times: &mut usize) -> Result<(), ContactError<T>> {
+        *times += 1;
+        if *times == MOST_SKETCHES_AT_END { self.check() } else { Ok(()) }
     }
 
     /// The start, or the lowest gap.
