@@ -24,7 +24,6 @@ use crate::{ContactError, Interval, Real};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use potential::{Place, Potential};
 use std::cmp::Ordering::Equal;
-use thiserror::Error;
 
 /// Cells at first; where a check has failed, twice as many may see more.
 pub(super) const FIRST_CELLS: usize = 33;
@@ -97,35 +96,18 @@ pub(super) struct Coarse<T> {
     pub tilt: T,
     /// Whether the contact reaches the left and the right end of the range.
     pub reaches: [bool; 2],
-    #[cfg_attr(not(test), allow(dead_code))]
-    pub count: Count,
-}
-
-/// What it has taken.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Count {
-    /// Cells in the end.
-    pub cells: usize,
-    /// Heights asked for.
-    pub heights: usize,
-    /// Systems of linear equations.
-    pub solves: usize,
 }
 
 /// Why no contact is found.
-#[derive(Debug, Error, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) enum NotFound<T: Real> {
     /// A height cannot be had.
-    #[error(transparent)]
-    Height(#[from] ContactError<T>),
+    Height(ContactError<T>),
     /// A height is not finite.
-    #[error("the height of the gap at x = {x:?} is {height:?}")]
     NotFinite { x: T, height: T },
     /// The range is empty, or the load or κ not positive and finite.
-    #[error("κ = {kappa:?}, F = {load:?}, from x = {:?} to {:?}", range[0], range[1])]
     Scene { kappa: T, load: T, range: [T; 2] },
     /// The set of loaded cells does not settle.
-    #[error("the cells that touch do not settle in {solves} solves")]
     Unsettled { solves: usize },
 }
 
@@ -136,19 +118,7 @@ pub(super) fn active_set<T: Real>(
     scene: &Scene<'_, T>,
     height: Height<'_, T>,
 ) -> Result<Coarse<T>, NotFound<T>> {
-    let mut set = ActiveSet::new(scene, height)?;
-    set.take_up(scene.start, height)?;
-    for _ in 0..MOST_CUTS {
-        set.settle()?;
-        let (marks, intervals) = (set.marks(scene.known), set.intervals());
-        if !set.cut(&marks, &intervals, height)? {
-            break;
-        }
-    }
-    if set.changed {
-        set.settle()?;
-    }
-    Ok(set.found())
+    Ok(ActiveSet::of(scene, height)?.found())
 }
 
 #[derive(Clone, Copy)]
@@ -192,11 +162,29 @@ struct ActiveSet<T> {
     slope: T,
     /// Whether cells were cut since these were found.
     changed: bool,
-    count: Count,
+    /// Systems of linear equations.
+    solves: usize,
     work: usize,
 }
 
 impl<T: Real> ActiveSet<T> {
+    /// Loads the cells in which the bodies touch, cut as far as it takes to see them.
+    fn of(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
+        let mut set = Self::new(scene, height)?;
+        set.take_up(scene.start, height)?;
+        for _ in 0..MOST_CUTS {
+            set.settle()?;
+            let (marks, intervals) = (set.marks(scene.known), set.intervals());
+            if !set.cut(&marks, &intervals, height)? {
+                break;
+            }
+        }
+        if set.changed {
+            set.settle()?;
+        }
+        Ok(set)
+    }
+
     fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
         let Scene { kappa, load, at, range, cells, .. } = *scene;
         let [kappa, load] = [kappa, load].map(|value| value.part(0));
@@ -222,7 +210,7 @@ impl<T: Real> ActiveSet<T> {
             level: T::zero(),
             slope: T::zero(),
             changed: true,
-            count: Count::default(),
+            solves: 0,
             work: 0,
         };
         let mut left = range[0];
@@ -273,7 +261,8 @@ impl<T: Real> ActiveSet<T> {
         for _ in 0..MOST_CHANGES {
             let [on, above]: [Vec<T>; 2] =
                 [&arms, &rises].map(|of| loaded.iter().map(|&i| of[i]).collect());
-            let excess = T::of(ABOVE) * T::count(loaded.len());
+            let runs = 1 + loaded.windows(2).filter(|pair| pair[0] + 1 < pair[1]).count();
+            let excess = T::of(ABOVE) * T::count(loaded.len()) / T::count(runs);
             let [level, slope] = line(&on, [sum(&above) + excess, dot(&on, &above)]);
             let is_below =
                 |i: usize| rises[i] < level + slope * arms[i] || i == first || i == second;
@@ -327,9 +316,8 @@ impl<T: Real> ActiveSet<T> {
         cell.height = match known {
             Some(height) => height,
             None => {
-                self.count.heights += 1;
                 let x = cell.centre();
-                let height = height(x)?.part(0);
+                let height = height(x).map_err(NotFound::Height)?.part(0);
                 if !height.is_finite() {
                     return Err(NotFound::NotFinite { x, height });
                 }
@@ -408,8 +396,8 @@ impl<T: Real> ActiveSet<T> {
         Ok(())
     }
 
-    /// Changes the set of loaded cells until none pulls and none overlaps.
-    fn settle(&mut self) -> Result<(), NotFound<T>> {
+    /// Makes ready for forces on cells that were cut.
+    fn prepare(&mut self) {
         let [left, right] = self.range;
         let place = |cell: &Cell<T>| Place {
             centre: (cell.centre() - left) / (right - left),
@@ -426,6 +414,14 @@ impl<T: Real> ActiveSet<T> {
         let highest = T::epsilon().recip().powi(4);
         let rise = |cell: &Cell<T>| self.rise_of(cell.height, lowest).min(highest);
         self.rise = self.cells.iter().map(rise).collect();
+        self.changed = false;
+    }
+
+    /// Changes the set of loaded cells until none pulls and none overlaps, but for one at a limit of many cells.
+    fn settle(&mut self) -> Result<(), NotFound<T>> {
+        if self.changed {
+            self.prepare();
+        }
         let (mut least, mut in_vain) = (usize::MAX, 0);
         for _ in 0..MOST_CHANGES {
             if !self.bears() {
@@ -441,8 +437,15 @@ impl<T: Real> ActiveSet<T> {
                     if loaded { force < -rounding } else { self.gap(i) < -rounding }
                 })
                 .collect();
-            if wrong.is_empty() {
-                self.changed = false;
+            let runs = self.runs();
+            // A limit is known where but the cell next to a run of some overlaps.
+            let is_limit = |&i: &usize| {
+                let next = runs.partition_point(|run| run[1] + 1 < i);
+                let beside = |&[from, to]: &[usize; 2]| i + 1 == from || i == to + 1;
+                let some = |[from, to]: &[usize; 2]| 2 * (to - from + 1) >= CELLS_OF_A_RUN;
+                runs[next..].iter().take(2).any(|run| beside(run) && some(run))
+            };
+            if wrong.iter().all(is_limit) {
                 return Ok(());
             }
             if self.work > MOST_WORK {
@@ -457,12 +460,12 @@ impl<T: Real> ActiveSet<T> {
                 cell.force = T::zero();
             }
         }
-        Err(NotFound::Unsettled { solves: self.count.solves })
+        Err(NotFound::Unsettled { solves: self.solves })
     }
 
     /// Closes the gap in the loaded cells; how far off the forces may be.
     fn solve(&mut self) -> T {
-        self.count.solves += 1;
+        self.solves += 1;
         let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
         on.iter().for_each(|&i| self.matrix.load(i));
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
@@ -487,7 +490,9 @@ impl<T: Real> ActiveSet<T> {
 
     /// The matrix of some loaded cells, factored.
     fn factor(&self, on: &[usize]) -> Option<Cholesky<T, Dyn>> {
-        DMatrix::from_fn(on.len(), on.len(), |i, j| self.matrix.entry(on[i], on[j])).cholesky()
+        // The lower half is enough.
+        let entry = |i, j| if i < j { T::zero() } else { self.matrix.entry(on[i], on[j]) };
+        DMatrix::from_fn(on.len(), on.len(), entry).cholesky()
     }
 
     /// By elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
@@ -496,9 +501,9 @@ impl<T: Real> ActiveSet<T> {
         let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
         let factor = self.factor(on)?;
         let even = factor.solve(&DVector::from_element(on.len(), T::one()));
-        let leaning = factor.solve(&DVector::from_column_slice(arms));
-        let rise = factor.solve(&DVector::from_fn(on.len(), |i, _| self.rise[on[i]] - lowest));
         let arms = DVector::from_column_slice(arms);
+        let leaning = self.at.map_or_else(|| arms.clone(), |_| factor.solve(&arms));
+        let rise = factor.solve(&DVector::from_fn(on.len(), |i, _| self.rise[on[i]] - lowest));
         let products = [even.sum(), even.dot(&arms), leaning.dot(&arms)];
         let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
         let forces = even * level + leaning * slope - rise;
@@ -700,16 +705,15 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// What was found.
-    fn found(mut self) -> Coarse<T> {
+    fn found(&self) -> Coarse<T> {
         let (intervals, runs) = (self.intervals(), self.runs());
         let last = self.cells.len().saturating_sub(1);
         let reaches = [
             runs.first().is_some_and(|run| run[0] == 0),
             runs.last().is_some_and(|run| run[1] == last),
         ];
-        self.count.cells = self.cells.len();
         let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
-        Coarse { intervals, tilt, reaches, count: self.count }
+        Coarse { intervals, tilt, reaches }
     }
 
     /// The runs as intervals.
@@ -787,15 +791,20 @@ mod tests {
     use super::*;
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    type Found = Result<Coarse<f64>, NotFound<f64>>;
-
     fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
         let cells = FIRST_CELLS;
         Scene { kappa: FRAC_PI_2, load, at: None, range, cells, known: &[], start: &[] }
     }
 
-    fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Found {
-        active_set(scene, &mut |x| Ok(h(x)))
+    fn set(
+        scene: &Scene<'_, f64>,
+        h: impl Fn(f64) -> f64,
+    ) -> Result<ActiveSet<f64>, NotFound<f64>> {
+        ActiveSet::of(scene, &mut |x| Ok(h(x)))
+    }
+
+    fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Result<Coarse<f64>, NotFound<f64>> {
+        Ok(set(scene, h)?.found())
     }
 
     /// The same on many even cells.
@@ -863,11 +872,12 @@ mod tests {
         let mut all = Vec::new();
         for i in 0..=100 {
             let (load, c) = (10f64.powf(f64::from(i) * 0.137 - 14.0), random.within(-0.7, 0.7));
-            let found = find(&scene(load, [-2.0, 2.0]), |x| (x - c).powi(2) / 2.0).unwrap();
+            let set = set(&scene(load, [-2.0, 2.0]), |x| (x - c).powi(2) / 2.0).unwrap();
+            let found = set.found();
             let half = (4.0 * load / PI).sqrt();
             let &[on] = found.intervals.as_slice() else { panic!("{load}: {found:?}") };
             all.push(off(on, Interval { left: c - half, right: c + half }));
-            assert!(found.count.cells <= 130 && found.reaches == [false; 2], "{found:?}");
+            assert!(set.cells.len() <= 130 && found.reaches == [false; 2], "{found:?}");
             // δ = F (1/2 - ln(L/2)) for distances in units of 1, here of 4.
         }
         all.sort_by(f64::total_cmp);
@@ -906,8 +916,9 @@ mod tests {
             let known = heights(64, [-2.0, 2.0], h);
             let load = 10f64.powf(random.within(-4.0, -0.3));
             let scene = Scene { known: &known, ..scene(load, [-2.0, 2.0]) };
-            let found = find(&scene, h).unwrap();
-            counted.push(found.count.cells);
+            let set = set(&scene, h).unwrap();
+            let found = set.found();
+            counted.push(set.cells.len());
             let fine = even(&scene, 801, h);
             // Of runs of a few of its cells the fine one does not know the width.
             let far = |(&on, &fine): (&Interval<f64>, &Interval<f64>)| {
@@ -928,10 +939,11 @@ mod tests {
         let h = |x: f64| 0.05 * x * x - 1e-3 * (2.0 * PI * x / 0.03).cos();
         let known = heights(10_000, [-2.0, 2.0], h);
         let mut scene = Scene { known: &known, ..scene(0.1, [-2.0, 2.0]) };
-        let found = find(&scene, h).unwrap();
+        let first = set(&scene, h).unwrap();
+        let found = first.found();
         let fine = even(&scene, 4001, h);
         assert_eq!(found.intervals.len(), fine.intervals.len());
-        assert!(found.intervals.len() > 70 && found.count.cells < 2000, "{:?}", found.count);
+        assert!(found.intervals.len() > 70 && first.cells.len() < 2000, "{found:?}");
         for (&on, &fine) in found.intervals.iter().zip(&fine.intervals) {
             assert!(off(on, fine) < 0.12, "{on:?} {fine:?}");
         }
@@ -990,12 +1002,13 @@ mod tests {
     fn from_the_last_contact_with_fewer_solves() {
         let h = |x: f64| x.powi(4) - 2.0 * x * x;
         let mut scene = scene(1e-6, [-3.0, 3.0]);
-        let cold = find(&scene, h).unwrap();
-        scene.start = &cold.intervals;
+        let cold = set(&scene, h).unwrap();
+        let last = cold.found().intervals;
+        scene.start = &last;
         scene.load = 1.1e-6;
-        let warm = find(&scene, h).unwrap();
-        assert_eq!(warm.intervals.len(), 2);
-        assert!(warm.count.solves <= 4 && 3 * warm.count.solves < cold.count.solves);
+        let warm = set(&scene, h).unwrap();
+        assert_eq!(warm.found().intervals.len(), 2);
+        assert!(warm.solves <= 4 && 3 * warm.solves < cold.solves);
         // A start that is nowhere near costs some more, but leads to the same.
         scene.start = &[Interval { left: 1.9, right: 1.900_001 }];
         assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
@@ -1058,8 +1071,8 @@ mod tests {
         let noise = |x: f64| (x.to_bits().wrapping_mul(0x9e3779b97f4a7c15) >> 11) as f64 * 1e-16;
         for load in [1e-6, 1e-2, 1.0] {
             let known = heights(1000, [-1.0, 1.0], noise);
-            let found = find(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, noise);
-            assert!(found.is_ok_and(|found| found.count.cells <= MOST_CELLS), "{load}");
+            let found = set(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, noise);
+            assert!(found.is_ok_and(|found| found.cells.len() <= MOST_CELLS), "{load}");
         }
     }
 }

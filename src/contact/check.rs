@@ -293,6 +293,7 @@ impl<T: Real> Check<'_, T> {
         let mut sampler = Sampler::default();
         let mut worst: Option<[T; 2]> = None;
         let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
+        let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
         // The edge from which the gap is followed to x, the height of the gap there, and what the pressure
         // takes off it.
@@ -319,6 +320,11 @@ impl<T: Real> Check<'_, T> {
                     *from.insert((next, height, total(edge)))
                 }
             };
+            // From no place does the load act further away than from the far end of the contacts.
+            let most = load * (x - hull.left).max(hull.right - x).ln();
+            if height - hidden - at_edge >= (most - taken) / self.kappa {
+                continue;
+            }
             let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
             let allowed = doubt
                 + self.share() * (height - at_edge).abs()

@@ -119,13 +119,15 @@ impl<T: Real> Field<T> {
     }
 }
 
-/// Number n of the coefficients of a cosine series, from its values.
+/// Number n of the coefficients of a cosine series, from its values, the number of which is a power of two.
 fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64]) -> T {
     let count = values.len();
-    let terms = values.iter().enumerate();
-    let sum = terms.fold(T::zero(), |sum, (i, &value)| {
-        sum + value * T::of(cosines[(2 * i + 1) * n % (4 * count)])
-    }) / T::count(count);
+    let (mut sum, mut angle) = (T::zero(), n);
+    for &value in values {
+        sum += value * T::of(cosines[angle]);
+        angle = (angle + 2 * n) & (4 * count - 1);
+    }
+    sum /= T::count(count);
     if n == 0 { sum } else { sum + sum }
 }
 

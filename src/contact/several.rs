@@ -300,12 +300,17 @@ impl<T: Real> Newton<T> {
 
     /// Whether the gap after a contact is as narrow as rounding, or as what is in doubt of its limits.
     pub fn is_nothing(&self, i: usize) -> bool {
-        let ([one, other], doubtful) = ([self.on[i], self.on[i + 1]], self.doubtful_gap(i));
-        let size = one.right.abs().max(other.left.abs());
+        let doubtful = self.doubtful_gap(i);
         let width = doubtful.right - doubtful.left;
-        let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * (other.right - one.left);
-        self.gap(i) <= T::of(NOTHING) * T::epsilon() * size
-            || is_point && self.gap(i) <= T::of(0.5) * width
+        let both = self.on[i + 1].right - self.on[i].left;
+        let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * both;
+        self.gap(i) <= self.rounding(i) || is_point && self.gap(i) <= T::of(0.5) * width
+    }
+
+    /// The rounding of the limits of a contact and of the next.
+    fn rounding(&self, i: usize) -> T {
+        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
+        T::of(NOTHING) * T::epsilon() * size
     }
 
     /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
@@ -336,9 +341,7 @@ impl<T: Real> Newton<T> {
 
     /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts at least.
     pub fn closed_gap(&self, i: usize) -> Interval<T> {
-        let Interval { left, right } = self.doubtful_gap(i);
-        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
-        let rounding = T::of(NOTHING) * T::epsilon() * size;
+        let (Interval { left, right }, rounding) = (self.doubtful_gap(i), self.rounding(i));
         Interval { left: left - rounding, right: right + rounding }
     }
 

@@ -7,6 +7,8 @@
 
 use crate::Real;
 use crate::numerics::dot;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Cells up to which there are columns.
 const FULL: usize = 320;
@@ -250,8 +252,7 @@ impl<T: Real> Group<T> {
 impl<T: Real> Block<T> {
     fn new(cells: &[Place<T>], groups: &[Group<T>], target: &Group<T>, root: usize) -> Self {
         let [from, to] = target.cells;
-        let place = |m: usize| (T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES)).cos();
-        let places: [T; PLACES] = std::array::from_fn(place);
+        let places = AT_PLACES.map(|at| T::of(at[1]));
         let (mut near, mut far) = (Vec::new(), Vec::new());
         let mut waiting = vec![root];
         while let Some(number) = waiting.pop() {
@@ -293,19 +294,26 @@ impl<T: Real> Block<T> {
     }
 }
 
+/// Chebyshev's polynomials at the places.
+static AT_PLACES: LazyLock<[[f64; PLACES]; PLACES]> = LazyLock::new(|| {
+    let angle = |m: usize| PI * (m as f64 + 0.5) / PLACES as f64;
+    std::array::from_fn(|m| std::array::from_fn(|k| (k as f64 * angle(m)).cos()))
+});
+
 /// The polynomials that are one at one of the places and zero at the others, at t.
 fn cardinals<T: Real>(t: T) -> [T; PLACES] {
     // By the discrete orthogonality of Chebyshev's polynomials at their own zeros.
-    std::array::from_fn(|m| {
-        let angle = T::pi() * (T::count(m) + T::of(0.5)) / T::count(PLACES);
-        let (mut before, mut chebyshev) = (T::one(), t);
-        let mut sum = T::one();
-        for k in 1..PLACES {
-            sum += T::of(2.0) * (T::count(k) * angle).cos() * chebyshev;
-            (before, chebyshev) = (chebyshev, T::of(2.0) * t * chebyshev - before);
-        }
-        sum / T::count(PLACES)
-    })
+    let mut twice = [T::one(); PLACES];
+    let (mut before, mut chebyshev) = (T::one(), t);
+    for twice in &mut twice[1..] {
+        *twice = chebyshev + chebyshev;
+        (before, chebyshev) = (chebyshev, T::of(2.0) * t * chebyshev - before);
+    }
+    let sum = |at: &[f64; PLACES]| {
+        let both = at.iter().zip(&twice);
+        both.fold(T::zero(), |sum, (&at, &twice)| sum + T::of(at) * twice) / T::count(PLACES)
+    };
+    std::array::from_fn(|m| sum(&AT_PLACES[m]))
 }
 
 #[cfg(test)]
