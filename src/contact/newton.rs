@@ -44,8 +44,8 @@ use crate::quadrature::{Engine, Moments};
 use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
 
-/// Trials before the search is given up.
-const MOST_STEPS: usize = 200;
+/// Trials before the search is given up, in a sketch and in full. A sketch that takes long has no contact.
+const MOST_TRIALS: [usize; 2] = [30, 200];
 
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
@@ -107,7 +107,7 @@ pub(super) fn settle<T: Real>(
     let (mut before, mut last, mut at_end) = (None::<[T; 2]>, None::<Step<T>>, 0);
     // A step that was cut short tells nothing of the next.
     let certain = |sizes: [T; 2]| Some(sizes).filter(|&[left, right]| left + right <= T::of(0.25));
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MOST_TRIALS[usize::from(effort == Effort::Full)] {
         let half_width = on.half_width();
         if !(half_width > zero && half_width.is_finite()) {
             return Ok(Outcome::Astray);
@@ -191,7 +191,9 @@ pub(super) fn settle<T: Real>(
             let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
             let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
             if done || stalled {
-                if !(opens(engine, conditions, on, system.tilt) && system.is_stable(conditions)) {
+                let sound =
+                    opens(engine, conditions, on, system.tilt) && system.is_stable(conditions);
+                if !sound || least > T::of(MOST_DOUBT) {
                     return Ok(Outcome::Astray);
                 }
                 let left_over = if stalled { sizes } else { next };
@@ -200,9 +202,6 @@ pub(super) fn settle<T: Real>(
                     T::of(4.0) * (noise[i] + rounding[i]) + half * left_over[i]
                 });
                 let force = system.force(errors);
-                if errors[0].max(errors[1]) > T::of(MOST_DOUBT) {
-                    return Ok(Outcome::Astray);
-                }
                 let error = errors[0].max(errors[1]);
                 let (on, load) = further(engine, gap, conditions, on, load)?;
                 return Ok(Outcome::Settled(Settled { on, load, error, force }));

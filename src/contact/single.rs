@@ -180,7 +180,9 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 let wide = |settled: &Settled<T>| {
                     settled.on.half_width() >= T::of(0.3) * covered.half_width()
                 };
-                if let Some(settled) = known(self.settle(last, Effort::Full).map(Outcome::settled))?.filter(wide) {
+                if let Some(settled) =
+                    known(self.settle(last, Effort::Full).map(Outcome::settled))?.filter(wide)
+                {
                     return Ok(Some(settled));
                 }
             }
@@ -199,11 +201,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
 
     /// Newton's method on the samples at hand. Where it leads to an end of the bodies time and again that is
     /// perhaps more than they bear.
-    fn settle(
-        &mut self,
-        from: Interval<T>,
-        effort: Effort,
-    ) -> Result<Outcome<T>, ContactError<T>> {
+    fn settle(&mut self, from: Interval<T>, effort: Effort) -> Result<Outcome<T>, ContactError<T>> {
         let most_at_end = match effort {
             Effort::Sketch => MOST_AT_END[0],
             Effort::Full if self.bears.is_some() => usize::MAX,
