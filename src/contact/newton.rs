@@ -50,6 +50,9 @@ const MOST_TRIALS: [usize; 2] = [30, 200];
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
 
+/// Steps in full that may be longer than half of the half-width.
+const MOST_LONG: usize = 8;
+
 /// The least share of a step that is taken.
 const LEAST_SHARE: f64 = 1e-12;
 
@@ -104,6 +107,7 @@ pub(super) fn settle<T: Real>(
     let range = gap.range();
     let mut on = conditions.with_given(start, range);
     let mut load = conditions.load();
+    let mut long = 0;
     let (mut before, mut last, mut at_end) = (None::<[T; 2]>, None::<Step<T>>, 0);
     // A step that was cut short tells nothing of the next.
     let certain = |sizes: [T; 2]| Some(sizes).filter(|&[left, right]| left + right <= T::of(0.25));
@@ -208,6 +212,11 @@ pub(super) fn settle<T: Real>(
             }
         }
         before = certain(sizes).filter(|_| !crossed);
+        // Each of these takes samples: what is so far off was no guess.
+        long += usize::from(size > half);
+        if long > MOST_LONG {
+            break;
+        }
     }
     Ok(Outcome::Astray)
 }

@@ -147,19 +147,47 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             return self.contact_of(settled);
         }
         self.check()?;
+        let half_width = self.start().half_width();
         let mut sampler = Sampler::default();
-        let first = nested::first_contact(&mut sampler, gap, self.start);
+        let around = self.around_first_contact(&mut sampler);
         *self.cost += sampler.cost;
-        let (near, half_width) = (first?, self.start().half_width());
-        // From elsewhere the way to where the bodies close may be blocked.
-        if self.start_if_known().is_none_or(|start| !start.contains(near)) {
-            let reach = half_width.min(T::of(0.25) * (near - range[0]).min(range[1] - near));
-            self.start = Some(Interval { left: near - reach, right: near + reach });
-            if let Some(settled) = self.by_newton(None).map_err(|error| self.because(error))? {
-                return self.contact_of(settled);
-            }
+        // From elsewhere, or on a stretch far wider, the way there may be blocked.
+        let around = around?;
+        self.start = Some(around);
+        match self.by_newton(None).map_err(|error| self.because(error))? {
+            Some(settled) => self.contact_of(settled),
+            None => Err(ContactError::NoBalance { half_width, near: around.centre() }),
         }
-        Err(ContactError::NoBalance { half_width, near })
+    }
+
+    /// Where the bodies touch first, with a width that may bear the load: `F = κ L²/(2 R)`, from the slopes at
+    /// both limits, is exact for a parabola.
+    fn around_first_contact(
+        &self,
+        sampler: &mut Sampler<T>,
+    ) -> Result<Interval<T>, ContactError<T>> {
+        let (gap, conditions, quarter) = (&self.contact.gap, &self.conditions, T::of(0.25));
+        let x = nested::first_contact(sampler, gap, self.start)?;
+        let [left, right] = gap.range();
+        let around = |reach: T| Interval { left: x - reach, right: x + reach };
+        let mut on = around(quarter * (x - left).min(right - x));
+        match conditions.given {
+            Given::HalfWidth(half_width) => on = around(half_width.min(on.half_width())),
+            Given::Load(load) | Given::Centre { load, .. } if load > T::zero() => {
+                let mut borne = |on: Interval<T>| -> Result<T, ContactError<T>> {
+                    let rise = sampler.slope(gap, on.right)? - sampler.slope(gap, on.left)?;
+                    Ok(quarter * conditions.kappa * on.half_width() * rise)
+                };
+                for _ in 0..MOST_SKETCHES {
+                    if borne(on)? <= load {
+                        break;
+                    }
+                    on = around(quarter * on.half_width());
+                }
+            }
+            _ => {}
+        }
+        Ok(on)
     }
 
     /// By Newton's method; `None` where that goes astray.
