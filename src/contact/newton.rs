@@ -122,7 +122,7 @@ pub(super) fn settle<T: Real>(
         };
         let step = system.step(on, load, conditions.kappa * half_width * m.first);
         let too_far = |last: &&mut Step<T>| {
-            last.share > T::of(LEAST_SHARE) && step.as_ref().is_none_or(|step| last.grew_to(step))
+            last.share > T::of(LEAST_SHARE) && (step.is_none() || last.grew_to(&system, on))
         };
         if let Some(last) = last.as_mut().filter(too_far) {
             last.share *= half;
@@ -132,11 +132,11 @@ pub(super) fn settle<T: Real>(
             continue;
         }
         let is_open = system.by_load && system.residual[0] + system.residual[1] > zero;
-        let leads = |step: &Step<T>| !is_open || step.system.is_stable(conditions);
+        let leads = |_: &Step<T>| !is_open || system.is_stable(conditions);
         let Some(step) = step.filter(leads) else {
             // Where less is carried than asked for, and less still by a wider contact, one that is wider yet grows
             // with its load.
-            let wider = system.moved(conditions, on, [-one, one], one);
+            let wider = moved(conditions, on, system.lean(), [-one, one], one);
             let next = before_ends(conditions, on, wider, range);
             at_end += usize::from(next != wider);
             if at_end > most_at_end {
@@ -151,20 +151,22 @@ pub(super) fn settle<T: Real>(
         let from = on;
         (on, load) = step.end(conditions);
         let ([left, right], size, inverse) = (step.limits, step.size(), step.inverse);
-        let system = &last.insert(step).system;
+        last = Some(step);
         // What is much narrower than the stretch is to be seen in a closer one.
         if effort == Effort::Sketch && on.half_width() < T::of(1e-6) * start.half_width() {
             return Ok(Outcome::Settled(Settled { on, load, error: size.max(one), force: size }));
         }
-        on = rounded_within(on, range);
-        let next = before_ends(conditions, from, on, range);
-        if next != on {
-            at_end += 1;
-            if at_end > most_at_end || next.is_same(&from) {
-                return Ok(Outcome::AtEnd(next));
+        if !(on.left >= range[0] && on.right <= range[1]) {
+            on = rounded_within(on, range);
+            let next = before_ends(conditions, from, on, range);
+            if next != on {
+                at_end += 1;
+                if at_end > most_at_end || next.is_same(&from) {
+                    return Ok(Outcome::AtEnd(next));
+                }
+                (on, before) = (next, None);
+                continue;
             }
-            (on, before) = (next, None);
-            continue;
         }
         let sizes = [left.abs(), right.abs()];
         if effort == Effort::Sketch {
@@ -241,9 +243,9 @@ fn further<T: Real>(
         let m = engine.moments(gap, on)?;
         let Some(system) = System::new(conditions, on, load, &m) else { break };
         let Some(inverse) = system.matrix.try_inverse() else { break };
-        let [left, right, force] = system.solve(&inverse, system.scale, T::one());
+        let [left, right, force] = system.solve(&inverse, system.scale, system.residual);
         load += force;
-        on = system.moved(conditions, on, [left, right], T::one());
+        on = moved(conditions, on, system.lean(), [left, right], T::one());
     }
     Ok((on, load))
 }
@@ -259,7 +261,7 @@ pub(super) fn load_of<T: Real>(
 ) -> T {
     let more = System::new(conditions, on, load, m).and_then(|system| {
         let inverse = system.matrix.try_inverse()?;
-        let [.., more] = system.solve(&inverse, system.scale, T::one());
+        let [.., more] = system.solve(&inverse, system.scale, system.residual);
         Some(load + more)
     });
     more.filter(|load| load.is_finite()).unwrap_or(load)
@@ -274,6 +276,47 @@ fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
     Interval {
         left: rounded(on.left, range[0], range[0] - on.left),
         right: rounded(on.right, range[1], on.right - range[1]),
+    }
+}
+
+/// An interval with its limits moved by steps in units of the half-width, given the load as a share of
+/// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
+/// up, and the centre with it, by `lean` for each unit, as the balance has it: one limit may be a million times as stiff as the other.
+fn moved<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    lean: T,
+    [left, right]: [T; 2],
+    share: T,
+) -> Interval<T> {
+    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+    let half_width = on.half_width();
+    let [along, asked] = [half * (right + left), half * (right - left)];
+    let wider = if asked < T::of(-0.3) && share > zero && share < one {
+        // Far off, the power of the half-width that the load goes with is read off the step: 2
+        // for a round body, 1 for a wedge.
+        let power = (one - share) / -asked;
+        (share.powf(one / power) - one).max(T::of(-0.97))
+    } else {
+        let square = (one + asked + asked).max(T::of(1e-3));
+        ((square - one) / (one + square.sqrt())).min(T::of(3.0))
+    };
+    match conditions.edges.map(|edge| edge.limit()) {
+        [None, None] => {
+            let along = match conditions.given {
+                // Where the bodies turn the balance is another.
+                Given::Centre { .. } => along.max(-one).min(one),
+                _ => along + lean * (wider - asked),
+            };
+            Interval {
+                left: on.left + (along - wider) * half_width,
+                right: on.right + (along + wider) * half_width,
+            }
+        }
+        [left, right] => Interval {
+            left: left.unwrap_or(on.left - (wider + wider) * half_width),
+            right: right.unwrap_or(on.right + (wider + wider) * half_width),
+        },
     }
 }
 
@@ -327,7 +370,6 @@ fn doubtful<T: Real>(noise: T) -> T {
 
 /// The equations, linearised: rows for -b and a. Limits are in units of the half-width, forces in
 /// those of `scale`.
-#[derive(Clone, Copy)]
 struct System<T> {
     /// By -b and by a.
     jacobian: [[T; 2]; 2],
@@ -350,8 +392,11 @@ struct Step<T> {
     load: T,
     /// The load that the contact it is taken from would carry.
     carried: T,
-    system: System<T>,
+    /// By how much the centre goes with the half-width.
+    lean: T,
     inverse: Matrix2<T>,
+    /// Of force.
+    unit: T,
     /// Of -b and of a, in half-widths.
     limits: [T; 2],
     force: T,
@@ -369,17 +414,18 @@ impl<T: Real> Step<T> {
     fn end(&self, conditions: &Conditions<T>) -> (Interval<T>, T) {
         let load = self.load + self.share * self.force;
         let limits = self.limits.map(|step| self.share * step);
-        (self.system.moved(conditions, self.from, limits, load / self.carried), load)
+        (moved(conditions, self.from, self.lean, limits, load / self.carried), load)
     }
 
     /// Whether the next one would be longer by the same Jacobian (the natural monotonicity test of Deuflhard,
     /// *Newton Methods for Nonlinear Problems*, 2004, §3.3).
-    fn grew_to(&self, next: &Self) -> bool {
-        let [one, other] = [self.from.half_width(), next.from.half_width()];
-        let rounding = T::epsilon() * (next.from.left.abs() + next.from.right.abs()) / other;
-        let [left, right, _] = next.system.solve(&self.inverse, self.system.scale, one / other);
-        let certain = T::epsilon().sqrt().max(T::of(64.0) * rounding);
-        self.size() > certain && left.abs() + right.abs() >= self.size()
+    fn grew_to(&self, next: &System<T>, on: Interval<T>) -> bool {
+        let ([left, right, _], size) = (next.steps_of(on, self), self.size());
+        // As far as rounding allows.
+        let rounding = T::epsilon() * (on.left.abs() + on.right.abs());
+        left.abs() + right.abs() >= size
+            && size > T::epsilon().sqrt()
+            && size * on.half_width() > T::of(64.0) * rounding
     }
 }
 
@@ -438,28 +484,20 @@ impl<T: Real> System<T> {
     }
 
     /// The step from an interval; `None` where the limits do not act on the slope, as on a flat.
-    fn step(self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
+    fn step(&self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
         let inverse = self.matrix.try_inverse()?;
-        let [left, right, force] = self.solve(&inverse, self.scale, T::one());
+        let [left, right, force] = self.solve(&inverse, self.scale, self.residual);
         let size = (right - left).abs() + (right + left).abs();
         let leads = size <= T::of(MOST_STEP) && force.is_finite();
+        let (lean, unit, share) = (self.lean(), self.scale, T::one());
         let limits = [left, right];
-        let (system, share) = (self, T::one());
-        leads.then_some(Step { from, load, carried, system, inverse, limits, force, share })
+        leads.then_some(Step { from, load, carried, lean, inverse, unit, limits, force, share })
     }
 
-    /// The steps of -b and of a, in half-widths, and that of the load, by a Jacobian in a unit of force, of a
-    /// contact of so many times the width.
-    fn solve(&self, inverse: &Matrix2<T>, unit: T, width: T) -> [T; 3] {
-        let (half, share) = (T::of(0.5), self.scale / unit);
-        let [at_b, at_a] = if self.is_balance {
-            let [at_b, at_a] = self.residual;
-            let [load, balance] = [half * (at_a + at_b), half * width * (at_a - at_b)];
-            [load - balance, load + balance]
-        } else {
-            self.residual
-        };
-        let step = -(inverse * Vector2::new(share * at_b, share * at_a));
+    /// The steps of -b and of a, in half-widths, and that of the load, by a Jacobian in a unit of force.
+    #[inline(always)]
+    fn solve(&self, inverse: &Matrix2<T>, unit: T, [at_b, at_a]: [T; 2]) -> [T; 3] {
+        let step = -(inverse * Vector2::new(at_b, at_a));
         if self.by_load {
             [step[0], step[1], T::zero()]
         } else {
@@ -467,45 +505,18 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// An interval with its limits moved by steps in units of the half-width, given the load as a share of
-    /// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
-    /// up, and the centre with it as the balance has it: one limit may be a million times as stiff as the other.
-    fn moved(
-        &self,
-        conditions: &Conditions<T>,
-        on: Interval<T>,
-        [left, right]: [T; 2],
-        share: T,
-    ) -> Interval<T> {
-        let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-        let half_width = on.half_width();
-        let [along, asked] = [half * (right + left), half * (right - left)];
-        let wider = if asked < T::of(-0.3) && share > zero && share < one {
-            // Far off, the power of the half-width that the load goes with is read off the step: 2
-            // for a round body, 1 for a wedge.
-            let power = (one - share) / -asked;
-            (share.powf(one / power) - one).max(T::of(-0.97))
-        } else {
-            let square = (one + asked + asked).max(T::of(1e-3));
-            ((square - one) / (one + square.sqrt())).min(T::of(3.0))
-        };
-        match conditions.edges.map(|edge| edge.limit()) {
-            [None, None] => {
-                let along = match conditions.given {
-                    // Where the bodies turn the balance is another.
-                    Given::Centre { .. } => along.max(-one).min(one),
-                    _ => along + self.lean() * (wider - asked),
-                };
-                Interval {
-                    left: on.left + (along - wider) * half_width,
-                    right: on.right + (along + wider) * half_width,
-                }
-            }
-            [left, right] => Interval {
-                left: left.unwrap_or(on.left - (wider + wider) * half_width),
-                right: right.unwrap_or(on.right + (wider + wider) * half_width),
-            },
+    /// The steps by the Jacobian of another contact.
+    fn steps_of(&self, on: Interval<T>, other: &Step<T>) -> [T; 3] {
+        let share = self.scale / other.unit;
+        let [mut at_b, mut at_a] = self.residual.map(|residual| share * residual);
+        if self.is_balance {
+            // Which was linearised without the factor L.
+            let wider = other.from.half_width() / on.half_width();
+            let half = T::of(0.5);
+            let [load, balance] = [half * (at_a + at_b), half * wider * (at_a - at_b)];
+            [at_b, at_a] = [load - balance, load + balance];
         }
+        self.solve(&other.inverse, other.unit, [at_b, at_a])
     }
 
     /// By how much the centre moves in balance for each unit of the half-width, `dc/dL`.
