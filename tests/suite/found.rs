@@ -480,3 +480,46 @@ fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
         }
     }
 }
+
+/// Seeds 950, 2336, 3735 and 6520: steps of the slope that a sketch of the bodies does not see. By symmetry the contact
+/// is around the step; its load is `κ (L/π) ∫ g cos θ dθ`, by 4000 nodes.
+#[test]
+fn a_narrow_step_far_from_the_middle_of_the_bodies() {
+    for (height, width, slope) in [(7.0, 3e-4, 2.0), (0.02, 1e-5, 3.0), (5.0, 1e-6, 0.0)] {
+        let x0 = 0.8125;
+        let calls = Arc::new(AtomicUsize::new(0));
+        let counted = calls.clone();
+        let rise = move |t: f64| height * (t / width).tanh() + slope * t;
+        let body = Curve::new([-5.0, 5.0], move |x: f64| {
+            counted.fetch_add(1, Ordering::Relaxed);
+            let t = x - x0;
+            let log = (t / width).abs() + (-2.0 * (t / width).abs()).exp().ln_1p();
+            CurvePoint { x, y: height * width * log + slope * t * t / 2.0, dx: 1.0, dy: rise(t) }
+        });
+        for half_width in [0.3 * width, width, 20.0 * width] {
+            const N: usize = 4000;
+            let term = |i: usize| {
+                let cosine = (PI * (i as f64 + 0.5) / N as f64).cos();
+                cosine * rise(half_width * cosine)
+            };
+            let load = half_width * (0..N).map(term).sum::<f64>() / N as f64;
+            for single in [false, true] {
+                let contact = Contact::new(&Flat, &body).unwrap().single_interval(single);
+                for control in [Control::HalfWidth(half_width), Control::Load(load)] {
+                    calls.store(0, Ordering::Relaxed);
+                    let solution = contact.solve(control).unwrap_or_else(|error| {
+                        panic!("{height} {width} {half_width} {control:?}: {error}")
+                    });
+                    let calls = calls.load(Ordering::Relaxed);
+                    assert!(calls < 20_000, "{height} {width} {control:?}: {calls} evaluations");
+                    let on = solution.hull();
+                    let off = (on.centre() - x0).abs().max((on.half_width() - half_width).abs());
+                    let allowed = 1e-10 + solution.limits_error().unwrap();
+                    assert!(off <= allowed * half_width, "{height} {width} {control:?}: {on:?}");
+                    let off = (solution.load() / load - 1.0).abs();
+                    assert!(off < 1e-9, "{height} {width} {control:?}: load off by {off:e}");
+                }
+            }
+        }
+    }
+}
