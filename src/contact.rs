@@ -7,6 +7,7 @@ mod edge_pressure;
 mod edges;
 mod equations;
 mod field;
+mod first_contact;
 mod moment;
 mod nested;
 mod newton;

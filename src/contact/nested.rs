@@ -20,19 +20,18 @@
 //! last width had, the outer one from the start, by factors that a round body would need.
 
 mod derivatives;
-mod first_contact;
 mod place;
 mod width;
 
 use super::Contact;
 use super::edges::{Conditions, Given};
 use super::equations::{Equations, Residual};
+use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 use derivatives::differentiate;
-pub(super) use first_contact::first_contact;
 use place::Placed;
 
 /// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is

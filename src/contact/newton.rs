@@ -35,8 +35,11 @@
 //! stays where it is. The balance itself is linearised without the factor L that both rows have: that of a
 //! parabola is linear in c, and one step leads to its centre from however far.
 //!
-//! A step that ends where the limits do not act on the slope, as on a flat, is halved. One that would leave the
-//! bodies goes half the way to their end.
+//! A step is halved where the next one by the same Jacobian would be longer (the natural monotonicity test: P.
+//! Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, §3.3), as across a jump of the slope, on whose two sides
+//! limits are unlike stiff; and where the limits do not act on the slope, as on a flat. Where a contact carries too
+//! little, and a wider one less, as under adhesion, it is widened until it grows with its load. A step that would
+//! leave the bodies goes half the way to their end.
 
 use super::edges::{Conditions, Edge, Given};
 use super::single::MOST_DOUBT;
@@ -417,8 +420,7 @@ impl<T: Real> Step<T> {
         (moved(conditions, self.from, self.lean, limits, load / self.carried), load)
     }
 
-    /// Whether the next one would be longer by the same Jacobian (the natural monotonicity test of Deuflhard,
-    /// *Newton Methods for Nonlinear Problems*, 2004, §3.3).
+    /// Whether the next one would be longer by the same Jacobian.
     fn grew_to(&self, next: &System<T>, on: Interval<T>) -> bool {
         let ([left, right, _], size) = (next.steps_of(on, self), self.size());
         // As far as rounding allows.

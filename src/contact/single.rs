@@ -3,18 +3,20 @@
 //! First a stretch in which the contact is expected is sampled with four nodes a panel, and Newton's method
 //! finds the contact of this sketch; if that is much narrower than the stretch, or beside it, a stretch
 //! around it is sketched anew. Then a stretch a little wider than the contact is sampled in full, and
-//! Newton's method finds the limits on that. The [nested search](super::nested) is used where the user has
-//! chosen a strategy or the quadrature knows no derivatives, and where Newton's method goes astray. Where
-//! neither finds a contact it is asked what the bodies [bear](super::capacity).
+//! Newton's method finds the limits on that. Where it goes astray it starts again where the bodies [touch
+//! first](super::first_contact), with a width that may bear the load. Where that finds no contact either, or leads to
+//! an end of the bodies time and again, it is asked what they [bear](super::capacity). The [nested
+//! search](super::nested) serves strategies of the user's, and quadratures that know no derivatives.
 
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::equations::{Equations, relative_error};
-use super::nested::{self, Nested};
+use super::first_contact::first_contact;
+use super::nested;
 use super::newton::{self, Effort, Outcome, Settled, load_of};
 use super::{Contact, Found};
 use crate::gap::{Cost, FirstLook, Sampler};
-use crate::quadrature::{Engine, Moments, panels};
+use crate::quadrature::{Engine, panels};
 use crate::{ContactError, Interval, ProfileError, Real};
 
 /// More doubt than this, as a share of the half-width, is no contact found.
@@ -167,7 +169,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         sampler: &mut Sampler<T>,
     ) -> Result<Interval<T>, ContactError<T>> {
         let (gap, conditions, quarter) = (&self.contact.gap, &self.conditions, T::of(0.25));
-        let x = nested::first_contact(sampler, gap, self.start)?;
+        let x = first_contact(sampler, gap, self.start)?;
         let [left, right] = gap.range();
         let around = |reach: T| Interval { left: x - reach, right: x + reach };
         let mut on = around(quarter * (x - left).min(right - x));
@@ -260,9 +262,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             Given::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(T::zero()),
             Given::Load(load) | Given::Centre { load, .. } => load,
         };
-        let Some(error) = strength_error(&conditions, &nested, load, &m) else {
-            return Err(ContactError::NoBalance { half_width: on.half_width(), near: on.centre() });
-        };
+        let error = nested.error;
         if error > T::of(MOST_DOUBT) {
             self.check()?;
         }
@@ -565,32 +565,4 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             _ => error,
         }
     }
-}
-
-/// The error of limits that the nested search has found, by what it says itself and by what is left at
-/// the free edges on the panels that it has ended with, which may have changed under way. `None` where
-/// load and adhesion are less than the rounding of the forces: any interval would do.
-fn strength_error<T: Real>(
-    conditions: &Conditions<T>,
-    nested: &Nested<T>,
-    load: T,
-    m: &Moments<T>,
-) -> Option<T> {
-    let on = nested.on;
-    let stiffness = conditions.kappa * on.half_width();
-    let [pull_b, pull_a] = conditions.pull(on.half_width());
-    let lost = T::epsilon() * stiffness * m.size > load.abs() + pull_a + pull_b;
-    let by_load = matches!(conditions.given, Given::Load(_));
-    if lost && by_load && conditions.edges.iter().any(|edge| edge.is_free()) {
-        return None;
-    }
-    let size = load.abs() + stiffness * m.size;
-    let mut error = nested.error;
-    for (edge, sign) in conditions.edges.iter().zip([-T::one(), T::one()]) {
-        let missed = (load - stiffness * (m.first + sign * m.mean)).abs() / size;
-        if edge.is_free() && missed > error {
-            error = missed;
-        }
-    }
-    Some(error)
 }

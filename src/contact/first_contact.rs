@@ -12,7 +12,7 @@ struct Signs<T> {
 }
 
 /// Finds it, looking first at the start, or else in the middle of the bodies.
-pub(in crate::contact) fn first_contact<T: Real>(
+pub(super) fn first_contact<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     start: Option<Interval<T>>,
