@@ -111,7 +111,7 @@ pub enum ContactError<T: Real> {
         /// The slope difference there.
         slope: [T; 2],
     },
-    /// The contact that carries the load reaches beyond a body.
+    /// The contact that carries the load reaches beyond a body; of several, the first or the last.
     #[error(
         "the contact would leave the bodies at x = {end:?}: up to there they carry {carried:?} of the \
          load {load:?}, with half-width {half_width:?} and peak pressure {peak:?}; extend the domain \
@@ -120,11 +120,12 @@ pub enum ContactError<T: Real> {
     TooShort {
         /// The end that the contact reaches first.
         end: T,
-        /// The load carried by the largest contact that stays on the bodies.
+        /// The load carried by the largest contact that stays on the bodies, or by several as wide as they
+        /// can be: the same whatever load is asked for.
         carried: T,
         /// The load asked for.
         load: T,
-        /// The half-width of that contact.
+        /// The half-width of that contact; half of what lies between the first limit of several and the last.
         half_width: T,
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
@@ -147,7 +148,8 @@ pub enum ContactError<T: Real> {
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
     },
-    /// The contact reaches the end of the bodies, where nothing is said of a corner.
+    /// The contacts reach the end of the bodies, where nothing is said of a corner, and no load is known under
+    /// which one of them just comes there: as where the gap falls towards the end, which touches all at once.
     #[error(
         "under the load {load:?} the contact reaches the end of the bodies at x = {end:?}: extend the \
          domain, lower the load, or give Edge::UpTo({end:?}) if the bodies have a sharp corner there"

@@ -40,6 +40,15 @@ pub(super) enum Outcome {
     Failed,
 }
 
+/// What is sought besides the limits.
+#[derive(Clone, Copy)]
+pub(super) enum Besides<T> {
+    /// The tilt under which the load acts at this place.
+    Tilt(T),
+    /// The load under which the outermost limit is at the left (0) or the right (1) end of the bodies.
+    Load(usize),
+}
+
 /// A gap of so many units of rounding of x is nothing.
 const NOTHING: f64 = 64.0;
 
@@ -50,6 +59,8 @@ type Place = usize;
 pub(super) struct Newton<T> {
     /// By how much body 2 is turned.
     pub tilt: T,
+    /// What the contacts bear: F/κ.
+    pub load: T,
     /// The contacts, from left to right.
     pub on: Vec<Interval<T>>,
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
@@ -70,13 +81,13 @@ impl<T: Real> Newton<T> {
     pub fn new() -> Self {
         let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, tilt) = (Vec::new(), T::zero());
+        let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
         let steps = 0;
-        Self { tilt, on, errors, steps, system, linear, step, moves, corrections, unit, open }
+        Self { tilt, load, on, errors, steps, system, linear, step, moves, corrections, unit, open }
     }
 
     /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
-    /// if one is given.
+    /// or changes the load until an outermost limit is where it has been put, at an end of the bodies.
     pub fn settle(
         &mut self,
         several: &mut Several<T>,
@@ -84,11 +95,17 @@ impl<T: Real> Newton<T> {
         load: T,
         corners: [bool; 2],
         ends: [T; 2],
-        at: Option<T>,
+        besides: Option<Besides<T>>,
     ) -> Result<Outcome, ContactError<T>> {
         self.errors.clear();
-        if at.is_none() {
+        self.load = load;
+        if !matches!(besides, Some(Besides::Tilt(_))) {
             self.tilt = gap.tilt();
+        }
+        // The limits that stay where they are.
+        let mut held = corners;
+        if let Some(Besides::Load(side)) = besides {
+            held[side] = true;
         }
         let mut turned = gap.tilted(self.tilt);
         let (one, half) = (T::one(), T::of(0.5));
@@ -102,9 +119,11 @@ impl<T: Real> Newton<T> {
                 return Ok(Outcome::Closed(i));
             }
             several.set(&turned, &self.on, corners, ends)?;
-            several.system(load, &mut self.system);
-            if let Some(at) = at {
-                several.turning(load, at, &mut self.system);
+            several.system(self.load, &mut self.system);
+            match besides {
+                Some(Besides::Tilt(at)) => several.turning(load, at, &mut self.system),
+                Some(Besides::Load(side)) => several.by_load(side == 1, &mut self.system),
+                None => {}
             }
             if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
                 return Ok(Outcome::Failed);
@@ -113,13 +132,17 @@ impl<T: Real> Newton<T> {
             if !self.step.iter().all(|step| step.is_finite()) {
                 return Ok(Outcome::Failed);
             }
-            if let (Some(_), Some(&step)) = (at, self.step.last()) {
-                self.tilt -= step;
-                turned = turned.tilted(self.tilt);
+            match (besides, self.step.last()) {
+                (Some(Besides::Tilt(_)), Some(&step)) => {
+                    self.tilt -= step;
+                    turned = turned.tilted(self.tilt);
+                }
+                (Some(Besides::Load(_)), Some(&step)) => self.load -= step,
+                _ => {}
             }
             // For the derivatives of dual numbers, beyond the convergence of the value.
             if let Some(left) = &mut more_steps {
-                self.advance(corners, None);
+                self.advance(held, None);
                 *left -= 1;
                 if *left == 0 {
                     several.set(&turned, &self.on, corners, ends)?;
@@ -128,10 +151,20 @@ impl<T: Real> Newton<T> {
                 }
                 continue;
             }
-            let size = self.size(corners);
+            let size = self.size(held);
             let last = self.on.len() - 1;
             let hull = Interval { left: self.on[0].left, right: self.on[last].right };
-            let place = self.advance(corners, cut);
+            let place = self.advance(held, cut);
+            // Where one load reaches both ends, one of them is passed by rounding.
+            if let Some(Besides::Load(_)) = besides {
+                let nothing = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
+                if self.on[0].left >= ends[0] - nothing {
+                    self.on[0].left = self.on[0].left.max(ends[0]);
+                }
+                if self.on[last].right <= ends[1] + nothing {
+                    self.on[last].right = self.on[last].right.min(ends[1]);
+                }
+            }
             let next = Interval { left: self.on[0].left, right: self.on[last].right };
             let (beyond_left, beyond_right) = (next.left < ends[0], next.right > ends[1]);
             if beyond_left {
@@ -170,7 +203,7 @@ impl<T: Real> Newton<T> {
             let stalled = ratio >= T::of(0.25);
             let small = size <= T::epsilon().sqrt() || self.is_small();
             if done || stalled && small {
-                self.estimate(corners);
+                self.estimate(held);
             }
             if done || stalled && small && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
                 if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {

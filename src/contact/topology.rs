@@ -3,18 +3,20 @@
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
 //! [checked](super::check): nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
 //! coarse [active set](super::active_set) says in how many intervals the bodies touch and about where, and
-//! Newton's method finds [all limits](super::several) at once. Without adhesion a contact problem has one
+//! Newton's method finds [all limits](super::several) at once; and where that leads to an end of the bodies, the
+//! load under which a limit just comes there. Without adhesion a contact problem has one
 //! solution: what passes the checks is it, whatever the way there.
 
-use super::active_set::{FIRST_CELLS, NotFound, Scene, active_set};
+use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
+use super::capacity::{Capacity, capacity};
 use super::check::{Check, Pulled};
 use super::edges::{Conditions, Edge, Given};
 use super::field::Field;
-use super::several::{Newton, Outcome};
+use super::several::{Besides, Newton, Outcome};
 use super::single::Single;
 use super::{Contact, Found, peak};
 use crate::gap::{Cost, FirstLook, Gap, LowPlace, Sampler};
-use crate::quadrature::{Engine, Panels, Quadrature, panels};
+use crate::quadrature::{Engine, Panels, Pressing, Quadrature, panels};
 use crate::solution::{Report, Start, Verdict};
 use crate::{ContactError, Interval, Real};
 
@@ -24,6 +26,14 @@ const MOST_TRIALS: usize = 12;
 /// The share of a contact by which a limit leaves a corner that does not hold it; its square is the share of the
 /// bodies that a contact has at first where they would overlap.
 const CLOSER: f64 = 0.01;
+
+/// How closely the load under which cells reach an end of the bodies is enclosed.
+const NEAR: f64 = 1.25;
+
+/// The first of the shares of a load, each the square of the one before, among which one is sought that reaches no
+/// end of the bodies; and how many.
+const LESS: f64 = 0.25;
+const MOST_SHARES: usize = 6;
 
 /// What a search needs besides samples, kept from one solve to the next.
 #[derive(Clone)]
@@ -105,9 +115,21 @@ pub(super) fn find<T: Real>(
     let convex = gap.is_convex();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
-    let mut search =
-        Search { contact, sought, engine, workspace, cost, cells, closed, runs_out: None };
+    let mut search = Search {
+        contact,
+        sought,
+        engine,
+        workspace,
+        cost,
+        cells,
+        closed,
+        runs_out: None,
+        end: None,
+        may_be_too_much: true,
+    };
     let turns = search.turns();
+    // Turned, they bear another load.
+    search.may_be_too_much = !turns;
     if contact.single_interval || given {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Verdict::Unchecked);
@@ -116,10 +138,11 @@ pub(super) fn find<T: Real>(
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
         // Of several valleys heights tell at less cost what a search for one contact fails at.
-        if search.has_valleys(convex)?
-            && let Ok(found) = search.several(None)
-        {
-            return Ok(found);
+        if search.has_valleys(convex)? {
+            match search.several(None) {
+                Err(error) if !matches!(error, ContactError::TooShort { .. }) => {}
+                found => return found,
+            }
         }
         let (start, found) = search.one(!convex && !turns);
         match found {
@@ -159,8 +182,12 @@ struct Search<'s, 'b, T: Real> {
     cells: usize,
     /// Where gaps have closed.
     closed: Vec<Interval<T>>,
-    /// The error where the active set reaches the end of the bodies.
-    runs_out: Option<ContactError<T>>,
+    /// The end of the bodies that contacts reach, where no corner holds them.
+    runs_out: Option<usize>,
+    /// The end of the bodies that the contacts are to reach, where the load is sought under which they do.
+    end: Option<usize>,
+    /// Whether to look at what the bodies bear where contacts reach an end.
+    may_be_too_much: bool,
 }
 
 impl<T: Real> Search<'_, '_, T> {
@@ -294,10 +321,19 @@ impl<T: Real> Search<'_, '_, T> {
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
         let fixed = edges.map(|edge| matches!(edge, Edge::Fixed(_)));
         let last = &self.workspace.last;
-        let mut start = if last.len() > 1 { Start::Last } else { Start::ActiveSet };
+        let is_near = last.len() > 1 && self.end.is_none();
+        let mut start = if is_near { Start::Last } else { Start::ActiveSet };
         self.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             if start == Start::ActiveSet {
+                // More cells find no contact under more than the bodies bear.
+                if let (Some(end), true) = (self.runs_out, self.may_be_too_much) {
+                    self.may_be_too_much = false;
+                    let bears = self.bears(&conditions, end);
+                    if let Some(bears) = bears.filter(|bears| bears.load < conditions.load()) {
+                        return Err(bears.too_short(conditions.load()));
+                    }
+                }
                 self.active_set(&conditions)?;
             }
             let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
@@ -363,7 +399,15 @@ impl<T: Real> Search<'_, '_, T> {
                     on[last].right = ends[1];
                     Verdict::ReachedCorner
                 }
+                // This end is reached under less.
+                Outcome::Beyond(side) if self.end.is_some() => {
+                    self.end = Some(side);
+                    Verdict::ReachedCorner
+                }
                 _ => {
+                    if let Outcome::Beyond(side) = outcome {
+                        self.runs_out = Some(side);
+                    }
                     // Where contacts were mended cells are to look; of others nothing is to be learnt.
                     if start != Start::Trial {
                         on.clear();
@@ -375,8 +419,16 @@ impl<T: Real> Search<'_, '_, T> {
             start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
         }
         // What one contact alone has failed by says more than that it was not found.
-        let first = first.filter(|fault| !matches!(fault, ContactError::NoBalance { .. }));
-        Err(first.or(self.runs_out.take()).or(fault).unwrap_or(no_balance))
+        let runs_out = self
+            .runs_out
+            .map(|side| ContactError::RunsOut { end: ends[side], load: conditions.load() });
+        // Unless that is what it would bear alone.
+        let says = |fault: &ContactError<T>| match fault {
+            ContactError::NoBalance { .. } => false,
+            ContactError::TooShort { .. } => runs_out.is_none(),
+            _ => true,
+        };
+        Err(first.filter(says).or(runs_out).or(fault).unwrap_or(no_balance))
     }
 
     /// Moves the contacts at hand to where they bear the load.
@@ -389,8 +441,22 @@ impl<T: Real> Search<'_, '_, T> {
         let contact = self.contact;
         let newton = &mut self.workspace.newton;
         if let [on] = newton.on[..] {
-            let (start, look, bears) = (Some(on), None, Some(None));
-            let (conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
+            let (mut start, look, bears) = (Some(on), None, Some(None));
+            let (mut conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
+            if self.end.is_some() {
+                let mut widest = capacity(contact, &conditions, ends, cost);
+                // At a corner more is borne, up to the other end.
+                for (edge, end) in conditions.edges.iter_mut().zip(ends) {
+                    if matches!(edge, Edge::UpTo(_)) && widest.is_some_and(|at| at.end == end) {
+                        *edge = Edge::Fixed(end);
+                        widest = capacity(contact, &conditions, ends, cost);
+                        break;
+                    }
+                }
+                let Some(widest) = widest else { return Ok(Err(Outcome::Failed)) };
+                start = Some(widest.on);
+                conditions.given = Given::HalfWidth(widest.on.half_width());
+            }
             let found =
                 Single { contact, conditions, start, look, engine, cost, bears }.find(start)?;
             (newton.on[0], newton.tilt) = (found.interval, found.tilt);
@@ -398,27 +464,26 @@ impl<T: Real> Search<'_, '_, T> {
         }
         for (side, corner) in corners.into_iter().enumerate() {
             let last = newton.on.len() - 1;
+            let is_there = corner || self.end == Some(side);
             match side {
-                0 if corner => newton.on[0].left = ends[0],
-                1 if corner => newton.on[last].right = ends[1],
+                0 if is_there => newton.on[0].left = ends[0],
+                1 if is_there => newton.on[last].right = ends[1],
                 _ => {}
             }
         }
         let Some(several) = panels::several_mut(self.engine) else {
             return Ok(Err(Outcome::Failed));
         };
-        let load = conditions.load();
-        let outcome = newton.settle(
-            several,
-            &contact.gap,
-            load / conditions.kappa,
-            corners,
-            ends,
-            conditions.at(),
-        )?;
+        let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
+        let load = conditions.load() / conditions.kappa;
+        let outcome = newton.settle(several, &contact.gap, load, corners, ends, besides)?;
         if outcome != Outcome::Found {
             return Ok(Err(outcome));
         }
+        let load = match self.end {
+            Some(_) => newton.load * conditions.kappa,
+            None => conditions.load(),
+        };
         let found = newton.found(several, conditions.kappa, load, corners, ends);
         // A corner that pulls does not hold the contact.
         for (side, edge) in conditions.edges.iter().enumerate() {
@@ -468,32 +533,110 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
     fn active_set(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
-        let (gap, range) = (&self.contact.gap, self.contact.ends());
-        self.workspace.look(gap, self.cost)?;
-        let Workspace { look, newton, .. } = &mut *self.workspace;
-        let (kappa, load) = (conditions.kappa, conditions.load());
-        // As many as have not failed yet.
+        // As many cells as have not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(16 * FIRST_CELLS);
+        let coarse = self.coarse(conditions, cells)?;
+        self.runs_out = self.end_reached(&coarse);
+        let newton = &mut self.workspace.newton;
+        (newton.on, newton.tilt) = (coarse.intervals, coarse.tilt);
+        Ok(())
+    }
+
+    fn coarse(
+        &mut self,
+        conditions: &Conditions<T>,
+        cells: usize,
+    ) -> Result<Coarse<T>, ContactError<T>> {
+        let (gap, range) = (&self.contact.gap, self.contact.ends());
+        self.workspace.look(gap, self.cost)?;
+        let Workspace { look, newton, .. } = &*self.workspace;
+        let (kappa, load) = (conditions.kappa, conditions.load());
         let (known, start) = (look.heights(), &newton.on[..]);
         let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
         self.cost.heights += sampler.cost.evaluations;
-        match coarse {
-            Ok(coarse) => {
-                let corner =
-                    self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
-                let side = (0..2).find(|&side| coarse.reaches[side] && !corner[side]);
-                self.runs_out = side.map(|side| ContactError::RunsOut { end: range[side], load });
-                (newton.on, newton.tilt) = (coarse.intervals, coarse.tilt);
-                Ok(())
-            }
-            Err(NotFound::Height(error)) => Err(error),
-            Err(_) => Err(ContactError::NoBalance {
+        coarse.map_err(|error| match error {
+            NotFound::Height(error) => error,
+            _ => ContactError::NoBalance {
                 half_width: T::of(0.5) * (range[1] - range[0]),
                 near: look.lowest(),
-            }),
+            },
+        })
+    }
+
+    /// The end of the bodies that contacts reach, where no corner holds them.
+    fn end_reached(&self, coarse: &Coarse<T>) -> Option<usize> {
+        let is_corner =
+            |side: usize| matches!(self.contact.edges[side], Edge::Fixed(_) | Edge::UpTo(_));
+        (0..2).find(|&side| coarse.reaches[side] && !is_corner(side))
+    }
+
+    /// What the bodies bear, where that is less than a load under which cells reach an end of them: the load
+    /// grows with the contacts, so there is one under which the outermost limit is at an end.
+    fn bears(&mut self, conditions: &Conditions<T>, end: usize) -> Option<Capacity<T>> {
+        let (load, end) = self.end_reached_by(conditions, end)?;
+        let sought = Sought::By(Conditions { given: Given::Load(load), ..*conditions });
+        let mut search = Search {
+            contact: self.contact,
+            sought,
+            engine: &mut *self.engine,
+            workspace: &mut *self.workspace,
+            cost: &mut *self.cost,
+            cells: FIRST_CELLS,
+            closed: Vec::new(),
+            runs_out: None,
+            end: Some(end),
+            may_be_too_much: false,
+        };
+        let Found { interval: on, load, free, .. } = search.several(None).ok()?;
+        let ends = self.contact.ends();
+        let room = [on.left - ends[0], ends[1] - on.right];
+        let side = usize::from(room[1] < room[0]);
+        // A single contact as wide as the widest in balance may be another one.
+        if room[side] > T::epsilon().sqrt() * on.half_width() {
+            return None;
         }
+        let (engine, gap) = (&*self.engine, &self.contact.gap);
+        let one = [on];
+        let contacts = panels::several(engine).map_or(&one[..], |several| several.contacts());
+        let pressing = Pressing { kappa: conditions.kappa, load, free };
+        let mut highest = if free == [true; 2] { T::zero() } else { T::one() / T::zero() };
+        for &on in contacts {
+            highest = highest.max(peak::peak(engine, gap, &pressing, on, self.cost).ok()?.1.value);
+        }
+        Some(Capacity { on, end: ends[side], load, peak: highest })
+    }
+
+    /// A load, and the end of the bodies that cells reach under it: not much less does not.
+    fn end_reached_by(&mut self, conditions: &Conditions<T>, end: usize) -> Option<(T, usize)> {
+        let mut end_reached = |load: T| {
+            let given = Given::Load(load);
+            let coarse = self.coarse(&Conditions { given, ..*conditions }, FIRST_CELLS).ok()?;
+            Some(self.end_reached(&coarse))
+        };
+        let mut high = (conditions.load(), end);
+        let (mut low, mut share) = (None, T::of(LESS));
+        for _ in 0..MOST_SHARES {
+            let load = share * conditions.load();
+            match end_reached(load)? {
+                Some(end) => high = (load, end),
+                None => {
+                    low = Some(load);
+                    break;
+                }
+            }
+            share *= share;
+        }
+        let mut low = low?;
+        while high.0 > T::of(NEAR) * low {
+            let load = low.sqrt() * high.0.sqrt();
+            match end_reached(load)? {
+                Some(end) => high = (load, end),
+                None => low = load,
+            }
+        }
+        Some(high)
     }
 }

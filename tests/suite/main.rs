@@ -33,6 +33,7 @@ mod limits;
 mod one_at_a_time;
 mod oracle;
 mod overload;
+mod overload_several;
 mod owned;
 mod peak;
 mod pieces;

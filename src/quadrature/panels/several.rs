@@ -383,6 +383,18 @@ impl<T: Real> Several<T> {
         self.weight.corners()
     }
 
+    /// The load as an unknown in place of the first or the last free limit, which stays where it is: its column
+    /// is the last.
+    pub fn by_load(&self, right: bool, system: &mut System<T>) {
+        let columns = system.residual.len();
+        for (i, row) in system.jacobian.chunks_mut(columns).enumerate() {
+            if !right {
+                row.rotate_left(1);
+            }
+            row[columns - 1] = if i == system.load_row { -T::one() } else { T::zero() };
+        }
+    }
+
     /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:
     ///
     /// ```text

@@ -1,0 +1,188 @@
+//! What bodies bear that touch in several places: the same whatever is asked of them.
+#![allow(missing_docs)]
+
+use crate::common;
+use common::{Profile, graph};
+use linecontact::{Contact, ContactError, Control, CurvePoint, Edge, Flat, ParametricProfile};
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A body that counts how often it is looked at.
+struct Counted(Profile, AtomicUsize);
+
+impl ParametricProfile<f64> for Counted {
+    fn domain(&self) -> [f64; 2] {
+        self.0.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.0.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
+        self.0.piece(index)
+    }
+}
+
+/// x⁴ - 2 x² on the flat.
+fn quartic(from: f64, to: f64) -> Profile {
+    graph(from, to, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
+}
+
+/// Load, half-width, peak and end by the error for more than that.
+fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {
+    match contact.solve(Control::Load(load)).map(|solution| solution.intervals().to_vec()) {
+        Err(ContactError::TooShort { carried, half_width, peak, end, load: asked }) => {
+            assert_eq!(asked, load);
+            [carried, half_width, peak, end]
+        }
+        other => panic!("{load}: {other:?}"),
+    }
+}
+
+/// With E* = 1 contacts up to c² = 1 + d/2, d = sqrt(4F/π), and P = 2 x sqrt((x² - α²)(β² - x²)).
+#[test]
+fn two_contacts_bear_what_the_closed_form_says() {
+    for c in [1.05f64, 1.2, 1.4] {
+        for [from, to] in [[-c, c], [-c, 1.5], [-1.5, c]] {
+            let body = quartic(from, to);
+            let contact = Contact::new(&Flat, &*body).unwrap().kappa(PI / 2.0);
+            let d = 2.0 * (c * c - 1.0);
+            let load = PI * d * d / 4.0;
+            let p = |v: f64| 2.0 * v.sqrt() * ((d / 2.0).powi(2) - (v - 1.0).powi(2)).sqrt();
+            // 3 v² - 4 v + 1 = d²/4 where v P² is largest.
+            let v = (4.0 + (4.0 + 3.0 * d * d).sqrt()) / 6.0;
+            let due = [load, c, p(v), if from == -c { -c } else { c }];
+            for times in [1.0 + 1e-9, 1.1, 3.0, 1e3, 1e9] {
+                let found = bears(&contact, times * load);
+                for (found, due) in found.into_iter().zip(due) {
+                    let is_end = due.abs() == c && [from, to] == [-c, c];
+                    let off = if is_end { found.abs() - c } else { found - due };
+                    assert!(off.abs() <= 1e-9 * due.abs(), "{c} {times}: {found} for {due}");
+                }
+            }
+            let under = contact.solve(Control::Load(load * (1.0 - 1e-9))).unwrap();
+            assert_eq!(under.intervals().len(), 2);
+        }
+    }
+}
+
+struct Scene {
+    name: &'static str,
+    body: Profile,
+    edges: [Edge<f64>; 2],
+    contacts: usize,
+}
+
+fn wavy(amplitude: f64, wave: f64, [from, to]: [f64; 2]) -> Profile {
+    graph(from, to, move |x: f64| {
+        [
+            x * x / 2.0 + amplitude * (wave * x + 0.4).cos(),
+            x - amplitude * wave * (wave * x + 0.4).sin(),
+        ]
+    })
+}
+
+fn scenes() -> Vec<Scene> {
+    let free = [Edge::Free; 2];
+    vec![
+        Scene { name: "quartic", body: quartic(-1.5, 1.2), edges: free, contacts: 2 },
+        Scene { name: "wavy", body: wavy(0.02, 20.0, [-0.5, 0.45]), edges: free, contacts: 4 },
+        Scene { name: "more", body: wavy(0.02, 40.0, [-0.45, 0.7]), edges: free, contacts: 7 },
+        Scene { name: "flatter", body: wavy(3e-4, 40.0, [-0.5, 0.7]), edges: free, contacts: 1 },
+        Scene {
+            name: "corner",
+            body: quartic(-1.1, 1.3),
+            edges: [Edge::UpTo(-1.1), Edge::Free],
+            contacts: 2,
+        },
+        Scene {
+            name: "merged",
+            body: quartic(-1.1, 1.6),
+            edges: [Edge::UpTo(-1.1), Edge::Free],
+            contacts: 1,
+        },
+    ]
+}
+
+#[test]
+fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
+    let mut faults = Vec::new();
+    for Scene { name, body, edges, contacts } in scenes() {
+        let body = Counted(body, AtomicUsize::new(0));
+        let contact = Contact::new(&Flat, &body).unwrap().edges(edges[0], edges[1]);
+        let first = bears(&contact, 1e3);
+        let [load, half_width, peak, end] = first;
+        // The load is one: just less has a contact, nearly up to there.
+        body.1.store(0, Ordering::Relaxed);
+        let half = contact.solve(Control::Load(load / 2.0)).unwrap();
+        let at_half = body.1.load(Ordering::Relaxed);
+        drop(half);
+        let under = contact.solve(Control::Load(load * (1.0 - 1e-9))).unwrap();
+        println!("{name}: {first:?}, {:?}", under.intervals());
+        let limit = if end < 0.0 { under.hull().left } else { under.hull().right };
+        if under.intervals().len() != contacts
+            || (limit - end).abs() > 1e-6
+            || (under.hull().half_width() - half_width).abs() > 1e-6
+            || peak.is_finite() && (under.peak().unwrap().pressure - peak).abs() > 1e-6 * peak
+        {
+            faults.push(format!("{name}: {first:?} {:?}", under.intervals()));
+        }
+        for times in [1.0 + 1e-6, 1.1, 1.6, 3.0, 10.0, 1e3, 1e6, 1e13] {
+            body.1.store(0, Ordering::Relaxed);
+            let again = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+                bears(&contact, times * load)
+            }));
+            let taken = body.1.load(Ordering::Relaxed);
+            println!("  {times:e}: {taken} evaluations, {at_half} at half of it");
+            let is_same = |again: [f64; 4]| {
+                again.iter().zip(first).all(|(a, b)| *a == b || (a / b - 1.0).abs() < 1e-9)
+            };
+            if !again.is_ok_and(is_same) || taken > 20 * at_half {
+                faults.push(format!("{name} {times:e}: {taken} of {at_half}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Waves of random height and length: what is said to be borne is, and nothing more.
+#[test]
+fn random_waves_bear_what_the_error_says() {
+    let (mut seed, mut several, mut unknown) = (1u64, 0, 0);
+    let mut random = |from: f64, to: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for i in 0..60 {
+        let [tall, wave, phase] = [random(0.1, 1.0), random(6.0, 30.0), random(0.0, 6.0)];
+        let [from, to] = [random(-1.0, -0.3), random(0.3, 1.0)];
+        let slope = move |x: f64| x - tall * (wave * x + phase).sin();
+        let body = graph(from, to, move |x: f64| {
+            [x * x / 2.0 + tall / wave * (wave * x + phase).cos(), slope(x)]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let asked = 10f64.powf(random(0.5, 4.0));
+        match contact.solve(Control::Load(asked)).map(|_| ()).unwrap_err() {
+            ContactError::TooShort { carried, end, .. } => {
+                let under = contact.solve(Control::Load(carried * (1.0 - 1e-7))).unwrap();
+                assert!(end == from || end == to);
+                let error = contact.solve(Control::Load(carried * 1.001)).map(|_| ()).unwrap_err();
+                let ContactError::TooShort { carried: again, .. } = error else {
+                    panic!("{i}: {error}")
+                };
+                assert!((again / carried - 1.0).abs() < 1e-9, "{i}: {again} {carried}");
+                several += usize::from(under.intervals().len() > 1);
+            }
+            // An end that is touched before any limit comes there.
+            error => {
+                unknown += 1;
+                assert!(matches!(error, ContactError::RunsOut { .. }), "{i}: {error}");
+            }
+        }
+    }
+    println!("{several} by several contacts, {unknown} not known");
+    assert!(several >= 15 && unknown <= 25, "{several} {unknown}");
+}
