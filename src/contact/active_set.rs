@@ -35,7 +35,7 @@ const MOST_CELLS: usize = 6000;
 const MOST_CUTS: usize = 48;
 
 /// Loaded cells that a run must have.
-const CELLS_OF_A_RUN: usize = 6;
+const CELLS_OF_A_RUN: usize = 4;
 
 /// How far below the level of its edges the gap of a round contact is on an average, times κ/F: two thirds of
 /// `κ h(L)/F`, that is one.
@@ -775,12 +775,15 @@ fn multiples<T: Real>([own, with, other]: [T; 3], [first, second]: [T; 2]) -> [T
 }
 
 /// The right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
-/// beyond a place bear grows with the power 3/2 of its distance from the edge.
+/// beyond a place bear grows with the power 3/2 of its distance from the edge. Of cells of constant pressure
+/// that is not quite so: of Hertz's contact they have the edge at a quarter of the outermost cell and three
+/// quarters of this distance.
 fn edge<T: Real>(mut cells: impl Iterator<Item = [T; 3]>) -> T {
     let Some([near, right, outermost]) = cells.next() else { return T::zero() };
     let Some([far, _, next]) = cells.next() else { return right };
     let ratio = (outermost / (outermost + next)).powf(T::of(2.0 / 3.0));
-    let edge = near + (near - far) * ratio / (T::one() - ratio);
+    let extrapolated = (near - far) * ratio / (T::one() - ratio);
+    let edge = near + T::of(0.25) * (right - near) + T::of(0.75) * extrapolated;
     // It is in the outermost cell, or not far into the next, which is open.
     let furthest = right + T::of(0.5) * (right - near);
     if edge.is_finite() { edge.max(near).min(furthest) } else { right }

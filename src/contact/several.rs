@@ -337,7 +337,13 @@ impl<T: Real> Newton<T> {
         let width = doubtful.right - doubtful.left;
         let both = self.on[i + 1].right - self.on[i].left;
         let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * both;
-        self.gap(i) <= self.rounding(i) || is_point && self.gap(i) <= T::of(0.5) * width
+        self.gap(i) <= self.rounding(i) || is_point && self.is_hidden(i)
+    }
+
+    /// Whether the gap after a contact may be nothing for all that is known of its limits.
+    fn is_hidden(&self, i: usize) -> bool {
+        let doubtful = self.doubtful_gap(i);
+        self.gap(i) <= T::of(0.5) * (doubtful.right - doubtful.left)
     }
 
     /// The rounding of the limits of a contact and of the next.
@@ -384,10 +390,12 @@ impl<T: Real> Newton<T> {
         half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
     }
 
-    /// Whether no limit has moved by more than it is in doubt.
+    /// Whether no limit has moved by more than it is in doubt. One at a gap that this doubt hides is on its way:
+    /// where a contact would pull, its equations hold with any gap that is nothing.
     fn is_all_doubt(&self) -> bool {
         let errors = self.errors.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
         errors.zip(&self.moves).all(|((&error, half_width), step)| step.abs() <= error * half_width)
+            && !(0..self.on.len() - 1).any(|i| self.is_hidden(i))
     }
 
     /// What the equations leave open of the limits, and rounding.
