@@ -30,7 +30,7 @@ const MOST_SKETCHES: usize = 120;
 const MOST_AT_END: [usize; 2] = [2, 24];
 
 /// Sketches that may reach for an end before it is asked what the bodies bear.
-const MOST_SKETCHES_AT_END: usize = 40;
+const MOST_SKETCHES_AT_END: usize = 12;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
@@ -145,11 +145,15 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         if !turns && (self.contact.search.is_some() || !panels::is_panels(self.engine)) {
             return self.by_nested_search().map_err(|error| self.because(error));
         }
+        let is_one_of_several = matches!(self.bears, Some(None));
         if let Some(settled) = self.by_newton(last).map_err(|error| self.because(error))? {
             return self.contact_of(settled);
         }
         self.check()?;
         let half_width = self.start().half_width();
+        if is_one_of_several {
+            return Err(ContactError::NoBalance { half_width, near: self.start().centre() });
+        }
         let mut sampler = Sampler::default();
         let around = self.around_first_contact(&mut sampler);
         *self.cost += sampler.cost;
@@ -232,18 +236,17 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
     /// Newton's method on the samples at hand. Where it leads to an end of the bodies time and again that is
     /// perhaps more than they bear.
     fn settle(&mut self, from: Interval<T>, effort: Effort) -> Result<Outcome<T>, ContactError<T>> {
-        let most_at_end = match effort {
-            Effort::Sketch => MOST_AT_END[0],
-            Effort::Full if self.bears.is_some() => usize::MAX,
-            Effort::Full => MOST_AT_END[1],
+        let most_at_end = match (effort, self.bears) {
+            (Effort::Sketch, _) => MOST_AT_END[0],
+            (Effort::Full, Some(Some(_))) => usize::MAX,
+            (Effort::Full, _) => MOST_AT_END[1],
         };
         let (gap, conditions) = (&self.contact.gap, self.conditions);
         let find = |engine: &mut dyn Engine<T>, most_at_end| {
             newton::settle(engine, gap, &conditions, from, effort, most_at_end)
         };
         let mut outcome = find(self.engine, most_at_end)?;
-        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd(_)) {
-            self.check()?;
+        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd(_)) && self.may_bear()? {
             outcome = find(self.engine, usize::MAX)?;
         }
         Ok(outcome)
@@ -355,8 +358,15 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
             let (guess, error) = match self.settle(begin, Effort::Sketch)? {
                 Outcome::Settled(Settled { on, error, .. }) => (on, error),
                 Outcome::AtEnd(reached) => {
-                    (stretch, on) = (self.up_to_corners(reached.plain()), None);
-                    self.reaches_end(&mut at_end)?;
+                    let before =
+                        std::mem::replace(&mut stretch, self.up_to_corners(reached.plain()));
+                    at_end += 1;
+                    if stretch.is_same(&before)
+                        || at_end == MOST_SKETCHES_AT_END && !self.may_bear()?
+                    {
+                        return Ok(None);
+                    }
+                    on = None;
                     continue;
                 }
                 Outcome::Astray => return Ok(None),
@@ -401,17 +411,18 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 left: half_way(next.left, guess.left, range[0], is_beyond[0]),
                 right: half_way(next.right, guess.right, range[1], is_beyond[1]),
             });
-            if is_beyond[0] || is_beyond[1] {
-                self.reaches_end(&mut at_end)?;
+            at_end += usize::from(is_beyond[0] || is_beyond[1]);
+            if at_end == MOST_SKETCHES_AT_END && !self.may_bear()? {
+                return Ok(None);
             }
         }
         Ok(None)
     }
 
-    /// Counts a sketch that comes to an end of the bodies: it is perhaps more than they bear.
-    fn reaches_end(&mut self, times: &mut usize) -> Result<(), ContactError<T>> {
-        *times += 1;
-        if *times == MOST_SKETCHES_AT_END { self.check() } else { Ok(()) }
+    /// Whether the bodies bear as much, where that can be told.
+    fn may_bear(&mut self) -> Result<bool, ContactError<T>> {
+        self.check()?;
+        Ok(!matches!(self.bears, Some(None)))
     }
 
     /// The start, or the lowest gap.
