@@ -48,7 +48,7 @@ use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
 
 /// Trials before the search is given up, in a sketch and in full. A sketch that takes long has no contact.
-const MOST_TRIALS: [usize; 2] = [30, 200];
+const MOST_TRIALS: [usize; 2] = [16, 200];
 
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
