@@ -135,8 +135,8 @@ pub(super) fn settle<T: Real>(
             continue;
         }
         let is_open = system.by_load && system.residual[0] + system.residual[1] > zero;
-        let leads = |_: &Step<T>| !is_open || system.is_stable(conditions);
-        let Some(step) = step.filter(leads) else {
+        let leads = !is_open || system.is_stable(conditions);
+        let Some(step) = step.filter(|_| leads) else {
             // Where less is carried than asked for, and less still by a wider contact, one that is wider yet grows
             // with its load.
             let wider = moved(conditions, on, system.lean(), [-one, one], one);
@@ -284,7 +284,8 @@ fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
 
 /// An interval with its limits moved by steps in units of the half-width, given the load as a share of
 /// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
-/// up, and the centre with it, by `lean` for each unit, as the balance has it: one limit may be a million times as stiff as the other.
+/// up, and the centre with it, by `lean` for each unit, as the balance has it: one limit may be a million
+/// times as stiff as the other.
 fn moved<T: Real>(
     conditions: &Conditions<T>,
     on: Interval<T>,

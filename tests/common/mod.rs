@@ -9,9 +9,29 @@ use linecontact::{
 };
 use serde_json::Value;
 use std::f64::consts::PI;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub type Profile = Box<dyn ParametricProfile<f64>>;
+
+/// A body that counts how often it is looked at.
+pub struct Counted(pub Profile, pub Arc<AtomicUsize>);
+
+impl ParametricProfile<f64> for Counted {
+    fn domain(&self) -> [f64; 2] {
+        self.0.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.0.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
+        self.0.piece(index)
+    }
+}
 
 /// A solution to 25 digits, from `tests/data`.
 pub struct Reference {

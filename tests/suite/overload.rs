@@ -2,31 +2,12 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Profile, graph};
+use common::{Counted, Profile, graph};
 use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, ParametricProfile};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A body that counts how often it is looked at.
-struct Counted(Profile, Arc<AtomicUsize>);
-
-impl ParametricProfile<f64> for Counted {
-    fn domain(&self) -> [f64; 2] {
-        self.0.domain()
-    }
-    fn at(&self, k: f64) -> CurvePoint<f64> {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0.at(k)
-    }
-    fn pieces(&self) -> usize {
-        self.0.pieces()
-    }
-    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
-        self.0.piece(index)
-    }
-}
 
 /// What a body bears on a flat, κ = 1: load, half-width, peak pressure and the end it reaches. Without a
 /// closed form, NaN.

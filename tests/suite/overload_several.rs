@@ -2,29 +2,11 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Profile, graph};
-use linecontact::{Contact, ContactError, Control, CurvePoint, Edge, Flat, ParametricProfile};
+use common::{Counted, Profile, graph};
+use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A body that counts how often it is looked at.
-struct Counted(Profile, AtomicUsize);
-
-impl ParametricProfile<f64> for Counted {
-    fn domain(&self) -> [f64; 2] {
-        self.0.domain()
-    }
-    fn at(&self, k: f64) -> CurvePoint<f64> {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0.at(k)
-    }
-    fn pieces(&self) -> usize {
-        self.0.pieces()
-    }
-    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
-        self.0.piece(index)
-    }
-}
 
 /// x⁴ - 2 x² on the flat.
 fn quartic(from: f64, to: f64) -> Profile {
@@ -111,7 +93,7 @@ fn scenes() -> Vec<Scene> {
 fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     let mut faults = Vec::new();
     for Scene { name, body, edges, contacts } in scenes() {
-        let body = Counted(body, AtomicUsize::new(0));
+        let body = Counted(body, Arc::new(AtomicUsize::new(0)));
         let contact = Contact::new(&Flat, &body).unwrap().edges(edges[0], edges[1]);
         let first = bears(&contact, 1e3);
         let [load, half_width, peak, end] = first;
