@@ -125,11 +125,9 @@ pub(super) fn find<T: Real>(
         closed,
         runs_out: None,
         end: None,
-        may_be_too_much: true,
+        has_run_out: false,
     };
     let turns = search.turns();
-    // Turned, they bear another load.
-    search.may_be_too_much = !turns;
     if contact.single_interval || given {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Verdict::Unchecked);
@@ -186,8 +184,8 @@ struct Search<'s, 'b, T: Real> {
     runs_out: Option<usize>,
     /// The end of the bodies that the contacts are to reach, where the load is sought under which they do.
     end: Option<usize>,
-    /// Whether to look at what the bodies bear where contacts reach an end.
-    may_be_too_much: bool,
+    /// Whether cells have done so before.
+    has_run_out: bool,
 }
 
 impl<T: Real> Search<'_, '_, T> {
@@ -326,10 +324,17 @@ impl<T: Real> Search<'_, '_, T> {
         self.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             if start == Start::ActiveSet {
-                // More cells find no contact under more than the bodies bear.
-                if let (Some(end), true) = (self.runs_out, self.may_be_too_much) {
-                    self.may_be_too_much = false;
-                    let bears = self.bears(&conditions, end);
+                // More cells find no contact under more than the bodies bear; once they may help.
+                if let Some(end) = self.runs_out {
+                    if std::mem::replace(&mut self.has_run_out, true) {
+                        break;
+                    }
+                    // Turned, they bear another load.
+                    let bears = if self.end.is_some() || self.turns() {
+                        None
+                    } else {
+                        self.bears(&conditions, end)
+                    };
                     if let Some(bears) = bears.filter(|bears| bears.load < conditions.load()) {
                         return Err(bears.too_short(conditions.load()));
                     }
@@ -588,7 +593,7 @@ impl<T: Real> Search<'_, '_, T> {
             closed: Vec::new(),
             runs_out: None,
             end: Some(end),
-            may_be_too_much: false,
+            has_run_out: false,
         };
         let Found { interval: on, load, free, .. } = search.several(None).ok()?;
         let ends = self.contact.ends();
