@@ -60,27 +60,21 @@
 
 #[cfg(feature = "autodiff")]
 pub mod autodiff;
-mod certificate;
 pub mod contact;
 mod error;
 pub mod gap;
-mod integral;
 mod interval;
 mod numerics;
-mod opening;
 pub mod profile;
 pub mod quadrature;
-mod quantities;
 mod real;
 pub mod reference;
 pub mod search;
 mod solution;
 mod solver;
-pub mod stress;
 #[cfg(feature = "rayon")]
 mod sweep;
 
-pub use certificate::{Certificate, Place};
 pub use contact::{Contact, Control, Edge, EdgePressure};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};
@@ -88,9 +82,10 @@ pub use interval::Interval;
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
-pub use quantities::LoadRates;
 pub use real::Real;
-pub use solution::{ContactRegion, Peak, Pressure, Report, Solution, Start, Trial, Verdict};
+pub use solution::stress;
+pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
+pub use solution::{ContactRegion, Report, Solution, Start, Trial, Verdict};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;

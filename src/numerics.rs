@@ -1,7 +1,12 @@
 //! Mathematics without contact.
 
+pub(crate) mod chebyshev;
+mod compensated_sum;
+pub(crate) mod gauss_legendre;
 mod linear_system;
+pub(crate) mod special_functions;
 
+pub(crate) use compensated_sum::CompensatedSum;
 pub(crate) use linear_system::LinearSystem;
 
 use crate::Real;

@@ -80,7 +80,6 @@ mod polynomial_map;
 mod power_law;
 mod quartic;
 mod rounded_punch;
-pub(crate) mod special;
 mod unequal_radii;
 mod wedge;
 mod westergaard;
@@ -137,7 +136,7 @@ pub trait ClosedForm<T: Real>: Debug + Send + Sync {
     }
 
     /// The places where the slope is not smooth, from left to right.
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         Vec::new()
     }
 

@@ -19,11 +19,11 @@
 //! by powers of two gives the same iterates, bit for bit, and the same counts.
 
 mod bisection;
+mod bracket_state;
 mod brent;
 mod newton;
 mod roots_adapter;
 mod secant;
-mod tracker;
 
 pub use bisection::Bisection;
 pub use brent::Brent;
@@ -126,7 +126,7 @@ pub struct Root<T> {
 
 /// When a search stops. The default asks for all that the number type can give.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub struct StoppingCriteria {
     /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
     pub absolute: f64,
     /// Largest error of `x` as a fraction of `|x|`. Never taken below four units in the
@@ -140,7 +140,7 @@ pub struct Tolerance {
     pub max_evaluations: usize,
 }
 
-impl Tolerance {
+impl StoppingCriteria {
     /// All that the number type can give.
     pub const FULL: Self =
         Self { absolute: 0.0, relative: 0.0, residual: 0.0, max_evaluations: 2200 };
@@ -166,7 +166,7 @@ impl Tolerance {
     }
 }
 
-impl Default for Tolerance {
+impl Default for StoppingCriteria {
     fn default() -> Self {
         Self::FULL
     }
@@ -217,7 +217,7 @@ pub enum SearchError<T: Real> {
     },
     /// A strategy has looked at, or returned, a point that is not in the bracket it was given.
     #[error("the strategy went to {x:?}, which is not in the bracket [{lo:?}, {hi:?}]")]
-    Astray {
+    LeftBracket {
         /// Where it went.
         x: T,
         /// Lower end of the bracket.
@@ -230,7 +230,7 @@ pub enum SearchError<T: Real> {
         "the strategy stopped at {x:?}, where the function is still {residual:?}: tighten its \
          tolerance"
     )]
-    Missed {
+    NotConverged {
         /// What it returned.
         x: T,
         /// The function there.

@@ -1,16 +1,31 @@
-//! What comes back.
+//! What comes back, and what can be asked of it: one question a file.
 
-use crate::certificate::{Certificate, certify};
-use crate::contact::{Found, peak};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{Engine, Estimate, Pressing};
+use crate::quadrature::{Integrator, LoadCase};
 use crate::{ContactError, Interval, Real};
 use std::sync::Arc;
 
+mod certificate;
+mod contact_state;
+mod gap_outside;
+mod load_rates;
+mod moment;
+mod peak;
+mod pressure;
+mod pressure_integral;
 mod region;
 mod report;
+mod residual;
+pub mod stress;
 
+pub(crate) use certificate::certify;
+pub use certificate::{Certificate, Extremum};
+pub(crate) use contact_state::ContactState;
+pub use load_rates::LoadRates;
+pub use peak::Peak;
+pub(crate) use peak::largest_pressure;
+pub use pressure::Pressure;
 pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
 
@@ -27,9 +42,9 @@ pub use report::{Report, Start, Trial, Verdict};
 pub struct Solution<'b, T: Real> {
     gap: Gap<'b, T>,
     /// That has solved the contact.
-    engine: Arc<Box<dyn Engine<T>>>,
+    integrator: Arc<Box<dyn Integrator<T>>>,
     kappa: T,
-    found: Found<T>,
+    found: ContactState<T>,
     cost: Cost,
     report: Report,
 }
@@ -37,13 +52,13 @@ pub struct Solution<'b, T: Real> {
 impl<'b, T: Real> Solution<'b, T> {
     pub(crate) fn new(
         gap: Gap<'b, T>,
-        engine: Arc<Box<dyn Engine<T>>>,
+        integrator: Arc<Box<dyn Integrator<T>>>,
         kappa: T,
-        found: Found<T>,
+        found: ContactState<T>,
         cost: Cost,
         report: Report,
     ) -> Self {
-        Self { gap, engine, kappa, found, cost, report }
+        Self { gap, integrator, kappa, found, cost, report }
     }
 
     /// The limit `a`.
@@ -87,7 +102,7 @@ impl<'b, T: Real> Solution<'b, T> {
     /// conditions at the edges. `None` where both limits were given.
     ///
     /// It is a few units in the last place where the slope of the gap is analytic between the
-    /// joints. Much more says that a profile is noisy or has a kink not declared as a joint.
+    /// breakpoints. Much more says that a profile is noisy or has a kink not declared as a breakpoint.
     pub fn limits_error(&self) -> Option<T> {
         self.found.error
     }
@@ -105,64 +120,17 @@ impl<'b, T: Real> Solution<'b, T> {
     /// it: see [`Certificate`] for what is proved, and what it takes.
     ///
     /// A body ends at a sharp corner ([`Edge::Fixed`](crate::Edge::Fixed),
-    /// [`Edge::UpTo`](crate::Edge::UpTo)), however far its curve goes on. Between adhesive edges the
+    /// [`Edge::FreeUntil`](crate::Edge::FreeUntil)), however far its curve goes on. Between adhesive edges the
     /// bodies may pull at each other, and only the outside is looked at.
     ///
     /// # Errors
-    /// [`ContactError::Missed`] where the panels do not know of something in the contact;
+    /// [`ContactError::FeatureMissed`] where the panels do not know of something in the contact;
     /// [`ContactError::Unbalanced`] where its samples leave more at a free edge than
     /// [`limits_error`](Self::limits_error) stands for; [`ContactError::Profile`] for heights that are not finite;
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found, &**self.engine)
-    }
-
-    /// The largest pressure and its place, as far as a grid of 64 points in each contact and the joints
-    /// show which maximum is the largest. The pressure is flat there: its value has all digits, its place half
-    /// of them.
-    ///
-    /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
-    /// inside.
-    ///
-    /// It takes about a hundred pressures for each contact, which cost evaluations with [`Midpoint`](crate::Midpoint)
-    /// only; they are not in [`cost`](Self::cost).
-    ///
-    /// # Errors
-    /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
-    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others); those of
-    /// sampling the gap.
-    pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
-        self.engine.complete(&self.gap)?;
-        let last = self.intervals().len() - 1;
-        let mut best = self.peak_in(last)?;
-        for i in (0..last).rev() {
-            let peak = self.peak_in(i)?;
-            if peak.pressure >= best.pressure {
-                best = peak;
-            }
-        }
-        Ok(best)
-    }
-
-    /// That of one contact, by its number.
-    fn peak_in(&self, contact: usize) -> Result<Peak<T>, ContactError<T>> {
-        let contacts = self.intervals();
-        let (on, last) = (contacts[contact], contacts.len() - 1);
-        let (x, Estimate { value: pressure, .. }) =
-            peak(&**self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
-        if !pressure.is_finite() {
-            return Err(ContactError::Singular { x });
-        }
-        let Found { strengths, free, .. } = self.found;
-        let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
-        // Where both edges are at fault it is the right one that is named.
-        for (i, outermost, x) in [(1, contact == last, on.right), (0, contact == 0, on.left)] {
-            if outermost && !free[i] && strengths[i] > rounding {
-                return Err(ContactError::Singular { x });
-            }
-        }
-        Ok(Peak { x, pressure })
+        certify(&self.gap, self.kappa, &self.found, &**self.integrator)
     }
 
     /// What finding the limits has cost, the pressures that [`Control::PeakPressure`](crate::Control::PeakPressure) takes
@@ -176,24 +144,6 @@ impl<'b, T: Real> Solution<'b, T> {
         &self.report
     }
 
-    /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for
-    /// them.
-    ///
-    /// # Errors
-    /// Those of sampling the gap.
-    pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
-        let cost = self.engine.complete(&self.gap)?;
-        let (gap, Found { interval: on, load, error, force, .. }) = (&self.gap, self.found);
-        let error = error.unwrap_or(T::zero());
-        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
-        let Found { strengths, adhesive, .. } = self.found;
-        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
-        let held = [held(0), held(1)];
-        let pressing = self.pressing();
-        let (engine, contacts) = (&**self.engine, self.intervals());
-        Ok(Pressure { gap, engine, pressing, on, contacts, force, held, cost })
-    }
-
     /// The contact in which a place lies.
     pub(crate) fn contact_with(&self, x: T) -> Option<Interval<T>> {
         let contacts = self.intervals();
@@ -203,7 +153,7 @@ impl<'b, T: Real> Solution<'b, T> {
 
     /// The contacts on their panels, if they are several.
     pub(crate) fn several(&self) -> Option<&Several<T>> {
-        panels::several(&**self.engine)
+        panels::several(&**self.integrator)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -214,151 +164,21 @@ impl<'b, T: Real> Solution<'b, T> {
         self.kappa
     }
 
-    pub(crate) fn found(&self) -> &Found<T> {
+    pub(crate) fn found(&self) -> &ContactState<T> {
         &self.found
     }
 
-    fn pressing(&self) -> Pressing<T> {
-        let Found { load, free, .. } = self.found;
-        Pressing { kappa: self.kappa, load, free }
-    }
-}
-
-/// A largest pressure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak<T> {
-    /// Where it is.
-    pub x: T,
-    /// How large it is.
-    pub pressure: T,
-}
-
-/// The pressure over a contact.
-pub struct Pressure<'p, T: Real> {
-    gap: &'p Gap<'p, T>,
-    engine: &'p dyn Engine<T>,
-    pressing: Pressing<T>,
-    /// From the first to the last limit.
-    on: Interval<T>,
-    contacts: &'p [Interval<T>],
-    /// The load that stands for the error of the limits.
-    force: T,
-    /// That error times the strengths of the edges at -b and a, with adhesion.
-    held: [T; 2],
-    cost: Cost,
-}
-
-impl<T: Real> Pressure<'_, T> {
-    /// `P(x)`. Zero outside the contact and at a free edge.
-    ///
-    /// # Errors
-    /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than
-    /// a third of what the quadrature gives, as it becomes very close to an edge;
-    /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
-    /// beyond either body, and for NaN; those of sampling the gap at `x`.
-    pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
-        let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
-        // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
-        let free = self.pressing.free == [true; 2];
-        if free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
-            Err(ContactError::Unresolved { x, pressure, error })
-        } else {
-            Ok(pressure)
-        }
-    }
-
-    /// `P(x)` at any number of points, in any order: cheaper than one by one. What
-    /// [`at`](Self::at) refuses as unresolved is returned as it is.
-    ///
-    /// # Errors
-    /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
-    /// [`ContactError::Lengths`] if the two slices are not of the same length.
-    pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        if x.len() != pressures.len() {
-            return Err(ContactError::Lengths { x: x.len(), pressures: pressures.len() });
-        }
-        let mut cost = Cost::default();
-        // Without a way out of the loops, for speed.
-        if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
-            self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut cost)?;
-            let finite = |pressure: &T| pressure.is_finite();
-            if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
-                return Ok(());
-            }
-        }
-        for (&x, pressure) in x.iter().zip(pressures) {
-            *pressure = self.estimate(x, &mut cost)?.value;
-        }
-        Ok(())
-    }
-
-    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point takes:
-    /// nothing with [`Panels`](crate::Panels); with [`Midpoint`](crate::Midpoint) nothing on the
-    /// grid of the rule, one sample of the gap elsewhere, seven next to one of its points.
-    ///
-    /// The error is that of the quadrature, and what the error of the limits makes of it.
-    ///
-    /// # Errors
-    /// As [`at`](Self::at), without [`ContactError::Unresolved`].
-    pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
-        let range = self.gap.range();
-        if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
-        }
-        let [free_b, free_a] = self.pressing.free;
-        let first = self.contacts.partition_point(|on| on.right <= x);
-        let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
-            let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
-            return if singular {
-                Err(ContactError::Singular { x })
-            } else {
-                Ok(Estimate { value: T::zero(), error: T::zero() })
-            };
-        };
-        let mut estimate = self.engine.estimate(self.gap, &self.pressing, x, cost)?;
-        if !estimate.value.is_finite() {
-            return Err(ContactError::Singular { x });
-        }
-        // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
-        // of it. The load is what it is: so the change is of second order, but for points so close
-        // to an edge that they might lie on its other side.
-        let change = self.force / (T::pi() * on.edge_root(x));
-        let share = change / estimate.value.abs();
-        estimate.error += if share < T::of(0.1) { change * share } else { change };
-        // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
-        let [held_b, held_a] = self.held;
-        for (held, distance) in [(held_a, self.on.right - x), (held_b, x - self.on.left)] {
-            let share = self.on.half_width() / distance;
-            estimate.error += T::of(0.5) * held * share * share.sqrt();
-        }
-        Ok(estimate)
-    }
-
-    /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
-    pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut Cost::default())
-    }
-
-    /// What making ready has cost.
-    pub fn cost(&self) -> Cost {
-        self.cost
+    fn load_case(&self) -> LoadCase<T> {
+        let ContactState { load, free, .. } = self.found;
+        LoadCase { kappa: self.kappa, load, free }
     }
 }
 
 impl<T: Real> std::fmt::Debug for Solution<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { found: Found { interval, load, .. }, kappa, cost, .. } = self;
+        let Self { found: ContactState { interval, load, .. }, kappa, cost, .. } = self;
         let mut debug = f.debug_struct("Solution");
         debug.field("interval", interval).field("load", load).field("kappa", kappa);
-        debug.field("cost", cost).finish_non_exhaustive()
-    }
-}
-
-impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { on, pressing, cost, .. } = self;
-        let mut debug = f.debug_struct("Pressure");
-        debug.field("on", on).field("pressing", pressing);
         debug.field("cost", cost).finish_non_exhaustive()
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Differences at single points would need a step, and its choice would depend on how steep and how
 //! noisy the curve is. So the change of X over a short range of k is compared with the integral of X'
-//! over it (Gauss, eight nodes), and likewise for Y. The domain is looked at in 64 ranges; one that
+//! over it (GaussLegendre, eight nodes), and likewise for Y. The domain is looked at in 64 ranges; one that
 //! does not agree is divided into sixteen:
 //!
 //! - a wrong derivative disagrees in nearly all of the sixteen, with one sign, and goes on to do so in
@@ -14,12 +14,12 @@
 use super::interval;
 use super::{ParametricProfile, Piece, ProfileError};
 use crate::Real;
-use crate::quadrature::Gauss;
+use crate::numerics::gauss_legendre::GaussLegendre;
 
 /// Ranges into which the domain is divided at first.
 const RANGES: usize = 64;
 /// Parts into which a range that does not agree is divided.
-const PARTS: usize = 16;
+const COMPONENTS: usize = 16;
 /// How many of them have to disagree with the same sign.
 const MOST_PARTS: usize = 12;
 /// How often a range is divided.
@@ -171,7 +171,7 @@ impl<T: Real> Range<T> {
     ) -> Result<Self, ProfileError<T>> {
         let half = T::of(0.5);
         let (centre, reach) = (half * k[0] + half * k[1], half * (k[1] - k[0]));
-        let rule = Gauss::coarsest();
+        let rule = GaussLegendre::coarsest();
         let (mut sum, mut size) = ([T::zero(); 2], [T::zero(); 2]);
         for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
             let k = centre + reach * T::of(node);
@@ -208,14 +208,14 @@ impl<T: Real> Range<T> {
         if !self.is_off(i) || levels == 0 || !wide {
             return Ok(None);
         }
-        let parts = ranges(curve, self.k, PARTS)?;
+        let parts = ranges(curve, self.k, COMPONENTS)?;
         let worse = |a: &Self, b: &Self| a.missed[i].abs() > b.missed[i].abs();
         let worst =
             parts.iter().fold(parts[0], |max, part| if worse(part, &max) { *part } else { max });
         if is_wrong(&parts, i) {
             // A typical one: that at the end of a body may have troubles of its own.
             let typical = typical(&parts, i);
-            if is_wrong(&ranges(curve, typical.k, PARTS)?, i) {
+            if is_wrong(&ranges(curve, typical.k, COMPONENTS)?, i) {
                 return Ok(Some(typical.as_fault(i)));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
-use crate::reference::special::sin_minus_cos;
+use crate::numerics::special_functions::sin_minus_cos;
 
 /// The involute of a circle, seen from one of its points.
 ///

@@ -1,7 +1,7 @@
 //! One crest of a cosine.
 
-use super::special::series;
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use crate::numerics::special_functions::series;
 use crate::{Interval, Real};
 
 /// One crest of a wavy surface by itself, `A (1 - cos q x)` with q = 2π/λ and the amplitude A, as
@@ -79,7 +79,7 @@ impl<T: Real> ClosedForm<T> for Cosine<T> {
                 break;
             }
         }
-        kappa / T::pi() * (q * self.amplitude) * (q * limits.edge_root(x)) * sum
+        kappa / T::pi() * (q * self.amplitude) * (q * limits.chebyshev_weight(x)) * sum
     }
 
     fn height(&self, x: T) -> T {

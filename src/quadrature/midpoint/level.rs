@@ -15,7 +15,8 @@
 //! subtracted it is read off three wider spreads about the same middle.
 
 use crate::gap::{Cost, Gap, Sampler};
-use crate::real::{Sum, same};
+use crate::numerics::CompensatedSum;
+use crate::real::same;
 use crate::{ContactError, Interval, Real};
 
 /// The point x at which the integral is wanted; the slope there is sampled when first needed.
@@ -46,7 +47,7 @@ impl<'g, T: Real> Pole<'g, T> {
 
     /// sqrt(1 - z²)
     fn root(&self) -> T {
-        self.on.edge_root(self.x) / self.on.half_width()
+        self.on.chebyshev_weight(self.x) / self.on.half_width()
     }
 }
 
@@ -125,7 +126,7 @@ impl<T: Real> Level<T> {
         let index = index.map(|i| i as usize).filter(|&i| i < self.h.len());
         let near = index.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
 
-        let (mut of_g, mut of_one, mut of_t) = (Sum::new(), T::zero(), T::zero());
+        let (mut of_g, mut of_one, mut of_t) = (CompensatedSum::new(), T::zero(), T::zero());
         for (i, (&h, &root)) in self.h.iter().zip(&self.root).enumerate() {
             if Some(i) != near {
                 let point = self.place(i);

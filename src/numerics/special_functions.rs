@@ -1,0 +1,192 @@
+//! The special functions that the closed forms need.
+
+use crate::Real;
+
+/// `first (1 + r₁ + r₁ r₂ + ...)`, with the ratio of each term to the one before.
+pub(crate) fn series<T: Real>(first: T, ratio: impl Fn(T) -> T) -> T {
+    let (mut sum, mut term) = (first, first);
+    for k in 1..1000 {
+        term *= ratio(T::count(k));
+        sum += term;
+        if term.abs() <= T::of(0.25) * T::epsilon() * sum.abs() {
+            break;
+        }
+    }
+    sum
+}
+
+/// The root of a rising convex function from its value and derivative, by Newton's method: from
+/// below the first step leads above the root, and from above all steps lead down to it.
+pub(crate) fn convex_root<T: Real>(start: T, function: impl Fn(T) -> [T; 2]) -> T {
+    let step = |x: T| match function(x) {
+        [value, _] if value == T::zero() => x,
+        [value, slope] => x - value / slope,
+    };
+    let mut x = step(start);
+    for _ in 0..60 {
+        let next = step(x);
+        if next < x {
+            x = next;
+        } else {
+            break;
+        }
+    }
+    x
+}
+
+/// `u - atan u` for u ≥ 0.
+pub(crate) fn minus_atan<T: Real>(u: T) -> T {
+    if u > T::of(0.75) {
+        return u - u.atan();
+    }
+    let two = T::of(2.0);
+    let term = |k: T| -u * u * (two * k + T::one()) / (two * k + T::of(3.0));
+    series(u * u * u / T::of(3.0), term)
+}
+
+/// `artanh z - z` for 0 ≤ z ≤ 1/2.
+pub(crate) fn artanh_minus<T: Real>(z: T) -> T {
+    let two = T::of(2.0);
+    let term = |k: T| z * z * (two * k + T::one()) / (two * k + T::of(3.0));
+    series(z * z * z / T::of(3.0), term)
+}
+
+/// `y - sin y` for y ≥ 0.
+pub(crate) fn minus_sin<T: Real>(y: T) -> T {
+    if y > T::one() {
+        return y - y.sin();
+    }
+    let two = T::of(2.0);
+    let term = |k: T| -y * y / ((two * k + two) * (two * k + T::of(3.0)));
+    series(y * y * y / T::of(6.0), term)
+}
+
+/// `sinh y - y` for y ≥ 0.
+pub(crate) fn sinh_minus<T: Real>(y: T) -> T {
+    if y > T::of(2.0) {
+        return y.sinh() - y;
+    }
+    let two = T::of(2.0);
+    let term = |k: T| y * y / ((two * k + two) * (two * k + T::of(3.0)));
+    series(y * y * y / T::of(6.0), term)
+}
+
+/// `sin φ - φ cos φ` for 0 ≤ φ ≤ π.
+pub(crate) fn sin_minus_cos<T: Real>(phi: T) -> T {
+    if phi > T::one() {
+        return phi.sin() - phi * phi.cos();
+    }
+    // The terms φ^(2k+1) (1/(2k)! - 1/(2k+1)!) = φ^(2k+1) 2k/(2k+1)!, of alternating sign.
+    let two = T::of(2.0);
+    let term = |k: T| -phi * phi / (two * k * (two * k + T::of(3.0)));
+    series(phi * phi * phi / T::of(3.0), term)
+}
+
+/// `e^y - 1 - y`.
+pub(crate) fn exp_minus<T: Real>(y: T) -> T {
+    if y.abs() > T::one() {
+        return y.exp_m1() - y;
+    }
+    series(T::of(0.5) * y * y, |k| y / (k + T::of(2.0)))
+}
+
+/// The complete elliptic integral in the form of Bulirsch (*Numer. Math.* 13, 1969, 305),
+///
+/// ```text
+/// ∫ (a cos² + b sin²) / ((cos² + p sin²) sqrt(cos² + k'² sin²)) dφ,   0 < φ < π/2
+/// ```
+///
+/// for k', p > 0 and a, b ≥ 0: by Bartky's transformation, the arithmetic and geometric means of
+/// which drag p, a and b along. No difference occurs, so all digits are kept. K is a = b = p = 1.
+pub(crate) fn elliptic<T: Real>(complement: T, p: T, a: T, b: T) -> T {
+    let half = T::of(0.5);
+    let (mut mean, mut geometric) = (T::one(), complement);
+    let (mut p, mut a, mut b) = (p.sqrt(), a, b / p.sqrt());
+    for _ in 0..60 {
+        let product = mean * geometric;
+        (a, b) = (half * (a + b / p), half * (b + a * product / p));
+        p = half * (p + product / p);
+        (mean, geometric) = (half * (mean + geometric), product.sqrt());
+        let apart = (mean - geometric).abs().max((mean - p).abs());
+        if apart <= T::of(4.0) * T::epsilon() * mean {
+            break;
+        }
+    }
+    T::frac_pi_2() * (b + a * mean) / (mean * (mean + p))
+}
+
+/// `∫ cosⁿ φ dφ` from 0 to π/2, which is `sqrt(π)/2 Γ((n+1)/2)/Γ(n/2+1)`, for n ≥ 0.
+pub(crate) fn wallis<T: Real>(n: T) -> T {
+    let (one, two) = (T::one(), T::of(2.0));
+    // W(n) = W(n+2) (n+2)/(n+1), until n is large.
+    let (mut n, mut factor) = (n, one);
+    while n < T::of(24.0) {
+        factor *= (n + two) / (n + one);
+        n += two;
+    }
+    // Γ(y + 1/4)/Γ(y + 3/4) has an expansion in even powers of 1/y.
+    let y = T::of(0.5) * n + T::of(0.25);
+    let v = (y * y).recip();
+    let coefficients = [
+        1.0,
+        -1.0 / 64.0,
+        21.0 / 8192.0,
+        -671.0 / 524288.0,
+        180323.0 / 134217728.0,
+        -20898423.0 / 8589934592.0,
+    ];
+    let sum = coefficients.into_iter().rev().fold(T::zero(), |sum, c| sum * v + T::of(c));
+    factor * T::of(0.5) * (T::pi() / y).sqrt() * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+    fn close(got: f64, want: f64) {
+        assert_relative_eq!(got, want, epsilon = 0.0, max_relative = 2e-15);
+    }
+
+    #[test]
+    fn elliptic_integrals_have_their_known_values() {
+        // K and E of the lemniscate, k² = 1/2.
+        let half = 0.5f64.sqrt();
+        close(elliptic(half, 1.0, 1.0, 1.0), 1.854_074_677_301_371_9);
+        close(elliptic(half, 1.0, 1.0, 0.5), 1.350_643_881_047_675_5);
+        // Π(n | 0) = π/(2 sqrt(1 - n)).
+        close(elliptic(1.0, 0.75, 1.0, 1.0), PI / (2.0 * 0.75f64.sqrt()));
+        // Legendre's relation, with (K - E)/k² and K.
+        for k in [1e-6f64, 0.3, 0.8, 0.999_999] {
+            let c = ((1.0 - k) * (1.0 + k)).sqrt();
+            let [first, second] = [c, k].map(|c| elliptic(c, 1.0, 1.0, 1.0));
+            let [e, f] = [c, k].map(|c| elliptic(c, 1.0, 1.0, c * c));
+            close(e * second + first * f, FRAC_PI_2 + first * second);
+            close(first - k * k * elliptic(c, 1.0, 0.0, 1.0), e);
+        }
+    }
+
+    #[test]
+    fn wallis_integrals_have_their_known_values() {
+        close(wallis(0.0), FRAC_PI_2);
+        close(wallis(1.0), 1.0);
+        close(wallis(2.0), FRAC_PI_4);
+        close(wallis(3.0), 2.0 / 3.0);
+        for n in [0.3, 2.7, 11.1, 23.9, 100.5] {
+            close(wallis(n) * wallis(n + 1.0), FRAC_PI_2 / (n + 1.0));
+        }
+    }
+
+    #[test]
+    fn the_differences_agree_where_both_formulas_hold() {
+        let close = |got, want| assert_relative_eq!(got, want, epsilon = 0.0, max_relative = 1e-14);
+        close(minus_atan(0.74f64), 0.74 - 0.74f64.atan());
+        close(artanh_minus(0.5f64), 0.5f64.atanh() - 0.5);
+        close(minus_sin(0.99f64), 0.99 - 0.99f64.sin());
+        close(sinh_minus(1.99f64), 1.99f64.sinh() - 1.99);
+        close(sin_minus_cos(0.99f64), 0.99f64.sin() - 0.99 * 0.99f64.cos());
+        close(exp_minus(-0.99f64), (-0.99f64).exp_m1() + 0.99);
+        close(exp_minus(0.99f64), 0.99f64.exp_m1() - 0.99);
+    }
+}

@@ -1,0 +1,27 @@
+//! What a search has found: all that a solution is asked for follows from it.
+
+use crate::Interval;
+use crate::quadrature::MomentDerivatives;
+
+/// A contact that was found.
+#[derive(Clone, Copy)]
+pub(crate) struct ContactState<T> {
+    pub interval: Interval<T>,
+    pub load: T,
+    /// K_b and K_a: here as everywhere, left before right.
+    pub strengths: [T; 2],
+    /// Whether they vanish at -b and at a, being what the limits were sought by.
+    pub free: [bool; 2],
+    /// Whether the bodies may pull at each other.
+    pub adhesive: [bool; 2],
+    /// Estimated error of the limits relative to the half-width, where they were sought.
+    pub error: Option<T>,
+    /// The load that such an error stands for, where it is known.
+    pub force: Option<T>,
+    /// How the edge integrals change with the limits, where that is known.
+    pub trend: Option<MomentDerivatives<T>>,
+    /// By how much body 2 was turned counter-clockwise.
+    pub tilt: T,
+    /// Where the bodies end: at corners, or with their common range.
+    pub ends: [T; 2],
+}

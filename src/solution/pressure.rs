@@ -1,0 +1,147 @@
+//! The pressure of a solution.
+
+use super::{ContactState, Solution};
+use crate::gap::{Cost, Gap};
+use crate::quadrature::{Estimate, Integrator, LoadCase};
+use crate::{ContactError, Interval, Real};
+
+impl<T: Real> Solution<'_, T> {
+    /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for
+    /// them.
+    ///
+    /// # Errors
+    /// Those of sampling the gap.
+    pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
+        let cost = self.integrator.complete(&self.gap)?;
+        let (gap, ContactState { interval: on, load, error, force, .. }) = (&self.gap, self.found);
+        let error = error.unwrap_or(T::zero());
+        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
+        let ContactState { strengths, adhesive, .. } = self.found;
+        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
+        let held = [held(0), held(1)];
+        let load_case = self.load_case();
+        let (integrator, contacts) = (&**self.integrator, self.intervals());
+        Ok(Pressure { gap, integrator, load_case, on, contacts, force, held, cost })
+    }
+}
+
+/// The pressure over a contact.
+pub struct Pressure<'p, T: Real> {
+    gap: &'p Gap<'p, T>,
+    integrator: &'p dyn Integrator<T>,
+    load_case: LoadCase<T>,
+    /// From the first to the last limit.
+    on: Interval<T>,
+    contacts: &'p [Interval<T>],
+    /// The load that stands for the error of the limits.
+    force: T,
+    /// That error times the strengths of the edges at -b and a, with adhesion.
+    held: [T; 2],
+    cost: Cost,
+}
+
+impl<T: Real> Pressure<'_, T> {
+    /// `P(x)`. Zero outside the contact and at a free edge.
+    ///
+    /// # Errors
+    /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than
+    /// a third of what the quadrature gives, as it becomes very close to an edge;
+    /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
+    /// beyond either body, and for NaN; those of sampling the gap at `x`.
+    pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
+        let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
+        // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
+        let free = self.load_case.free == [true; 2];
+        if free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
+            Err(ContactError::Unresolved { x, pressure, error })
+        } else {
+            Ok(pressure)
+        }
+    }
+
+    /// `P(x)` at any number of points, in any order: cheaper than one by one. What
+    /// [`at`](Self::at) refuses as unresolved is returned as it is.
+    ///
+    /// # Errors
+    /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
+    /// [`ContactError::LengthMismatch`] if the two slices are not of the same length.
+    pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        if x.len() != pressures.len() {
+            return Err(ContactError::LengthMismatch { x: x.len(), pressures: pressures.len() });
+        }
+        let mut cost = Cost::default();
+        // Without a way out of the loops, for speed.
+        if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
+            self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut cost)?;
+            let finite = |pressure: &T| pressure.is_finite();
+            if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
+                return Ok(());
+            }
+        }
+        for (&x, pressure) in x.iter().zip(pressures) {
+            *pressure = self.estimate(x, &mut cost)?.value;
+        }
+        Ok(())
+    }
+
+    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point takes:
+    /// nothing with [`Panels`](crate::Panels); with [`Midpoint`](crate::Midpoint) nothing on the
+    /// grid of the rule, one sample of the gap elsewhere, seven next to one of its points.
+    ///
+    /// The error is that of the quadrature, and what the error of the limits makes of it.
+    ///
+    /// # Errors
+    /// As [`at`](Self::at), without [`ContactError::Unresolved`].
+    pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+        let range = self.gap.range();
+        if !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
+        }
+        let [free_b, free_a] = self.load_case.free;
+        let first = self.contacts.partition_point(|on| on.right <= x);
+        let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
+            let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
+            return if singular {
+                Err(ContactError::Singular { x })
+            } else {
+                Ok(Estimate { value: T::zero(), error: T::zero() })
+            };
+        };
+        let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
+        if !estimate.value.is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
+        // of it. The load is what it is: so the change is of second order, but for points so close
+        // to an edge that they might lie on its other side.
+        let change = self.force / (T::pi() * on.chebyshev_weight(x));
+        let share = change / estimate.value.abs();
+        estimate.error += if share < T::of(0.1) { change * share } else { change };
+        // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
+        let [held_b, held_a] = self.held;
+        for (held, distance) in [(held_a, self.on.right - x), (held_b, x - self.on.left)] {
+            let share = self.on.half_width() / distance;
+            estimate.error += T::of(0.5) * held * share * share.sqrt();
+        }
+        Ok(estimate)
+    }
+
+    /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
+    pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
+    }
+
+    /// What making ready has cost.
+    pub fn cost(&self) -> Cost {
+        self.cost
+    }
+}
+
+impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { on, load_case, cost, .. } = self;
+        let mut debug = f.debug_struct("Pressure");
+        debug.field("on", on).field("load_case", load_case);
+        debug.field("cost", cost).finish_non_exhaustive()
+    }
+}
