@@ -3,6 +3,9 @@
 //! The sizes are multiples of four, and all loops over nodes run over arrays of a length known to
 //! the compiler, which turns them into vector instructions.
 
+// Loops over arrays of a known length, several at once, are clearer with the index.
+#![allow(clippy::needless_range_loop)]
+
 use crate::Real;
 use crate::real::fma;
 use std::f64::consts::PI;
