@@ -27,6 +27,7 @@ use crate::solution::{ContactState, Report, Solution, Start, Verdict, certify};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
 use equations::Equations;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use topology::Sought;
 pub(crate) use topology::Workspace;
@@ -60,6 +61,8 @@ pub(crate) use topology::Workspace;
 pub struct Contact<'b, T: Real> {
     gap: Gap<'b, T>,
     kappa: T,
+    /// Whether nobody has set κ.
+    kappa_is_default: bool,
     edges: [Edge<T>; 2],
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
@@ -72,6 +75,7 @@ pub struct Contact<'b, T: Real> {
 /// What is prescribed of the contact: the load, or another number for which the load comes out
 /// ([`Solution::load`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
     Load(T),
@@ -192,6 +196,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(Self {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
+            kappa_is_default: true,
             edges: [Edge::Free; 2],
             edge_pressure: None,
             start: None,
@@ -205,7 +210,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the paper's
     /// Eq. (3).
     pub fn kappa(self, kappa: T) -> Self {
-        Self { kappa, ..self }
+        Self { kappa, kappa_is_default: false, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
@@ -247,6 +252,26 @@ impl<'b, T: Real> Contact<'b, T> {
     /// that has solved with another takes up this one.
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
+    }
+
+    /// A function that watches a solve, and may end it: it is told the cost so far and the span of `x` last
+    /// sampled, each time that the bodies are sampled and before each new set of contacts is tried. Where it
+    /// answers `ControlFlow::Break` the solve ends with [`ContactError::Cancelled`].
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, ContactError, Control, Flat};
+    /// use std::ops::ControlFlow;
+    ///
+    /// let parabola = Parabola::new(1.0, [-1.0, 1.0])?;
+    /// let stop = |_, _| ControlFlow::Break(());
+    /// let contact = Contact::new(&Flat, &parabola)?.watch(&stop);
+    /// let error = contact.solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
+    /// assert!(matches!(error, ContactError::Cancelled { .. }));
+    /// # Ok::<(), ContactError<f64>>(())
+    /// ```
+    pub fn watch(self, watch: &'b (dyn Fn(Cost, Interval<T>) -> ControlFlow<()> + Sync)) -> Self {
+        Self { gap: self.gap.with_watch(watch), ..self }
     }
 
     /// Whether a solution must be a contact in all of the bodies: then solving ends with
@@ -308,6 +333,16 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Finds the limits with an integrator that has been reset, from the contacts in the workspace.
     pub(crate) fn find(
+        &self,
+        integrator: &mut dyn Integrator<T>,
+        workspace: &mut Workspace<T>,
+        control: Control<T>,
+    ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
+        let found = self.find_by(integrator, workspace, control);
+        found.map_err(|error| error.with_stiffness(self.kappa_is_default))
+    }
+
+    fn find_by(
         &self,
         integrator: &mut dyn Integrator<T>,
         workspace: &mut Workspace<T>,

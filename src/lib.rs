@@ -76,7 +76,7 @@ mod solver;
 mod sweep;
 
 pub use contact::{Contact, Control, Edge, EdgePressure};
-pub use error::{Body, ContactError};
+pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};

@@ -232,6 +232,7 @@ fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
 
 /// What is wrong with a smooth curve.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum ProfileError<T: Real> {
     /// A parameter has a value for which there is no such shape.
     #[error("{name} is {value:?}: it must be {must}")]

@@ -174,6 +174,7 @@ impl Default for StoppingCriteria {
 
 /// Why a search found no root.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum SearchError<T: Real> {
     /// The bracket has a NaN or infinite end, or its ends are the wrong way round.
     #[error("[{lo:?}, {hi:?}] is no bracket: give two finite ends in rising order")]

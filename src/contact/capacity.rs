@@ -38,19 +38,40 @@ impl<T: Real> Capacity<T> {
     /// The error for a load that is more than the bodies bear.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;
-        ContactError::DomainTooShort { end, carried, load, half_width: on.half_width(), peak }
+        ContactError::DomainTooShort {
+            end,
+            carried,
+            load,
+            half_width: on.half_width(),
+            peak,
+            kappa_is_default: false,
+        }
     }
 
     /// The error for a width that the bodies have no room for.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::HalfWidthTooLarge { wanted, half_width: on.half_width(), end, load, peak }
+        ContactError::HalfWidthTooLarge {
+            wanted,
+            half_width: on.half_width(),
+            end,
+            load,
+            peak,
+            kappa_is_default: false,
+        }
     }
 
     /// The error for a peak higher than that of any contact there is room for.
     pub fn peak_too_high(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::PeakTooHigh { wanted, half_width: on.half_width(), found: peak, end, load }
+        ContactError::PeakTooHigh {
+            wanted,
+            half_width: on.half_width(),
+            found: peak,
+            end,
+            load,
+            kappa_is_default: false,
+        }
     }
 }
 
