@@ -21,12 +21,14 @@
 mod bisection;
 mod bracket_state;
 mod brent;
+mod fallible;
 mod newton;
 mod roots_adapter;
 mod secant;
 
 pub use bisection::Bisection;
 pub use brent::Brent;
+pub use fallible::{TryFindError, try_find, try_find_with_slope};
 pub use newton::Newton;
 pub use secant::Secant;
 

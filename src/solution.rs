@@ -17,6 +17,7 @@ mod pressure_integral;
 mod region;
 mod report;
 mod residual;
+mod steepness;
 pub mod stress;
 
 pub(crate) use certificate::certify;
@@ -28,6 +29,7 @@ pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
 pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
+pub use steepness::STEEPEST_HALF_PLANE;
 
 /// A solved contact: its limits, and on request its pressure.
 ///

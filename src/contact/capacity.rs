@@ -9,7 +9,7 @@ use super::edges::{Conditions, Edge};
 use super::equations::Equations;
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
-use crate::search::{Bracket, Brent, LimitSearch};
+use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
 use crate::{ContactError, Interval, Real};
 
@@ -153,8 +153,8 @@ impl<T: Real> Pinned<'_, T> {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
                 let [lo, hi] = if side == 0 { [one, other] } else { [other, one] };
                 let bracket = Bracket::new(lo.0, hi.0).values(lo.1, hi.1);
-                let mut f = |x| self.shift(on(x)).unwrap_or(T::of(f64::NAN));
-                let root = Brent::DEFAULT.find(&mut f, &bracket).ok()?;
+                let shift = |x| self.shift(on(x)).ok_or(());
+                let root = try_find(&Brent::DEFAULT, shift, &bracket).ok()?;
                 return Some((on(root.x), side));
             }
             (wide, at_wide) = (narrow, at_narrow);
