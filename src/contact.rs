@@ -120,13 +120,13 @@ impl<T: Real> ContactState<T> {
         let kappa = conditions.kappa;
         let mean_pressure = load / interval.half_width();
         let tilt = conditions.tilt(interval, m);
-        let mean = m.mean + tilt;
+        let mean = m.m0 + tilt;
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = [strength(m.first - mean), strength(m.first + mean)];
+        let strengths = [strength(m.m1 - mean), strength(m.m1 + mean)];
         let free = conditions.edges.map(|edge| edge.is_free());
         let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
         let ends = [interval.left, interval.right];
-        let (force, trend) = (None, m.trend);
+        let (force, trend) = (None, m.derivatives);
         Self { interval, load, strengths, free, adhesive, error, force, trend, tilt, ends }
     }
 
@@ -219,7 +219,7 @@ impl<'b, T: Real> Contact<'b, T> {
         self.kappa(T::frac_pi_2() * modulus)
     }
 
-    /// What becomes of the two edges, at `-b` and at `a`. Default: both are [`Edge::Free`].
+    /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
         Self { edges: [left, right], edge_pressure: None, ..self }
     }
@@ -274,9 +274,8 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { gap: self.gap.with_watch(watch), ..self }
     }
 
-    /// Whether a solution must be a contact in all of the bodies: then solving ends with
-    /// [`Solution::certify`], and its errors. Default: no, since that samples all of the bodies, which
-    /// takes far longer than the contact itself.
+    /// If true, `solve` also runs [`Solution::certify`], and fails with its errors. Default: false, since the
+    /// certificate samples all of the bodies, which takes far longer than the contact itself.
     pub fn certified(self, certified: bool) -> Self {
         Self { certified, ..self }
     }

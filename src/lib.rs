@@ -2,7 +2,7 @@
 //!
 //! Two bodies are pressed together with a load per unit length. This crate finds where they
 //! touch, the interval `[-b, a]` of `x` or several, and the pressure `P(x)` between them, for elastic
-//! half-planes without friction. Neither curve's parameter can or need be eliminated.
+//! half-planes without friction. Curves stay parametric: no y = f(x) is needed.
 //!
 //! ```text
 //! PV∫ P(s)/(x - s) ds = κ (f₂'(x) - f₁'(x)),   -b < x < a,      ∫ P ds = F

@@ -165,9 +165,10 @@ impl<T: Real> Pinned<'_, T> {
     /// Positive: the contact must move to the right.
     fn shift(&mut self, on: Interval<T>) -> Option<T> {
         // Panels much wider than a contact would not see what is narrow in it.
-        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered =
+            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(2.0 * NARROWER) * on.half_width() {
-            self.integrator.forget();
+            self.integrator.clear_samples();
         }
         let (equations, gap) = (&self.equations, &self.contact.gap);
         let residual = equations.residual(gap, on, self.integrator, &mut Cost::default()).ok()?;

@@ -196,9 +196,10 @@ impl<'s, T: Real> NestedSearch<'s, T> {
 
     fn attempt(&mut self, on: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
         // Panels much wider than the contact are not as good as they look.
-        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered =
+            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(WIDEST) * on.half_width() {
-            self.integrator.forget();
+            self.integrator.clear_samples();
         }
         let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;
         if !residual.is_finite() {

@@ -1,7 +1,7 @@
 //! Searches on functions that may fail.
 
 use super::{Bracket, LimitSearch, Root, SearchError};
-use crate::{ContactError, Real};
+use crate::Real;
 
 /// Why [`try_find`] has no root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,12 +12,9 @@ pub enum TryFindError<T: Real, E> {
     Search(SearchError<T>),
 }
 
-impl<T: Real> TryFindError<T, ContactError<T>> {
+impl<T: Real, E> TryFindError<T, E> {
     /// The error of the function, or what `search` makes of that of the search.
-    pub(crate) fn or_else(
-        self,
-        search: impl FnOnce(SearchError<T>) -> ContactError<T>,
-    ) -> ContactError<T> {
+    pub fn or_else(self, search: impl FnOnce(SearchError<T>) -> E) -> E {
         match self {
             Self::Function(error) => error,
             Self::Search(source) => search(source),

@@ -6,8 +6,7 @@ use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Interval, Real};
 
 impl<T: Real> Solution<'_, T> {
-    /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for
-    /// them.
+    /// The pressure distribution. With [`Panels`](crate::Panels) it takes no further sample.
     ///
     /// # Errors
     /// Those of sampling the gap.

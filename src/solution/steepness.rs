@@ -4,15 +4,25 @@ use super::Solution;
 use crate::gap::{Sampler, Side};
 use crate::{Body, ContactError, Real};
 
-/// The slope of a surface above which a body is no longer much like a half-plane: there the pressure of a
-/// cylinder, as a share of it, is off by some hundredths, by the square of the slope (Johnson, *Contact Mechanics*,
-/// 1985, §4.2(c), asks for slopes much less than one).
+/// The slope of a surface above which a body is no longer much like a half-plane. What the half-plane leaves out
+/// is of the order of the square of the slope, a tenth at this one (Johnson, *Contact Mechanics*, 1985, §4.1, asks
+/// for contacts that are small beside the radii of the bodies).
 pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 
 /// Points of each contact at which slopes are taken.
 const POINTS: usize = 17;
 
 impl<T: Real> Solution<'_, T> {
+    /// Whether the slope of the gap, by the samples at hand and at the limits of the contacts, is more than
+    /// [`STEEPEST_HALF_PLANE`]: then it is doubtful whether the bodies are much like half-planes. It takes no
+    /// evaluation, and does not see two surfaces that are steep alike: [`steepest_slope`](Self::steepest_slope) does.
+    #[must_use]
+    pub fn is_steep(&self) -> bool {
+        let limits = self.intervals().iter().flat_map(|on| [on.left, on.right]);
+        let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
+        limits.filter_map(|x| self.integrator.slope(x)).any(steep)
+    }
+
     /// The largest slope `|f'|` of either surface within the contacts, before loading: how far the bodies are from
     /// the half-planes of the equations. Above [`STEEPEST_HALF_PLANE`] the solution is as exact as ever, but its
     /// equations describe the bodies less well; so large a slope is often a unit that is wrong, or a contact modulus
