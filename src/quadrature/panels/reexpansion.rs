@@ -41,12 +41,20 @@ pub(super) fn reexpanded<T: Real>(
     let zero = T::zero();
     let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
     let count = size_for(most) + 2;
-    let (mut most_bulk, mut largest) = (zero, zero);
+    let single = panels.len() == 1;
+    let slopes = panels.iter().flat_map(Panel::at_ends).chain([
+        panels.first().map_or(zero, |panel| panel.value(on.left)),
+        panels.last().map_or(zero, |panel| panel.value(on.right)),
+    ]);
+    let most_bulk = T::of(MOST_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
     let mut start = HalfAngle::of(on, on.left);
     let mut left = ([zero; MOST + 2], [T::pi(), zero]);
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
+        if !(single || bulk <= most_bulk) {
+            return false;
+        }
         let mut ends = panel.at_ends();
         if i == 0 {
             ends[0] = panel.value(on.left);
@@ -59,8 +67,6 @@ pub(super) fn reexpanded<T: Real>(
         } else {
             ends[1] = panel.value(on.right);
         }
-        largest = largest.max(ends[0].abs()).max(ends[1].abs());
-        most_bulk = most_bulk.max(if bulk.is_finite() { bulk } else { T::one() / zero });
         let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
         // Between angles near π, their distances from there keep the digits.
         let [by_angle, by_rest] = [left.1[0] - right.1[0], right.1[1] - left.1[1]];
@@ -68,5 +74,5 @@ pub(super) fn reexpanded<T: Real>(
         show(&PanelAngles { panel, is_first: i == 0, start, series, terms, bulk, integrals, ends });
         (start, left) = (end, right);
     }
-    panels.len() == 1 || most_bulk <= T::of(MOST_GROWTH) * largest
+    true
 }
