@@ -118,26 +118,26 @@ fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
         points.map(|at| (at.x, at.y)).collect()
     };
     let [pinion, wheel] = mesh.flanks(pitch_point)?.each_ref().map(outline);
-    let heights = [-3.0, 3.0];
+    let heights = [-2.2, 2.2];
     let flanks =
         Panel::new("The flanks at the pitch point", ("x / mm", [-4.0, 4.0]), ("y / mm", heights))
             .to_scale(480)
             .body(pinion, heights[0], BLUE, "")
             .body(wheel, heights[1], RED, "")
             .dots(vec![(0.0, 0.0)], BLACK, "")
-            .note(0.0, -1.8, "pinion, 20 teeth", BLUE)
-            .note(0.0, 2.0, "wheel, 60 teeth", RED);
+            .note(0.0, -1.3, "pinion, 20 teeth", BLUE)
+            .note(0.0, 1.4, "wheel, 60 teeth", RED);
     let along = |i: usize, title: &str, label: &str, unit: &str, top: f64| {
         let points =
             |value: fn(&Row) -> [f64; 2]| rows.iter().map(move |row| (row.s, value(row)[i]));
         let end = rows[rows.len() - 1].s;
         Panel::new(title, (label, [0.0, end]), (unit, [0.0, top]))
-            .size(480, 150)
+            .size(480, 130)
             .line(points(|row| row.solved).collect(), BLUE, "involutes")
             .dots(points(|row| row.hertz).step_by(8).collect(), RED, "Hertz")
     };
     let width = along(0, "Half-width", "", "half-width / mm", 0.25);
     let label = "distance along the path of contact / base pitch";
-    let peak = along(1, "Peak pressure", label, "peak / MPa", 1250.0);
+    let peak = along(1, "Peak pressure", label, "peak / MPa", 2000.0);
     drawing::save("gear_mesh", vec![vec![flanks], vec![width, peak]])
 }

@@ -8,7 +8,7 @@
 #[path = "shared/drawing.rs"]
 mod drawing;
 
-use drawing::{BLUE, GRAY, Panel, Points, RED};
+use drawing::{BLUE, GRAY, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse};
 use linecontact::{Contact, Control, Flat, ParametricProfile};
@@ -80,6 +80,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     .line(fitted.collect(), BLUE, "smoothed");
     let pressures = Panel::new("Pressure on a flat", ("x / mm", range), ("P / MPa", [0.0, 1600.0]))
         .size(520, 220)
+        .legend(SeriesLabelPosition::LowerMiddle)
         .line(solved, BLUE, "as measured")
         .dots(known, RED, "of the circle")
         .limit(on.left, "−b")

@@ -4,8 +4,8 @@
 #![allow(dead_code, reason = "each example draws with its own part")]
 
 use plotters::coord::Shift;
-pub use plotters::prelude::SeriesLabelPosition;
 use plotters::prelude::*;
+pub use plotters::prelude::{RGBColor, SeriesLabelPosition};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
@@ -109,8 +109,8 @@ impl Panel {
     /// A vertical line with its name on top, as for a limit of the contact.
     pub fn limit(self, x: f64, name: &str) -> Self {
         let [from, to] = self.ranges[1];
-        let below = to - (to - from) * f64::from(FONT + 2) / f64::from(self.size[1]);
-        self.dashed(vec![(x, from), (x, below)], GRAY, "").note(x, to, name, BLACK)
+        let below = |pixels: i32| to - (to - from) * f64::from(pixels) / f64::from(self.size[1]);
+        self.dashed(vec![(x, from), (x, below(FONT + 5))], GRAY, "").note(x, below(3), name, BLACK)
     }
 
     /// A text, centred on x, its top at y.
@@ -156,18 +156,21 @@ impl Panel {
             .y_label_area_size(FINE * (ROOM[0] - 4))
             .build_cartesian_2d(left..right, bottom..top)?;
         let number = |axis: usize| {
-            let [from, to] = self.ranges[axis];
-            let decimals = (1.0 - ((to - from) / 2.0).log10()).floor().clamp(0.0, 9.0) as usize;
             let powers = self.powers[axis];
-            move |x: &f64| if powers { power(*x) } else { decimal(*x, decimals) }
+            move |x: &f64| if powers { power(*x) } else { decimal(*x) }
+        };
+        let ticks = |axis: usize, room: i32| {
+            let [from, to] = self.ranges[axis];
+            let whole = if self.powers[axis] { (to - from) as usize + 1 } else { usize::MAX };
+            whole.min((self.size[axis] / room).max(3) as usize)
         };
         let (x_number, y_number) = (number(0), number(1));
         let named = !self.labels[0].is_empty();
         let mut mesh = chart.configure_mesh();
         mesh.x_desc(self.labels[0].clone())
             .y_desc(self.labels[1].clone())
-            .x_labels(if named { (self.size[0] / 60) as usize } else { 0 })
-            .y_labels((self.size[1] / 35).max(3) as usize)
+            .x_labels(if named { ticks(0, 60) } else { 0 })
+            .y_labels(ticks(1, 28))
             .x_label_formatter(&x_number)
             .y_label_formatter(&y_number)
             .label_style(font(FONT - 1))
@@ -244,7 +247,7 @@ impl Panel {
             let mut labels = chart.configure_series_labels();
             labels
                 .position(self.legend.clone())
-                .margin(FINE * 6)
+                .margin(FINE * 12)
                 .legend_area_size(FINE * 28)
                 .background_style(WHITE.mix(0.85))
                 .label_font(font(FONT - 1));
@@ -253,8 +256,9 @@ impl Panel {
         // The frame, over what ends at it.
         let [width, height] = self.size.map(|size| FINE * size);
         let corner = (FINE * ROOM[0], FINE * ROOM[2]);
-        let frame = [corner, (corner.0 + width, corner.1 + height)];
-        area.draw(&Rectangle::new(frame, BLACK.stroke_width(FINE as u32)))?;
+        let (right, bottom) = (corner.0 + width, corner.1 + height);
+        let frame = vec![corner, (right, corner.1), (right, bottom), (corner.0, bottom), corner];
+        area.draw(&PathElement::new(frame, BLACK.stroke_width(FINE as u32)))?;
         Ok(())
     }
 }
@@ -313,13 +317,11 @@ fn anchor() -> plotters::style::text_anchor::Pos {
     Pos::new(HPos::Center, VPos::Top)
 }
 
-fn decimal(x: f64, decimals: usize) -> String {
-    let text = format!("{:.decimals$}", x + 0.0);
-    match text.strip_prefix('-') {
-        Some(rest) if rest.contains(|c: char| c.is_ascii_digit() && c != '0') => format!("−{rest}"),
-        Some(rest) => rest.to_owned(),
-        None => text,
-    }
+/// A number without the noise of its last digits.
+fn decimal(x: f64) -> String {
+    let text = format!("{x:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.replace('-', "−") }
 }
 
 fn power(exponent: f64) -> String {

@@ -29,6 +29,8 @@
 #[path = "../../tests/common/mod.rs"]
 mod common;
 mod diagrams;
+#[path = "../shared/drawing.rs"]
+mod drawing;
 #[path = "../../tests/common/kept.rs"]
 mod kept;
 mod measure;
@@ -68,12 +70,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::create_dir_all(&folder)?;
             let heading = format!("{}\tmicroseconds", table::HEADING);
             fs::write(folder.join("measured.tsv"), text(&rows, &heading, Row::timed_line))?;
-            let count = diagrams::draw(&rows, &folder)?;
+            let count = diagrams::all(&rows)?.len();
             print!("{}", summary::summary(&rows));
             println!("\n{}Times are those of {}.", sources(), machine());
             println!("measured.tsv and {count} diagrams are in target/speed_vs_error");
         }
     }
+    println!("{}", diagrams::some(&rows)?);
     check_default(&rows);
     Ok(())
 }
