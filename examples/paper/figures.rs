@@ -44,11 +44,11 @@ fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, Sea
 /// The pressure for both scales κ.
 fn pressures([one, half_pi]: &[Solved; 2], title: &str) -> Panel {
     let lines = [closed(one), closed(half_pi)];
-    let most =
-        |value: fn(&(f64, f64)) -> f64| lines.iter().flatten().map(value).fold(0.0, f64::max);
-    let (reach, peak) = (1.1 * most(|at| at.0.abs()), 1.1 * most(|at| at.1));
+    let peak = 1.1 * lines.iter().flatten().map(|at| at.1).fold(0.0, f64::max);
+    let margin = 0.1 * one.contact.half_width(); // Of the two the wider.
+    let range = [one.contact.left - margin, one.contact.right + margin].map(|x| x / UNIT);
     let [blue, red] = lines;
-    Panel::new(title, (X_LABEL, [-reach, reach]), ("P", [0.0, peak]))
+    Panel::new(title, (X_LABEL, range), ("P", [0.0, peak]))
         .size(420, 280)
         .legend(SeriesLabelPosition::LowerMiddle)
         .line(blue, BLUE, "κ = 1")

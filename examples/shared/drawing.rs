@@ -109,8 +109,9 @@ impl Panel {
     /// A vertical line with its name on top, as for a limit of the contact.
     pub fn limit(self, x: f64, name: &str) -> Self {
         let [from, to] = self.ranges[1];
-        let below = |pixels: i32| to - (to - from) * f64::from(pixels) / f64::from(self.size[1]);
-        self.dashed(vec![(x, from), (x, below(FONT + 5))], GRAY, "").note(x, below(3), name, BLACK)
+        let pixel = (to - from) / f64::from(self.size[1]);
+        let line = vec![(x, from), (x, to - pixel * f64::from(FONT + 5))];
+        self.dashed(line, GRAY, "").note(x, to - 3.0 * pixel, name, BLACK)
     }
 
     /// A text, centred on x, its top at y.
