@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let heights = Panel::new(
         "A measured roller: heights beyond the circle",
         ("", range),
-        ("y − y(circle) / µm", [-0.4, 0.4]),
+        ("y − y(circle) / µm", [-0.4, 0.6]),
     )
     .size(520, 170)
     .dots(near, GRAY, "measured")

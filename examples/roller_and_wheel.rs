@@ -53,10 +53,10 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     .size(440, 180)
     .body(vec![(-8.5, 0.0), (8.5, 0.0)], -4.0, BLUE, "")
     .body(relief, 12.0, RED, "");
-    let axes = (("x / mm", range), ("P / MPa", [0.0, 250.0]));
+    let axes = (("x / mm", range), ("P / MPa", [0.0, 300.0]));
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
         .size(440, 200)
-        .legend(SeriesLabelPosition::UpperLeft);
+        .legend(SeriesLabelPosition::UpperMiddle);
     println!("roller with relief: off the closed form by");
     for (i, half_width) in [4.0, 7.0, 7.6].into_iter().enumerate() {
         let form = reference::Crowning::new(depth, end, half_width)?;
@@ -121,7 +121,7 @@ fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
     .dots(vec![(0.0, 0.0)], BLACK, "")
     .note(0.0, -2.5, "rail, radii 300, 80 and 13 mm", BLUE)
     .note(0.0, 4.0, "wheel, radii −500 and 400 mm", RED);
-    let axes = (("x / mm", [-1.8, 0.6]), ("P / MPa", [0.0, 600.0]));
+    let axes = (("x / mm", [-3.5, 1.0]), ("P / MPa", [0.0, 600.0]));
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
         .size(440, 200)
         .legend(SeriesLabelPosition::UpperLeft);

@@ -12,7 +12,7 @@
 #[path = "shared/drawing.rs"]
 mod drawing;
 
-use drawing::{BLUE, Panel, Points, RED, mix, tint};
+use drawing::{BLUE, Panel, Points, RED, SeriesLabelPosition, mix, tint};
 use linecontact::profile::{Fit, Spline};
 use linecontact::{Contact, Control, Cost, Flat, Interval, ParametricProfile, Solution, Solver};
 use std::error::Error;
@@ -124,9 +124,10 @@ fn measurement() -> Vec<[f64; 2]> {
 fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
     let widest = &all[all.len() - 1].contacts[0];
     let range = [widest.left - 0.1, widest.right + 0.1];
-    let axes = (("", range), ("P / MPa", [0.0, 2500.0]));
-    let mut pressures =
-        Panel::new("Pressure under loads from 1 to 4000 N/mm", axes.0, axes.1).size(560, 260);
+    let axes = (("", range), ("P / MPa", [0.0, 3000.0]));
+    let mut pressures = Panel::new("Pressure under loads from 1 to 4000 N/mm", axes.0, axes.1)
+        .size(560, 280)
+        .legend(SeriesLabelPosition::UpperLeft);
     for (i, pressed) in all.iter().enumerate().step_by(3) {
         // From light blue to red, each down to zero where two contacts part.
         let color = mix(tint(BLUE, 0.5), RED, i as f64 / (COUNT - 1) as f64);
@@ -143,6 +144,7 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
     }
     let x = (0..=400).map(|i| range[0] + (range[1] - range[0]) * f64::from(i) / 400.0);
     let heights: Points = x.map(|x| (x, 1e3 * body.at(x).y)).collect();
+    let flat = heights.iter().fold(f64::INFINITY, |least, at| least.min(at.1));
     let profile = Panel::new("The profile, on a flat", ("x / mm", range), ("y / µm", [-2.0, 16.0]))
         .size(560, 150)
         .body(vec![(range[0], flat), (range[1], flat)], -2.0, BLUE, "")

@@ -34,7 +34,7 @@ fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, Sea
     let range = [lower[0].0, lower[lower.len() - 1].0];
     let panel = Panel::new(title, (X_LABEL, range), ("y", [bottom, top])).size(420, 280);
     Ok(panel
-        .legend(SeriesLabelPosition::UpperMiddle)
+        .legend(SeriesLabelPosition::LowerMiddle)
         .body(upper, top, RED, "upper body")
         .body(lower, bottom, BLUE, "lower body")
         .limit(contact.left / UNIT, "−b")
@@ -95,6 +95,6 @@ fn closed(solved: &Solved) -> Points {
     };
     let left = end(solved.contact.left, inside[0]);
     let right = end(solved.contact.right, inside[inside.len() - 1]).rev();
-    let points = left.chain(inside.iter().copied().step_by(4)).chain(right);
+    let points = left.chain(inside.iter().copied().step_by(2)).chain(right);
     points.map(|(x, pressure)| (x / UNIT, pressure)).collect()
 }

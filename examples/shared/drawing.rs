@@ -9,6 +9,7 @@ pub use plotters::prelude::{RGBColor, SeriesLabelPosition};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
+use std::path::Path;
 
 /// Plotters counts in whole pixels: a picture is drawn ten times as large, and shown at its size.
 const FINE: i32 = 10;
@@ -266,6 +267,16 @@ impl Panel {
 
 /// Draws panels, one column beside the other, and says where.
 pub fn save(name: &str, columns: Vec<Vec<Panel>>) -> Result<String, Box<dyn Error>> {
+    let docs = std::env::args().any(|argument| argument == "--docs");
+    let folder = if docs { "docs/images" } else { "target/figures" };
+    fs::create_dir_all(folder)?;
+    let path = format!("{folder}/{name}.svg");
+    write(Path::new(&path), columns)?;
+    Ok(path)
+}
+
+/// Draws panels into a file.
+pub fn write(path: &Path, columns: Vec<Vec<Panel>>) -> Result<(), Box<dyn Error>> {
     let width = |column: &[Panel]| column.iter().map(|panel| panel.whole()[0]).max().unwrap_or(0);
     let height = |column: &[Panel]| column.iter().map(|panel| panel.whole()[1]).sum::<i32>();
     let size = [
@@ -291,13 +302,8 @@ pub fn save(name: &str, columns: Vec<Vec<Panel>>) -> Result<String, Box<dyn Erro
     }
     let [large, shown] =
         [FINE, 1].map(|by| format!("<svg width=\"{}\" height=\"{}\"", by * size[0], by * size[1]));
-    let svg = svg.replacen(&large, &shown, 1);
-    let docs = std::env::args().any(|argument| argument == "--docs");
-    let folder = if docs { "docs/images" } else { "target/figures" };
-    fs::create_dir_all(folder)?;
-    let path = format!("{folder}/{name}.svg");
-    fs::write(&path, svg)?;
-    Ok(path)
+    fs::write(path, svg.replacen(&large, &shown, 1))?;
+    Ok(())
 }
 
 /// A colour mixed with white; a share of 1 leaves it as it is.

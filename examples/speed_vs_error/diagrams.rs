@@ -4,6 +4,7 @@ use crate::drawing::{self, Panel, Points, RGBColor, SeriesLabelPosition};
 use crate::methods::{DEFAULT, METHODS};
 use crate::table::Row;
 use std::error::Error;
+use std::path::Path;
 
 const COLORS: [RGBColor; 7] = [
     drawing::BLACK,
@@ -17,24 +18,22 @@ const COLORS: [RGBColor; 7] = [
 /// Exponents of the errors drawn; an error of zero is drawn at the least.
 const EXPONENTS: [f64; 2] = [-17.0, 0.0];
 /// The scenes in the picture of the documentation.
-const SHOWN: usize = 4;
+const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.5", "gear teeth"]];
 
 /// Draws some scenes into one picture, by evaluations, and says where.
 pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
-    let scenes = scenes(rows);
-    let every = scenes.len() / SHOWN;
-    let panel = |i: usize| diagram(rows, scenes[every * i], WORK[0]);
-    let columns = vec![vec![panel(0), panel(1)], vec![panel(2), panel(3)]];
-    drawing::save("speed_vs_error", columns)
+    let columns = SHOWN.map(|pair| pair.map(|scene| diagram(rows, scene, WORK[0])).into());
+    drawing::save("speed_vs_error", columns.into())
 }
 
-/// Draws each scene by evaluations and by time, and says where.
-pub fn all(rows: &[Row]) -> Result<Vec<String>, Box<dyn Error>> {
-    let draw = |(i, scene): (usize, &&str)| {
-        let columns = WORK.map(|work| vec![diagram(rows, scene, work)]).into();
-        drawing::save(&format!("../speed_vs_error/{:02}", i + 1), columns)
-    };
-    scenes(rows).iter().enumerate().map(draw).collect()
+/// Draws each scene by evaluations and by time into a folder, and says how many there are.
+pub fn all(rows: &[Row], folder: &Path) -> Result<usize, Box<dyn Error>> {
+    let scenes = scenes(rows);
+    for (i, scene) in scenes.iter().enumerate() {
+        let columns = WORK.map(|work| vec![diagram(rows, scene, work)]);
+        drawing::write(&folder.join(format!("{:02}.svg", i + 1)), columns.into())?;
+    }
+    Ok(scenes.len())
 }
 
 /// A kind of work: its name, and how much of it a row has taken.
@@ -69,7 +68,7 @@ fn diagram(rows: &[Row], scene: &str, (label, work): Work) -> Panel {
     let axes = ((label, [0.0, most.ceil()]), ("largest relative error of a, b, P", EXPONENTS));
     let panel = Panel::new(scene, axes.0, axes.1).size(480, 260).powers(true, true);
     let drawn = lines.into_iter().filter(|line| !line.2.is_empty());
-    drawn.fold(panel.legend(SeriesLabelPosition::LowerLeft), |panel, (method, color, points)| {
+    drawn.fold(panel.legend(SeriesLabelPosition::UpperLeft), |panel, (method, color, points)| {
         panel.line(points.clone(), color, method).dots(points, color, "")
     })
 }
