@@ -103,7 +103,7 @@ fn draw(
     let field = |below: &Subsurface<f64>, title: &str, label: &str| {
         let shear =
             |x, y: f64| Ok::<_, ContactError<f64>>(below.at(L * x, -L * y)?.max_shear() / p0);
-        let grid = Grid::new(range, [-2.0, 0.0], [45, 18], shear)?;
+        let grid = Grid::new(range, [-2.0, 0.0], [42, 17], shear)?;
         let worst = below.max_shear()?;
         let (x, y) = (worst.x / L, -worst.depth / L);
         let panel = Panel::new(title, (label, range), ("−depth/L", [-2.0, 0.0]));

@@ -197,7 +197,7 @@ impl Panel {
                     // The parts of it that are seen.
                     for part in points.split(|point| !inside(point)).filter(|part| part.len() > 1) {
                         if *dashed {
-                            let line = DashedLineSeries::new(part.iter().copied(), 50, 40, style);
+                            let line = DashedLineSeries::new(part.iter().copied(), 70, 50, style);
                             chart.draw_series(line)?;
                         } else {
                             chart.draw_series([PathElement::new(part.to_vec(), style)])?;
