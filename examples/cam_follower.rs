@@ -168,7 +168,7 @@ fn draw(rows: &[[f64; 3]]) -> Result<String, Box<dyn Error>> {
         ("x / mm", [-27.0, 27.0]),
         ("y / mm", [-25.0, 29.0]),
     )
-    .to_scale(360)
+    .with_equal_scales(360)
     .area(outline.clone(), drawing::tint(BLUE, 0.18))
     .line(outline, BLUE, "")
     .body(vec![(-24.0, h), (24.0, h)], h + 5.0, RED, "")

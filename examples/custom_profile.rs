@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let heights = [-12.0, 12.0];
     let flanks =
         Panel::new("Two flanks at the pitch point", ("x / mm", [-16.0, 16.0]), ("y / mm", heights))
-            .to_scale(440)
+            .with_equal_scales(440)
             .body(outline(&pinion), heights[0], BLUE, "")
             .body(outline(&wheel), heights[1], RED, "")
             .dots(vec![(0.0, 0.0)], BLACK, "")

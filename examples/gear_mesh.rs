@@ -121,7 +121,7 @@ fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
     let heights = [-2.2, 2.2];
     let flanks =
         Panel::new("The flanks at the pitch point", ("x / mm", [-4.0, 4.0]), ("y / mm", heights))
-            .to_scale(480)
+            .with_equal_scales(480)
             .body(pinion, heights[0], BLUE, "")
             .body(wheel, heights[1], RED, "")
             .dots(vec![(0.0, 0.0)], BLACK, "")

@@ -35,9 +35,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (peak, pressure) = (solution.peak()?, solution.pressure()?);
     let limits_error = solution.limits_error().unwrap_or(0.0);
     let peak_error = pressure.estimate(peak.x, &mut Cost::default())?.error / peak.pressure;
-    println!("a = {a:.13} mm, b = {b:.13} mm, estimated relative error {limits_error:.0e}");
-    println!("peak {:.9} MPa at x = {:.0e} mm", peak.pressure, peak.x);
-    println!("  estimated relative error {peak_error:.0e}");
+    let lines = [
+        format!("contact from {:.6} to {a:.6} mm", -b),
+        format!("largest pressure {:.3} MPa", peak.pressure),
+        format!("pressure at 0.1 mm {:.3} MPa", pressure.at(0.1)?),
+    ];
+    for line in lines {
+        println!("{line}");
+        assert!(include_str!("../README.md").contains(&line), "the README prints something else");
+    }
+    println!("estimated relative errors: limits {limits_error:.0e}, peak {peak_error:.0e}");
     println!("{} evaluations of the two curves", solution.cost().evaluations);
     println!("{}", draw([&groove, &roller], &solution)?);
 
@@ -78,7 +85,7 @@ fn draw(
     let arrow = vec![(0.0, 5.0), (-0.5, 6.4), (0.5, 6.4)];
     let axes = (("x / mm", [-12.0, 12.0]), ("y / mm", [-4.0, 20.5]));
     let whole = Panel::new("A roller in a groove", axes.0, axes.1)
-        .to_scale(400)
+        .with_equal_scales(400)
         .body(outline(groove, 0.32), -4.0, BLUE, "")
         .area(circle.clone(), tint(RED, 0.18))
         .line(circle, RED, "")
@@ -111,7 +118,7 @@ fn draw(
         ("x / mm", range),
         ("y / mm", depths),
     )
-    .to_scale(440)
+    .with_equal_scales(440)
     .levels(&shears, &levels, RED)
     .dots(vec![(worst.x, -worst.depth)], BLACK, "")
     .note(worst.x, -worst.depth - 0.01, &name, BLACK);

@@ -107,7 +107,8 @@ fn draw(
         let worst = below.max_shear()?;
         let (x, y) = (worst.x / L, -worst.depth / L);
         let panel = Panel::new(title, (label, range), ("−depth/L", [-2.0, 0.0]));
-        let panel = panel.to_scale(500).levels(&grid, &levels, RED).dots(vec![(x, y)], BLACK, "");
+        let panel =
+            panel.with_equal_scales(500).levels(&grid, &levels, RED).dots(vec![(x, y)], BLACK, "");
         Ok::<_, ContactError<f64>>(panel.note(
             x,
             y - 0.06,

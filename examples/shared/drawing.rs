@@ -65,7 +65,7 @@ impl Panel {
     }
 
     /// As wide as given and as high as equal scales on both axes make it.
-    pub fn to_scale(self, width: i32) -> Self {
+    pub fn with_equal_scales(self, width: i32) -> Self {
         let [x, y] = self.ranges.map(|[from, to]| to - from);
         self.size(width, (f64::from(width) * y / x).round() as i32)
     }

@@ -18,7 +18,7 @@ const COLORS: [RGBColor; 7] = [
 /// Exponents of the errors drawn; an error of zero is drawn at the least.
 const EXPONENTS: [f64; 2] = [-17.0, 0.0];
 /// The scenes in the picture of the documentation.
-const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.5", "gear teeth"]];
+const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.99", "gear teeth"]];
 
 /// Draws some scenes into one picture, by evaluations, and says where.
 pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
