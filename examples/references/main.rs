@@ -92,7 +92,7 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
         Err(error) => return failed(error.to_string(), format!("{error:?}")),
     };
     if let Some(oracle) = oracle {
-        return Ok(Report::of_elements(&name, &reference, &answer, &oracle, &reference.joints));
+        return Ok(Report::of_elements(&name, &reference, &answer, &oracle, &reference.breakpoints));
     }
     if let Some(several) = &reference.several {
         return Ok(Report::of_several(&name, &reference, several, &answer));
@@ -105,7 +105,7 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     // Given edges enter the integral for the pressure with the root of both distances, and G with it.
     let weight =
         if reference.kind == Kind::Fixed { |angle: f64| angle.sin().powi(2) } else { |_| 1.0 };
-    let rounded = &reference.rounded_joints;
+    let rounded = &reference.rounded_breakpoints;
     let noise = noise::measure([&*bodies[0], &*bodies[1]], on, &places, rounded, weight)?;
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
 }
@@ -121,7 +121,7 @@ fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
     let gap = |x| boundary_elements::height(upper, x) - boundary_elements::height(lower, x);
     let [one, two] = [range::of(lower), range::of(upper)];
     let range = [one[0].max(two[0]), one[1].min(two[1])];
-    boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.joints)
+    boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.breakpoints)
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

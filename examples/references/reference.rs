@@ -47,10 +47,10 @@ pub struct Reference {
     pub several: Option<Several>,
     /// The variant of the error that must come, where the file names it.
     pub error: Option<String>,
-    /// The joints of both bodies.
-    pub joints: Vec<f64>,
-    /// Joints that are no numbers of 64 bits, such as 1/3, rounded.
-    pub rounded_joints: Vec<f64>,
+    /// The breakpoints of both bodies.
+    pub breakpoints: Vec<f64>,
+    /// Breakpoints that are no numbers of 64 bits, such as 1/3, rounded.
+    pub rounded_breakpoints: Vec<f64>,
     /// Points with a finite pressure that is not zero.
     pub points: Vec<Point>,
 }
@@ -105,9 +105,9 @@ impl Reference {
                 points.push(Point { x, pressure, amplification });
             }
         }
-        let joints = list("breakpoints_x").iter().filter_map(number).collect();
-        let rounded = list("breakpoints_x").iter().filter(|joint| !is_exact(joint));
-        let rounded_joints = rounded.filter_map(number).collect();
+        let breakpoints = list("breakpoints_x").iter().filter_map(number).collect();
+        let rounded = list("breakpoints_x").iter().filter(|breakpoint| !is_exact(breakpoint));
+        let rounded_breakpoints = rounded.filter_map(number).collect();
         let kappa = number(&file["scale_value"]).or_else(|| scale(file["scale"].as_str()?))?;
         Some(Self {
             kind_name,
@@ -117,8 +117,8 @@ impl Reference {
             limits,
             several,
             error: file["expected_error"].as_str().map(str::to_owned),
-            joints,
-            rounded_joints,
+            breakpoints,
+            rounded_breakpoints,
             points,
         })
     }
@@ -155,7 +155,7 @@ mod tests {
     use serde_json::Value;
 
     #[test]
-    fn joints_that_are_rounded() {
+    fn breakpoints_that_are_rounded() {
         let is_exact = |text: &str| is_exact(&Value::from(text));
         for text in ["0.25", "-1.0", "0", "3", "0.0009765625", "100.000"] {
             assert!(is_exact(text), "{text}");
