@@ -5,13 +5,18 @@
 //! last one with a [`Solver`] and takes the torque from where it is; from the second revolution on
 //! nothing is allocated. Lengths in mm, forces in N for each mm of width, masses in t, times in s.
 //! Checked against the contact's place, which is the derivative of the lift, against Hertz with the
-//! cam's radius of curvature there, and by the energy, which stays.
+//! cam's radius of curvature there, and by the energy, which stays. The cam, the place and the half-width
+//! are drawn to `target/figures/cam_follower.svg`.
 
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::{Contact, ContactError, Control, CurvePoint, Flat, ParametricProfile, Solver};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
+use std::error::Error;
 use std::f64::consts::{PI, TAU};
-use thiserror::Error;
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
@@ -27,7 +32,7 @@ const STEP: f64 = 1e-4;
 const STEPS: usize = 2000; // two revolutions
 
 /// What can go wrong in the simulation.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 enum SimulationError {
     #[error("the contact was not found: {0}")]
     Contact(#[from] ContactError<f64>),
@@ -75,13 +80,23 @@ struct Simulation {
     /// Of the half-width, of the place (in half-widths) and of the energy.
     off: [f64; 3],
     widest: f64,
+    /// Angle, place and half-width at each step.
+    rows: Vec<[f64; 3]>,
 }
 
 impl Simulation {
     fn new() -> Self {
         let (angle, speed) = (0.0, 10.0 * TAU);
         let energy = energy(angle, speed);
-        Self { solver: Solver::new(), angle, speed, energy, off: [0.0; 3], widest: 0.0 }
+        Self {
+            solver: Solver::new(),
+            angle,
+            speed,
+            energy,
+            off: [0.0; 3],
+            widest: 0.0,
+            rows: Vec::with_capacity(STEPS),
+        }
     }
 
     fn step(&mut self, time: f64) -> Result<(), SimulationError> {
@@ -105,6 +120,7 @@ impl Simulation {
             *worst = worst.max(off.abs());
         }
         self.widest = self.widest.max(half_width);
+        self.rows.push([self.angle, arm, half_width]);
         self.speed -= STEP * force * arm / FLYWHEEL;
         self.angle += STEP * self.speed;
         Ok(())
@@ -117,7 +133,7 @@ fn energy(angle: f64, speed: f64) -> f64 {
     0.5 * moving * speed * speed + PRELOAD * lift + 0.5 * SPRING * lift * lift
 }
 
-fn main() -> Result<(), SimulationError> {
+fn main() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::new();
     // In the first revolution the solver's memory grows to what the steps need.
     for step in 0..STEPS / 2 {
@@ -128,14 +144,50 @@ fn main() -> Result<(), SimulationError> {
         simulation.step(STEP * step as f64)?;
     }
     let change = region.change();
-    let Simulation { angle, off: [half_width, place, energy], widest, .. } = simulation;
+    let Simulation { angle, off: [half_width, place, energy], widest, rows, .. } = simulation;
     println!("{:.3} revolutions, half-width up to {widest:.4} mm", angle / TAU);
     println!("half-width off Hertz by no more than {half_width:.1e}");
     println!("place off the derivative of the lift by {place:.1e} half-widths");
     println!("energy kept to {energy:.1e}, {} allocations in the second half", change.allocations);
+    println!("{}", draw(&rows)?);
 
     assert_eq!(change.allocations + change.reallocations, 0);
     assert!(half_width < 1e-4 && place < 2e-3, "{half_width} {place}");
     assert!(energy < 1e-3, "{energy}");
     Ok(())
+}
+
+/// Draws the cam below its follower, and where and how wide they touch, and says where.
+fn draw(rows: &[[f64; 3]]) -> Result<String, Box<dyn Error>> {
+    let angle = 0.8;
+    let ([h, dh, _], cam) = (Cam::support(angle), Cam { angle });
+    let outline: Points =
+        (0..=180).map(|i| cam.at(f64::from(i) * TAU / 180.0)).map(|at| (at.x, at.y)).collect();
+    let picture = Panel::new(
+        "The cam and its flat follower",
+        ("x / mm", [-27.0, 27.0]),
+        ("y / mm", [-25.0, 29.0]),
+    )
+    .with_equal_scales(360)
+    .area(outline.clone(), drawing::tint(BLUE, 0.18))
+    .line(outline, BLUE, "")
+    .body(vec![(-24.0, h), (24.0, h)], h + 5.0, RED, "")
+    .dots(vec![(0.0, 0.0), (dh, h)], BLACK, "")
+    .note(0.0, -1.0, "axis", BLACK)
+    .note(dh, h - 1.0, "contact", BLACK);
+    let turn: Vec<_> = rows.iter().take_while(|row| row[0] <= TAU).step_by(4).collect();
+    let over = |i: usize| -> Points { turn.iter().map(|row| (row[0] / TAU, row[i])).collect() };
+    let axis = |label, y, range| ((label, [0.0, 1.0]), (y, range));
+    let (x, y) = axis("", "x / mm", [-4.0, 7.0]);
+    let known =
+        over(1).into_iter().map(|(turn, _)| (turn, Cam::support(turn * TAU)[1])).step_by(12);
+    let place = Panel::new("Where they touch", x, y)
+        .size(420, 150)
+        .legend(SeriesLabelPosition::UpperMiddle)
+        .line(over(1), BLUE, "contact")
+        .dots(known.collect(), RED, "derivative of the lift");
+    let (x, y) = axis("revolutions", "half-width / mm", [0.0, 0.25]);
+    let width =
+        Panel::new("Half-width of the contact", x, y).size(420, 150).line(over(2), BLUE, "");
+    drawing::save("cam_follower", vec![vec![picture], vec![place, width]])
 }

@@ -3,9 +3,14 @@
 //! A flank is the involute of its base circle. By the angle `k` rolled off beyond the pitch
 //! point it is two short formulas; as `y = f(x)` it has no closed form. Lengths in m, pressures
 //! in Pa, load in N/m. The figures are checked against a solution of 25 digits
-//! (`tests/data/gear_involute_pitch_point.json`).
+//! (`tests/data/gear_involute_pitch_point.json`), and drawn to `target/figures/custom_profile.svg`.
 
-use linecontact::{Contact, ContactError, Control, CurvePoint, ParametricProfile};
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Panel, Points, RED};
+use linecontact::{Contact, Control, CurvePoint, ParametricProfile};
+use std::error::Error;
 
 /// The flank of a tooth. `x` runs along the common tangent at the pitch point, `y` across it.
 struct Flank {
@@ -33,7 +38,7 @@ impl ParametricProfile<f64> for Flank {
     }
 }
 
-fn main() -> Result<(), ContactError<f64>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let pitch = 93.0 / 256.0; // tan 19.97°
     let pinion = Flank { base_radius: 37.5e-3, pitch, side: -1.0 };
     let wheel = Flank { base_radius: 112.5e-3, pitch, side: 1.0 };
@@ -42,12 +47,36 @@ fn main() -> Result<(), ContactError<f64>> {
 
     let (a, b) = (solution.a(), solution.b());
     let pressure = solution.pressure()?;
-    let mut peak = 0.0f64;
-    for i in 1..1000 {
-        peak = peak.max(pressure.at(-b + (a + b) * f64::from(i) / 1000.0)?);
+    let mut points: Points = Vec::new();
+    for i in 0..=1000 {
+        let x = -b + (a + b) * f64::from(i) / 1000.0;
+        points.push((x, pressure.at(x)?));
     }
+    let peak = points.iter().fold(0.0f64, |peak, &(_, p)| peak.max(p));
     println!("contact from x = {:.6} mm to {:.6} mm", -b * 1e3, a * 1e3);
     println!("peak pressure {:.3} MPa", peak / 1e6);
+
+    let outline = |flank: &Flank| -> Points {
+        let [from, to] = flank.domain();
+        let points = (0..=200).map(|i| flank.at(from + (to - from) * f64::from(i) / 200.0));
+        points.map(|at| (1e3 * at.x, 1e3 * at.y)).collect()
+    };
+    let heights = [-12.0, 12.0];
+    let flanks =
+        Panel::new("Two flanks at the pitch point", ("x / mm", [-16.0, 16.0]), ("y / mm", heights))
+            .with_equal_scales(440)
+            .body(outline(&pinion), heights[0], BLUE, "")
+            .body(outline(&wheel), heights[1], RED, "")
+            .dots(vec![(0.0, 0.0)], BLACK, "")
+            .note(-4.0, -6.0, "pinion", BLUE)
+            .note(4.0, 6.0, "wheel", RED);
+    let points = points.into_iter().map(|(x, p)| (1e3 * x, 1e-6 * p)).step_by(5).collect();
+    let pressures = Panel::new("Pressure", ("x / mm", [-0.3, 0.3]), ("P / MPa", [0.0, 1500.0]))
+        .size(440, 330)
+        .body(points, 0.0, BLUE, "")
+        .limit(-1e3 * b, "−b")
+        .limit(1e3 * a, "a");
+    println!("{}", drawing::save("custom_profile", vec![vec![flanks], vec![pressures]])?);
 
     assert!((a / 2.3773942151913456e-4 - 1.0).abs() < 1e-12);
     assert!((b / 2.4161411179371945e-4 - 1.0).abs() < 1e-12);

@@ -1,17 +1,19 @@
 //! A pair of spur gears along the path of contact: how wide the contact is, and how hard it presses.
 //!
-//! Run with `cargo run --release --example gear_mesh`; half-width and peak pressure are drawn over one
-//! mesh to `target/figures/gear_mesh.svg`. Lengths in mm, pressures in MPa, load in N/mm. At each
+//! Run with `cargo run --release --example gear_mesh`; the flanks, half-width and peak pressure are
+//! drawn to `target/figures/gear_mesh.svg`. Lengths in mm, pressures in MPa, load in N/mm. At each
 //! instant the two flanks are involutes that touch on the line tangent to both base circles, and are
 //! checked against Hertz with the radii of curvature there. The flanks are taken a little longer than
 //! the teeth are, so that the corners at their tips do not count; two pairs share the load equally.
 
-use kuva::prelude::*;
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Panel, Points, RED};
 use linecontact::profile::{Involute, Placed, Placement};
-use linecontact::{Contact, Control, ProfileError, Solver};
+use linecontact::{Contact, Control, ParametricProfile, ProfileError, Solver};
 use std::error::Error;
 use std::f64::consts::PI;
-use std::fs;
 
 const MODULE: f64 = 3.0;
 const TEETH: [f64; 2] = [20.0, 60.0];
@@ -101,32 +103,41 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("off Hertz by no more than {:.1e} and {:.1e}, at best {least:.0e}", off[0], off[1]);
     println!("  and {share:.3} of the square of the change of the radii over the half-width");
-    println!("{}", draw(&rows)?);
+    println!("{}", draw(&mesh, &rows)?);
 
     assert!(off[0] < 0.01 && off[1] < 0.01 && share < 0.1, "{off:?} {share}");
     Ok(())
 }
 
-/// Draws half-width and peak over the mesh, and says where.
-fn draw(rows: &[Row]) -> Result<&'static str, Box<dyn Error>> {
-    let cell = |i: usize, unit: &str| {
+/// Draws the flanks at the pitch point, and half-width and peak over the mesh, and says where.
+fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
+    let pitch_point = mesh.base[0] * PRESSURE_ANGLE.tan();
+    let outline = |flank: &Flank| -> Points {
+        let [from, to] = flank.domain();
+        let points = (0..=200).map(|i| flank.at(from + (to - from) * f64::from(i) / 200.0));
+        points.map(|at| (at.x, at.y)).collect()
+    };
+    let [pinion, wheel] = mesh.flanks(pitch_point)?.each_ref().map(outline);
+    let heights = [-2.2, 2.2];
+    let flanks =
+        Panel::new("The flanks at the pitch point", ("x / mm", [-4.0, 4.0]), ("y / mm", heights))
+            .with_equal_scales(480)
+            .body(pinion, heights[0], BLUE, "")
+            .body(wheel, heights[1], RED, "")
+            .dots(vec![(0.0, 0.0)], BLACK, "")
+            .note(0.0, -1.3, "pinion, 20 teeth", BLUE)
+            .note(0.0, 1.4, "wheel, 60 teeth", RED);
+    let along = |i: usize, title: &str, label: &str, unit: &str, top: f64| {
         let points =
             |value: fn(&Row) -> [f64; 2]| rows.iter().map(move |row| (row.s, value(row)[i]));
-        let solved = LinePlot::new().with_data(points(|row| row.solved).collect::<Vec<_>>());
-        let hertz: Vec<_> = points(|row| row.hertz).step_by(8).collect();
-        let plots: Vec<Plot> = vec![
-            solved.with_color("#1f5fa8").with_stroke_width(2.0).with_legend("involutes").into(),
-            ScatterPlot::new().with_data(hertz).with_color("#b5401a").with_legend("Hertz").into(),
-        ];
-        let layout = Layout::auto_from_plots(&plots).with_y_label(unit).with_y_axis_min(0.0);
-        (plots, layout.with_x_label("distance along the path of contact / base pitch"))
+        let end = rows[rows.len() - 1].s;
+        Panel::new(title, (label, [0.0, end]), (unit, [0.0, top]))
+            .size(480, 130)
+            .line(points(|row| row.solved).collect(), BLUE, "involutes")
+            .dots(points(|row| row.hertz).step_by(8).collect(), RED, "Hertz")
     };
-    let (width, peak) = (cell(0, "half-width / mm"), cell(1, "peak pressure / MPa"));
-    let figure = Figure::new(2, 1)
-        .with_plots(vec![width.0, peak.0])
-        .with_layouts(vec![width.1.with_title("One mesh of two spur gears"), peak.1])
-        .with_cell_size(640.0, 300.0);
-    fs::create_dir_all("target/figures")?;
-    fs::write("target/figures/gear_mesh.svg", SvgBackend.render_scene(&figure.render()))?;
-    Ok("target/figures/gear_mesh.svg")
+    let width = along(0, "Half-width", "", "half-width / mm", 0.25);
+    let label = "distance along the path of contact / base pitch";
+    let peak = along(1, "Peak pressure", label, "peak / MPa", 2000.0);
+    drawing::save("gear_mesh", vec![vec![flanks], vec![width, peak]])
 }

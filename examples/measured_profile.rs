@@ -5,10 +5,13 @@
 //! solves; since it is a circle, the answer is known. The pressure is drawn to
 //! `target/figures/measured_profile.svg`. Lengths in mm, pressures in MPa, load in N/mm.
 
-use kuva::prelude::*;
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLUE, GRAY, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse};
-use linecontact::{Contact, Control, Flat};
+use linecontact::{Contact, Control, Flat, ParametricProfile};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -21,7 +24,7 @@ const NOISE: f64 = 1e-4; // standard deviation of the heights, a tenth of a micr
 const POINTS: i32 = 2000; // on either side, a micrometre apart
 
 fn main() -> Result<(), Box<dyn Error>> {
-    fs::create_dir_all("target/figures")?;
+    fs::create_dir_all("target")?;
     fs::write("target/measured_profile.txt", measurement()?)?;
     let points = read(&fs::read_to_string("target/measured_profile.txt")?)?;
     let (raw, smooth) = (
@@ -41,7 +44,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("off by {:.1e} and {:.1e}, pressure in the middle by {:.1e}", off[0], off[1], off[2]);
 
     let slope = |body: &Spline<f64>| {
-        use linecontact::ParametricProfile;
         let off = |i: i32| body.at(1e-3 * f64::from(i)).dy - exact.slope(1e-3 * f64::from(i));
         ((-240..=240).map(|i| off(i).powi(2)).sum::<f64>() / 481.0).sqrt()
     };
@@ -53,22 +55,37 @@ fn main() -> Result<(), Box<dyn Error>> {
     let error = Spline::through(&dusty).map(|_| ()).expect_err("dust");
     println!("with a speck of dust: {error}");
 
-    let line = |points: Vec<(f64, f64)>, color, legend| -> Plot {
-        let line = LinePlot::new().with_data(points).with_color(color).with_legend(legend);
-        line.with_stroke_width(2.0).into()
-    };
     let x: Vec<f64> = (1..200).map(|i| on.at_angle(PI * f64::from(i) / 200.0)).collect();
     let mut pressures = vec![0.0; x.len()];
     pressure.at_many(&x, &mut pressures)?;
-    let solved = x.iter().copied().zip(pressures).collect();
-    let known = x.iter().map(|&x| (x, exact.pressure(x, kappa))).collect();
-    let plots = vec![line(known, "#b5401a", "the circle"), line(solved, "#1f5fa8", "as measured")];
-    let layout = Layout::auto_from_plots(&plots)
-        .with_title("A measured roller on a flat")
-        .with_x_label("x / mm")
-        .with_y_label("P / MPa")
-        .with_y_axis_min(0.0);
-    fs::write("target/figures/measured_profile.svg", kuva::render_to_svg(plots, layout))?;
+    let solved: Points = x.iter().copied().zip(pressures).collect();
+    let known = x.iter().map(|&x| (x, exact.pressure(x, kappa))).step_by(6).collect();
+    // What is measured and smoothed beyond the circle, in micrometres.
+    let beyond = |x: f64, y: f64| (x, 1e3 * (y - RADIUS + (RADIUS * RADIUS - x * x).sqrt()));
+    let range = [-0.3, 0.3];
+    let near: Points = points
+        .iter()
+        .map(|&[x, y]| beyond(x, y))
+        .filter(|at| at.0.abs() <= 0.3)
+        .step_by(2)
+        .collect();
+    let fitted = (-100..=100).map(|i| 0.003 * f64::from(i)).map(|x| beyond(x, smooth.at(x).y));
+    let heights = Panel::new(
+        "A measured roller: heights beyond the circle",
+        ("", range),
+        ("y − y(circle) / µm", [-0.4, 0.6]),
+    )
+    .size(520, 170)
+    .dots(near, GRAY, "measured")
+    .line(fitted.collect(), BLUE, "smoothed");
+    let pressures = Panel::new("Pressure on a flat", ("x / mm", range), ("P / MPa", [0.0, 1600.0]))
+        .size(520, 220)
+        .legend(SeriesLabelPosition::LowerMiddle)
+        .line(solved, BLUE, "as measured")
+        .dots(known, RED, "of the circle")
+        .limit(on.left, "−b")
+        .limit(on.right, "a");
+    println!("{}", drawing::save("measured_profile", vec![vec![heights, pressures]])?);
 
     assert!(off.into_iter().all(|off| off.abs() < 0.01), "{off:?}");
     assert!(slope(&smooth) < 0.003 * slope(&raw));

@@ -3,8 +3,13 @@
 //!
 //! Run with `cargo run --release --example pieces`. Evaluations and microseconds are for each piece
 //! in the contact, those of making the body for each of its pieces, those of a pressure for all of
-//! it. The limits are checked against the exact solution.
+//! it. The limits are checked against the exact solution; the evaluations are drawn to
+//! `target/figures/pieces.svg`.
 
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLUE, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
@@ -22,6 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     measure(10)?; // The tables of the quadrature are made once.
     println!("            evaluations               microseconds");
     println!("    pieces  first  next  |   make   first    next   P(x)  |  error of a");
+    let (mut first_solves, mut next_solves) = (Points::new(), Points::new());
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
     for pieces in [10, 100, 1_000, 10_000, 100_000] {
         let Row { evaluations: [first, next], micros: [make, cold, warm, pressure], error } =
@@ -30,12 +36,25 @@ fn main() -> Result<(), Box<dyn Error>> {
             "{pieces:10} {first:6.2} {next:5.2}  | {make:6.2} {cold:7.2} {warm:7.2} {pressure:6.2}  \
              | {error:9.0e}"
         );
+        let inside = (pieces as f64 * 0.5).log10();
+        first_solves.push((inside, (first * pieces as f64 * 0.5).log10()));
+        next_solves.push((inside, (next * pieces as f64 * 0.5).max(1.0).log10()));
         // Of ten pieces the two at the edges, which are sampled beyond the contact, are many.
         if pieces >= 100 {
             (least, most) = (least.min(first), most.max(first));
         }
         assert!(error < 1e-12);
     }
+    let axes = (("pieces in the contact", [0.5, 5.0]), ("evaluations of the curves", [0.0, 6.0]));
+    let panel = Panel::new("A circle cut into arcs", axes.0, axes.1)
+        .size(440, 300)
+        .powers(true, true)
+        .legend(SeriesLabelPosition::UpperLeft)
+        .line(first_solves.clone(), BLUE, "first solve")
+        .dots(first_solves, BLUE, "")
+        .line(next_solves.clone(), RED, "next solve, 8 % more load")
+        .dots(next_solves, RED, "");
+    println!("{}", drawing::save("pieces", vec![vec![panel]])?);
     assert!(most < 1.3 * least, "a piece costs the same however many there are");
     Ok(())
 }

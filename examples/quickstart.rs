@@ -1,14 +1,18 @@
 //! A steel roller in a groove: where they touch, how hard they press, and how sure that is.
 //!
 //! Lengths in mm, pressures in MPa, load in N/mm. Run with `cargo run --release --example
-//! quickstart`; the pressure is drawn to `target/figures/quickstart.svg`. Two circles have an exact
-//! solution, against which the figures are checked.
+//! quickstart`. The bodies, the pressure and the stress below are drawn to `target/figures/quickstart.svg`.
+//! Two circles have an exact solution, against which the figures are checked.
 
-use kuva::prelude::*;
-use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Solution};
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Grid, Panel, Points, RED, tint};
+use linecontact::{
+    Contact, ContactError, Control, Cost, Curve, CurvePoint, ParametricProfile, Solution,
+};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fs;
 
 const MODULUS: f64 = 115e3; // E*: 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂
 const LOAD: f64 = 500.0;
@@ -31,11 +35,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (peak, pressure) = (solution.peak()?, solution.pressure()?);
     let limits_error = solution.limits_error().unwrap_or(0.0);
     let peak_error = pressure.estimate(peak.x, &mut Cost::default())?.error / peak.pressure;
-    println!("a = {a:.13} mm, b = {b:.13} mm, estimated relative error {limits_error:.0e}");
-    println!("peak {:.9} MPa at x = {:.0e} mm", peak.pressure, peak.x);
-    println!("  estimated relative error {peak_error:.0e}");
+    let lines = [
+        format!("contact from {:.6} to {a:.6} mm", -b),
+        format!("largest pressure {:.3} MPa", peak.pressure),
+        format!("pressure at 0.1 mm {:.3} MPa", pressure.at(0.1)?),
+    ];
+    for line in lines {
+        println!("{line}");
+        assert!(include_str!("../README.md").contains(&line), "the README prints something else");
+    }
+    println!("estimated relative errors: limits {limits_error:.0e}, peak {peak_error:.0e}");
     println!("{} evaluations of the two curves", solution.cost().evaluations);
-    println!("{}", draw(&solution)?);
+    println!("{}", draw([&groove, &roller], &solution)?);
 
     // The slope of the gap is x/sqrt(r² - x²) of the roller less that of the groove, and so are the
     // load and the pressure in the middle: with m = (a/r)², E* r (K(m) - E(m)) and E* a K(m)/(π r).
@@ -59,25 +70,57 @@ fn elliptic(modulus: f64) -> (f64, f64) {
     (FRAC_PI_2 / a, FRAC_PI_2 / a * sum)
 }
 
-/// Draws the pressure, and says where.
-fn draw(solution: &Solution<f64>) -> Result<&'static str, Box<dyn Error>> {
-    let (on, pressure) = (solution.hull(), solution.pressure()?);
+/// Draws the bodies, the pressure and the stress below, and says where.
+fn draw(
+    bodies: [&dyn ParametricProfile<f64>; 2],
+    solution: &Solution<f64>,
+) -> Result<String, Box<dyn Error>> {
+    let [groove, roller] = bodies;
+    let outline = |body: &dyn ParametricProfile<f64>, end: f64| -> Points {
+        (-100..=100).map(|i| body.at(end * f64::from(i) / 100.0)).map(|at| (at.x, at.y)).collect()
+    };
+    let lower = outline(roller, 1.5);
+    let upper = lower.iter().rev().map(|&(x, y)| (x, 2.0 * ROLLER - y));
+    let circle: Points = lower.iter().copied().chain(upper).chain([lower[0]]).collect();
+    let arrow = vec![(0.0, 5.0), (-0.5, 6.4), (0.5, 6.4)];
+    let axes = (("x / mm", [-12.0, 12.0]), ("y / mm", [-4.0, 20.5]));
+    let whole = Panel::new("A roller in a groove", axes.0, axes.1)
+        .with_equal_scales(400)
+        .body(outline(groove, 0.32), -4.0, BLUE, "")
+        .area(circle.clone(), tint(RED, 0.18))
+        .line(circle, RED, "")
+        .line(vec![(0.0, 10.0), (0.0, 6.0)], BLACK, "")
+        .area(arrow, BLACK)
+        .note(0.0, 11.3, "F = 500 N/mm", BLACK)
+        .note(0.0, 16.0, "roller, r = 10 mm", RED)
+        .note(0.0, -1.8, "groove, r = 40 mm", BLUE);
+
+    let (on, pressure, below) = (solution.hull(), solution.pressure()?, solution.subsurface()?);
     // At equal angles, close together at the edges where the pressure is steep.
     let x = (0..=200).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 200.0)));
     let points =
-        x.map(|x| Ok((x, pressure.at(x)?))).collect::<Result<Vec<_>, ContactError<_>>>()?;
-    let line = LinePlot::new().with_data(points).with_color("#1f5fa8").with_stroke_width(2.0);
-    let limit = |x, name| ReferenceLine::vertical(x).with_color("black").with_label(name);
-    let plots: Vec<Plot> = vec![line.into()];
-    let layout = Layout::auto_from_plots(&plots)
-        .with_title("A steel roller in a groove, 500 N/mm")
-        .with_x_label("x / mm")
-        .with_y_label("P / MPa")
-        .with_y_axis_min(0.0)
-        .with_box_axes()
-        .with_reference_line(limit(on.left, "−b"))
-        .with_reference_line(limit(on.right, "a"));
-    fs::create_dir_all("target/figures")?;
-    fs::write("target/figures/quickstart.svg", kuva::render_to_svg(plots, layout))?;
-    Ok("target/figures/quickstart.svg")
+        x.map(|x| Ok((x, pressure.at(x)?))).collect::<Result<Points, ContactError<_>>>()?;
+    let range = [-0.6, 0.6];
+    let pressures = Panel::new("Pressure between them", ("", range), ("P / MPa", [0.0, 1400.0]))
+        .size(440, 170)
+        .body(points, 0.0, BLUE, "")
+        .limit(on.left, "−b")
+        .limit(on.right, "a");
+
+    let shear = |x, y: f64| Ok::<_, ContactError<f64>>(below.at(x, -y)?.max_shear());
+    let depths = [-0.5, 0.0];
+    let shears = Grid::new(range, depths, [72, 30], shear)?;
+    let levels: Vec<f64> = (1..=11).map(|i| 30.0 * f64::from(i)).collect();
+    let worst = below.max_shear()?;
+    let name = format!("{:.0} MPa", worst.value);
+    let stress = Panel::new(
+        "Largest shear stress below it, in steps of 30 MPa",
+        ("x / mm", range),
+        ("y / mm", depths),
+    )
+    .with_equal_scales(440)
+    .levels(&shears, &levels, RED)
+    .dots(vec![(worst.x, -worst.depth)], BLACK, "")
+    .note(worst.x, -worst.depth - 0.01, &name, BLACK);
+    drawing::save("quickstart", vec![vec![whole], vec![pressures, stress]])
 }

@@ -4,25 +4,61 @@
 //! form, the second against a parabola with another radius on either side, which the arcs are as far
 //! as the contact is small. Lengths in mm, pressures in MPa, load in N/mm.
 
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Panel, Points, RED, RGBColor, SeriesLabelPosition, mix};
 use linecontact::profile::{Crowning, Ellipse, Placed, Placement};
 use linecontact::reference::{self, ClosedForm, UnequalRadii};
-use linecontact::{Contact, Control, Flat, ParametricProfile, Piecewise};
+use linecontact::{Contact, ContactError, Control, Flat, ParametricProfile, Piecewise, Solution};
 use std::error::Error;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const MODULUS: f64 = 115e3;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    roller()?;
-    wheel()
+    println!("{}", drawing::save("roller_and_wheel", vec![roller()?, wheel()?])?);
+    Ok(())
 }
 
-fn roller() -> Result<(), Box<dyn Error>> {
+/// Pressures from edge to edge.
+fn pressures(solution: &Solution<f64>) -> Result<Points, ContactError<f64>> {
+    let (on, pressure) = (solution.hull(), solution.pressure()?);
+    let x = (0..=120).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 120.0)));
+    x.map(|x| Ok((x, pressure.at(x)?))).collect()
+}
+
+fn outline(body: &dyn ParametricProfile<f64>) -> Points {
+    let [from, to] = body.domain();
+    let points = (0..=300).map(|i| body.at(from + (to - from) * f64::from(i) / 300.0));
+    points.map(|at| (at.x, at.y)).collect()
+}
+
+/// From light blue to red, for three loads.
+fn shade(i: usize) -> RGBColor {
+    mix(drawing::tint(BLUE, 0.5), RED, i as f64 / 2.0)
+}
+
+fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     let (depth, end, kappa) = (0.003, 8.0, FRAC_PI_2 * MODULUS);
     let roller = Crowning::new(depth, end, [-end, end])?;
     let contact = Contact::new(&Flat, &roller)?.contact_modulus(MODULUS);
+    let range = [-8.5, 8.5];
+    let relief = outline(&roller).into_iter().map(|(x, y)| (x, 1e3 * y)).collect();
+    let shape = Panel::new(
+        "A roller with logarithmic relief on a flat",
+        ("x / mm", range),
+        ("y / µm", [-4.0, 12.0]),
+    )
+    .size(440, 180)
+    .body(vec![(-8.5, 0.0), (8.5, 0.0)], -4.0, BLUE, "")
+    .body(relief, 12.0, RED, "");
+    let axes = (("x / mm", range), ("P / MPa", [0.0, 300.0]));
+    let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
+        .size(440, 200)
+        .legend(SeriesLabelPosition::UpperMiddle);
     println!("roller with relief: off the closed form by");
-    for half_width in [2.0, 6.0, 7.9] {
+    for (i, half_width) in [4.0, 7.0, 7.6].into_iter().enumerate() {
         let form = reference::Crowning::new(depth, end, half_width)?;
         let load = form.load(kappa);
         let solution = contact.solve(Control::Load(load))?;
@@ -32,8 +68,9 @@ fn roller() -> Result<(), Box<dyn Error>> {
         let off = ratios.map(|ratio| (ratio - 1.0).abs());
         println!("  {:.0e} and {:.0e} at {load:.0} N/mm", off[0], off[1]);
         assert!(off.into_iter().all(|off| off < 1e-12), "{off:?}");
+        drawn = drawn.line(pressures(&solution)?, shade(i), &format!("{load:.0} N/mm"));
     }
-    Ok(())
+    Ok(vec![shape, drawn])
 }
 
 /// Arcs without corners between them.
@@ -63,7 +100,7 @@ fn arcs(sides: [&[(f64, f64)]; 2]) -> Result<Arcs, Box<dyn Error>> {
     Ok(Piecewise::new(parts)?)
 }
 
-fn wheel() -> Result<(), Box<dyn Error>> {
+fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
     // Arcs of 300, 80 and 13 mm on the rail; on the wheel a hollow tread of 500, and a bulging one.
     let rail = arcs([&[(-300.0, 25.0)], &[(-80.0, 15.0), (-13.0, 8.0)]])?;
     let tread = arcs([&[(-500.0, 20.0), (400.0, 15.0)], &[(400.0, 30.0)]])?;
@@ -72,8 +109,24 @@ fn wheel() -> Result<(), Box<dyn Error>> {
     let radii = [combined(300.0, -500.0), combined(80.0, 400.0)];
     println!("wheel on rail: radii {radii:.1?}; off the parabolas by");
     let kappa = FRAC_PI_2 * MODULUS;
+    let heights = [-6.0, 6.0];
+    let shape = Panel::new(
+        "A wheel of arcs on a rail of arcs",
+        ("x / mm", [-25.0, 23.0]),
+        ("y / mm", heights),
+    )
+    .size(440, 180)
+    .body(outline(&rail), heights[0], BLUE, "")
+    .body(outline(&tread), heights[1], RED, "")
+    .dots(vec![(0.0, 0.0)], BLACK, "")
+    .note(0.0, -2.5, "rail, radii 300, 80 and 13 mm", BLUE)
+    .note(0.0, 4.0, "wheel, radii −500 and 400 mm", RED);
+    let axes = (("x / mm", [-3.5, 1.0]), ("P / MPa", [0.0, 600.0]));
+    let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
+        .size(440, 200)
+        .legend(SeriesLabelPosition::UpperLeft);
     let mut last = f64::INFINITY;
-    for load in [1000.0, 100.0, 10.0] {
+    for (i, load) in [1000.0, 100.0, 10.0].into_iter().enumerate() {
         let solution = contact.solve(Control::Load(load))?;
         let form = UnequalRadii::under_load(radii[0], radii[1], load, kappa)?;
         let (got, want) = (solution.hull(), form.limits());
@@ -88,6 +141,7 @@ fn wheel() -> Result<(), Box<dyn Error>> {
         // The square of the half-width over the radii goes with the load.
         assert!(off < 2e-6 * load && off < 0.2 * last, "{off}");
         last = off;
+        drawn = drawn.line(pressures(&solution)?, shade(2 - i), &format!("{load:.0} N/mm"));
     }
-    Ok(())
+    Ok(vec![shape, drawn])
 }

@@ -9,12 +9,14 @@
 //! As the load grows contacts are born and merge, and limits only move outwards (Buyarov and Rakhmanov,
 //! 1999): checked from each load to the next.
 
-use kuva::prelude::*;
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLUE, Panel, Points, RED, SeriesLabelPosition, mix, tint};
 use linecontact::profile::{Fit, Spline};
 use linecontact::{Contact, Control, Cost, Flat, Interval, ParametricProfile, Solution, Solver};
 use std::error::Error;
 use std::f64::consts::PI;
-use std::fs;
 
 const RADIUS: f64 = 60.0;
 const MODULUS: f64 = 115e3;
@@ -118,49 +120,42 @@ fn measurement() -> Vec<[f64; 2]> {
     (-POINTS..=POINTS).map(&mut point).collect()
 }
 
-/// Draws the pressures over the profile, and says where.
-fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<&'static str, Box<dyn Error>> {
-    let line = |points: Vec<(f64, f64)>, color: String| {
-        LinePlot::new().with_data(points).with_color(color).with_stroke_width(1.5)
-    };
-    let hull = |pressed: &Pressed| {
-        let last = pressed.contacts.len() - 1;
-        [pressed.contacts[0].left, pressed.contacts[last].right]
-    };
-    let [left, right] = hull(&all[all.len() - 1]);
-    let [left, right] = [left - 0.1, right + 0.1];
-    // From light blue to red.
-    let color = |i: usize| {
-        let mix = |from: usize, to: usize| (from * (COUNT - 1 - i) + to * i) / (COUNT - 1);
-        format!("#{:02x}{:02x}{:02x}", mix(130, 181), mix(180, 64), mix(230, 26))
-    };
-    let pressures: Vec<Plot> =
-        (0..all.len()).map(|i| line(all[i].pressures.clone(), color(i)).into()).collect();
-    let x = (0..=2000).map(|i| left + (right - left) * f64::from(i) / 2000.0);
-    let heights = x.map(|x| (x, 1e3 * body.at(x).y)).collect();
-    let profile: Vec<Plot> = vec![line(heights, "#333333".to_owned()).into()];
-    let counts = all.iter().map(|one| (one.load.log10(), one.contacts.len() as f64)).collect();
-    let counts: Vec<Plot> = vec![line(counts, color(0)).with_step().into()];
-
-    let over_x = |plots: &[Plot], title: &str, y: &str| {
-        let layout = Layout::auto_from_plots(plots).with_title(title).with_y_label(y);
-        layout.with_x_axis_min(left).with_x_axis_max(right).with_box_axes()
-    };
-    let layouts = vec![
-        over_x(&pressures, "Pressures under 1 (blue) to 4000 N/mm (red)", "P / MPa")
-            .with_y_axis_min(0.0),
-        over_x(&profile, "The profile, over a flat below", "y / µm").with_x_label("x / mm"),
-        Layout::auto_from_plots(&counts)
-            .with_title("Places of contact")
-            .with_x_label("log₁₀ F, F in N/mm")
-            .with_y_label("number")
-            .with_y_axis_min(0.0)
-            .with_box_axes(),
-    ];
-    let figure = Figure::new(3, 1).with_plots(vec![pressures, profile, counts]);
-    let figure =
-        figure.with_layouts(layouts).with_cell_size(640.0, 260.0).with_row_height(0, 420.0);
-    fs::create_dir_all("target/figures")?;
-    fs::write("target/figures/rough_profile.svg", SvgBackend.render_scene(&figure.render()))?;
-    Ok("target/figures/rough_profile.svg")
+/// Draws some of the pressures over the profile, and says where.
+fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
+    let widest = &all[all.len() - 1].contacts[0];
+    let range = [widest.left - 0.1, widest.right + 0.1];
+    let axes = (("", range), ("P / MPa", [0.0, 3000.0]));
+    let mut pressures = Panel::new("Pressure under loads from 1 to 4000 N/mm", axes.0, axes.1)
+        .size(560, 280)
+        .legend(SeriesLabelPosition::UpperLeft);
+    for (i, pressed) in all.iter().enumerate().step_by(3) {
+        // From light blue to red, each down to zero where two contacts part.
+        let color = mix(tint(BLUE, 0.5), RED, i as f64 / (COUNT - 1) as f64);
+        for (j, on) in pressed.contacts.iter().enumerate() {
+            let here: Points =
+                pressed.pressures.iter().filter(|at| on.contains(at.0)).copied().collect();
+            let label = if j == 0 { format!("{:.0} N/mm", pressed.load) } else { String::new() };
+            // About as many points as pixels, and the last.
+            let every = (5.0 / (on.right - on.left)).clamp(1.0, 40.0) as usize;
+            let last = here[here.len() - 1];
+            let drawn = here.into_iter().step_by(every).chain([last]).collect();
+            pressures = pressures.line(drawn, color, &label);
+        }
+    }
+    let x = (0..=400).map(|i| range[0] + (range[1] - range[0]) * f64::from(i) / 400.0);
+    let heights: Points = x.map(|x| (x, 1e3 * body.at(x).y)).collect();
+    let flat = heights.iter().fold(f64::INFINITY, |least, at| least.min(at.1));
+    let profile = Panel::new("The profile, on a flat", ("x / mm", range), ("y / µm", [-2.0, 16.0]))
+        .size(560, 150)
+        .body(vec![(range[0], flat), (range[1], flat)], -2.0, BLUE, "")
+        .body(heights, 16.0, RED, "");
+    let counts: Points =
+        all.iter().map(|one| (one.load.log10(), one.contacts.len() as f64)).collect();
+    let most = counts.iter().fold(0.0, |most: f64, at| most.max(at.1));
+    let counts = Panel::new("Contacts", ("F / (N/mm)", [0.0, 3.7]), ("number", [0.0, most + 1.0]))
+        .size(560, 120)
+        .powers(true, false)
+        .line(counts.clone(), BLUE, "")
+        .dots(counts, BLUE, "");
+    drawing::save("rough_profile", vec![vec![pressures, profile, counts]])
 }

@@ -2,23 +2,22 @@
 //!
 //! Run with `cargo run --release --example stress_field`. It prints the greatest shear and the
 //! greatest von Mises stress with their depths, checked against Hertz's solution, and draws the two
-//! bodies before and under load, the pressure, and the lines of equal shear below, all in terms of
+//! bodies before and under load, the pressure, and the shear below, all in terms of
 //! the half-width L and the peak pressure p₀, to `target/figures/stress_field.svg`.
 //!
 //! The bodies are of like material, so that each takes half of what the pressure moves their
 //! surfaces apart. How far they approach each other as a whole has no meaning in plane strain without
 //! a place to measure it from: the loaded bodies are drawn with y = 0 at the edges of the contact.
 
-use kuva::prelude::*;
+#[path = "shared/drawing.rs"]
+mod drawing;
+
+use drawing::{BLACK, BLUE, Grid, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::stress::Subsurface;
 use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Flat, Solution};
 use std::error::Error;
-use std::fs;
-use std::time::Instant;
 
 const L: f64 = 0.1;
-const BLUE: &str = "#1f5fa8";
-const RED: &str = "#b5401a";
 
 fn main() -> Result<(), Box<dyn Error>> {
     // A roller of radius 1 as the parabola that Hertz takes it for.
@@ -37,9 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let moved = sliding.max_shear()?;
     println!("with friction 0.25: largest shear {:.7} p₀", moved.value / p0);
     println!("  at x = {:.7} L, depth {:.7} L", moved.x / L, moved.depth / L);
-    let start = Instant::now();
-    let path = draw(&solution, &below, p0)?;
-    println!("{path}, in {:.2} s", start.elapsed().as_secs_f64());
+    println!("{}", draw(&solution, [&below, &sliding], p0)?);
 
     // Johnson, Contact Mechanics, 1985, Eqs. 4.46 and 4.47.
     assert!((shear.value / p0 - 0.3002831).abs() < 1e-7);
@@ -60,14 +57,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Draws everything over the same x, and says where.
 fn draw(
     solution: &Solution<f64>,
-    below: &Subsurface<f64>,
+    below: [&Subsurface<f64>; 2],
     p0: f64,
-) -> Result<&'static str, Box<dyn Error>> {
+) -> Result<String, Box<dyn Error>> {
     const REACH: f64 = 2.5;
-    let x: Vec<f64> = (-250..=250).map(|i| f64::from(i) / 100.0).collect();
-    let line = |points: Vec<(f64, f64)>, color| {
-        LinePlot::new().with_data(points).with_color(color).with_stroke_width(2.0)
-    };
+    let x: Vec<f64> = (-100..=100).map(|i| f64::from(i) / 40.0).collect();
 
     // The roller on the flat, in units of L²/R = L². Of the gap that opens beside the contact over
     // that of the bodies, and of their common surface in it, each has half.
@@ -80,47 +74,49 @@ fn draw(
     };
     let loaded: Vec<[f64; 2]> =
         x.iter().map(|&x| loaded(x)).collect::<Result<_, ContactError<_>>>()?;
-    let under = |i: usize| line(x.iter().zip(&loaded).map(|(&x, y)| (x, y[i])).collect(), BLUE);
-    let before = |height: fn(f64) -> f64| {
-        line(x.iter().map(|&x| (x, height(x))).collect(), RED).with_dashed()
-    };
-    let bodies: Vec<Plot> = vec![
-        before(|_| 0.0).with_legend("before loading").into(),
-        before(|x| x * x / 2.0).into(),
-        under(0).with_legend("under load").into(),
-        under(1).into(),
-    ];
+    let surface = |i: usize| -> Points { x.iter().zip(&loaded).map(|(&x, y)| (x, y[i])).collect() };
+    let before = |height: fn(f64) -> f64| -> Points { x.iter().map(|&x| (x, height(x))).collect() };
+    let range = [-REACH, REACH];
+    let heights = [-0.9, 2.6];
+    let bodies = Panel::new(
+        "The bodies (under load: from the edges of the contact)",
+        ("", range),
+        ("y R/L²", heights),
+    )
+    .size(500, 200)
+    .legend(SeriesLabelPosition::UpperMiddle)
+    .body(surface(0), heights[0], BLUE, "flat under load")
+    .body(surface(1), heights[1], RED, "roller under load")
+    .dashed(before(|_| 0.0), BLACK, "before loading")
+    .dashed(before(|x| x * x / 2.0), BLACK, "");
+
     let pressure = solution.pressure()?;
     let share = |&x: &f64| Ok((x, pressure.estimate(L * x, &mut Cost::default())?.value / p0));
-    let pressure: Vec<Plot> =
-        vec![line(x.iter().map(share).collect::<Result<_, ContactError<_>>>()?, BLUE).into()];
+    let pressures = x.iter().map(share).collect::<Result<Points, ContactError<_>>>()?;
+    let pressures = Panel::new("Pressure", ("x/L", range), ("P/p₀", [0.0, 1.2]))
+        .size(500, 160)
+        .body(pressures, 0.0, BLUE, "")
+        .limit(-1.0, "−L")
+        .limit(1.0, "L");
 
-    let across: Vec<f64> = (-75..=75).map(|i| REACH * f64::from(i) / 75.0).collect();
-    let up: Vec<f64> = (0..=75).rev().map(|i| -REACH * f64::from(i) / 75.0).collect();
-    let row = |&y: &f64| {
-        let shear = |&x: &f64| Ok(below.at(L * x, -L * y)?.max_shear() / p0);
-        across.iter().map(shear).collect::<Result<Vec<f64>, ContactError<f64>>>()
+    let levels: Vec<f64> = (1..=8).map(|i| 0.04 * f64::from(i)).collect();
+    let field = |below: &Subsurface<f64>, title: &str, label: &str| {
+        let shear =
+            |x, y: f64| Ok::<_, ContactError<f64>>(below.at(L * x, -L * y)?.max_shear() / p0);
+        let grid = Grid::new(range, [-2.0, 0.0], [42, 17], shear)?;
+        let worst = below.max_shear()?;
+        let (x, y) = (worst.x / L, -worst.depth / L);
+        let panel = Panel::new(title, (label, range), ("−depth/L", [-2.0, 0.0]));
+        let panel =
+            panel.with_equal_scales(500).levels(&grid, &levels, RED).dots(vec![(x, y)], BLACK, "");
+        Ok::<_, ContactError<f64>>(panel.note(
+            x,
+            y - 0.06,
+            &format!("{:.3} p₀", worst.value / p0),
+            BLACK,
+        ))
     };
-    let grid = up.iter().map(row).collect::<Result<Vec<_>, _>>()?;
-    let levels: Vec<f64> = (1..=14).map(|i| 0.02 * f64::from(i)).collect();
-    let contours = ContourPlot::new().with_grid(grid, across, up).with_levels(&levels);
-    let field: Vec<Plot> = vec![contours.with_line_color(BLUE).with_line_width(1.2).into()];
-
-    let framed = |plots: &[Plot], title: &str, y: &str| {
-        let layout = Layout::auto_from_plots(plots).with_title(title).with_y_label(y);
-        layout.with_x_axis_min(-REACH).with_x_axis_max(REACH).with_box_axes()
-    };
-    let layouts = vec![
-        framed(&bodies, "The two bodies (under load: from the edges of the contact)", "y R/L²")
-            .with_legend_position(LegendPosition::InsideTopCenter),
-        framed(&pressure, "Pressure", "P/p₀").with_y_axis_min(0.0),
-        framed(&field, "Largest shear stress, 0.02 p₀ from line to line", "−depth/L")
-            .with_x_label("x/L")
-            .with_y_axis_min(-REACH),
-    ];
-    let figure = Figure::new(3, 1).with_plots(vec![bodies, pressure, field]).with_layouts(layouts);
-    let figure = figure.with_cell_size(640.0, 260.0).with_row_height(2, 420.0).with_shared_x_all();
-    fs::create_dir_all("target/figures")?;
-    fs::write("target/figures/stress_field.svg", SvgBackend.render_scene(&figure.render()))?;
-    Ok("target/figures/stress_field.svg")
+    let still = field(below[0], "Largest shear stress, in steps of 0.04 p₀", "")?;
+    let sliding = field(below[1], "The same with friction, µ = 0.25", "x/L")?;
+    drawing::save("stress_field", vec![vec![bodies, pressures], vec![still, sliding]])
 }

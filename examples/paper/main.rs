@@ -4,6 +4,8 @@
 //! below them; the figures go to `target/figures`. The run fails if a digit differs.
 
 mod curves;
+#[path = "../shared/drawing.rs"]
+mod drawing;
 mod figures;
 mod limits;
 mod tables;
@@ -27,9 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     println!("# Figures 2 to 7");
     for (case, solved) in CASES.iter().zip(&free) {
-        for path in figures::draw(case, solved)? {
-            println!("{}", path.display());
-        }
+        println!("{}", figures::draw(case, solved)?);
     }
 
     for entry in &entries {

@@ -6,9 +6,8 @@
 #[path = "expression.rs"]
 mod expression;
 
-pub use expression::{Expression, Number};
+pub use expression::{Expression, Number, SyntaxError};
 
-use exmex::ExError;
 use linecontact::{CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 use serde_json::Value;
 use thiserror::Error;
@@ -62,8 +61,8 @@ pub enum BodyError<T: Number> {
     Formula {
         /// The formula.
         text: String,
-        /// What exmex says.
-        source: ExError,
+        /// Where it cannot.
+        source: SyntaxError,
     },
     /// The pieces do not make a body.
     #[error(transparent)]

@@ -1,103 +1,169 @@
 //! A formula in `k` as the reference files write it, compiled once.
 //!
-//! Python's rules: `**` before a sign before `*` and `/` before `+` and `-`, and equals from left
-//! to right, so that every rounding is that of the formula as written. Operators of our own give
-//! exmex these rules; its defaults take `-k^2` for `(-k)^2` and `2*k/3` for `2*(k/3)`.
+//! Python's rules: `**`, from right to left, before a sign before `*` and `/` before `+` and `-`, and these
+//! from left to right, so that every rounding is that of the formula as written. The one difference: an
+//! exponent with a sign needs parentheses.
 
-use exmex::{BinOp, ExError, Express, FlatEx, MakeOperators, Operator};
 use linecontact::Real;
 use std::fmt::Debug;
 use std::str::FromStr;
+use thiserror::Error;
 
 /// A real number that can be read: `f32`, `f64`.
-pub trait Number: Real + Default + FromStr<Err: Debug> {}
-impl<T: Real + Default + FromStr<Err: Debug>> Number for T {}
+pub trait Number: Real + FromStr<Err: Debug> {}
+impl<T: Real + FromStr<Err: Debug>> Number for T {}
 
-/// A formula in `k`, or a constant. Boxed, because a [`FlatEx`] takes 20 kB on the stack.
+/// What cannot be read, up to the end of the formula.
+#[derive(Debug, Error)]
+#[error("{wanted} is expected at {rest:?}")]
+pub struct SyntaxError {
+    wanted: &'static str,
+    rest: String,
+}
+
+/// A formula in `k`, or a constant.
 #[derive(Clone, Debug)]
-pub struct Expression<T: Number>(Box<FlatEx<T, Operators>>);
+pub enum Expression<T: Number> {
+    K,
+    Constant(T),
+    Function(fn(T) -> T, Box<Self>),
+    Operation(fn(T, T) -> T, Box<[Self; 2]>),
+}
 
 impl<T: Number> Expression<T> {
     /// Compiles a formula.
     ///
     /// # Errors
-    /// What exmex says of the syntax; any variable but `k`.
-    pub fn new(text: &str) -> Result<Self, ExError> {
-        // exmex binds a sign closer than `**`. So there is none: at the very start of a formula or of
-        // a parenthesis 0 in front makes it a difference, and after an operator it is a factor. One
-        // in an exponent is a syntax error, as `-` is no unary operator below.
-        let text = without_exponents(&text.replace(' ', ""));
-        let mut text = format!("({text})").replace("(-", "(0-");
-        for (sign, factor) in [("+-", "+(0-1)*"), ("--", "-(0-1)*"), ("/-", "/(0-1)/")] {
-            text = text.replace(sign, factor);
-        }
-        let text = text.replace("**-", "**~").replace("*-", "*(0-1)*").replace("**~", "**-");
-        let formula = Box::new(FlatEx::<T, Operators>::parse(&text)?);
-        match formula.var_names().iter().find(|name| *name != "k") {
-            Some(name) => Err(ExError::new(&format!("{name} in {text} is not k"))),
-            None => Ok(Self(formula)),
-        }
+    /// Where the syntax ends; any variable but `k`, any function that does not occur in the files.
+    pub fn new(text: &str) -> Result<Self, SyntaxError> {
+        let text = text.replace(' ', "");
+        let mut parser = Parser { rest: &text };
+        let formula = parser.sum()?;
+        if parser.rest.is_empty() { Ok(formula) } else { parser.missing("an operator") }
     }
 
     /// The value at `k`.
     pub fn at(&self, k: T) -> T {
-        self.0.eval_relaxed(&[k]).expect("checked: k is the only variable")
-    }
-}
-
-/// The same with `0.00001` for `1e-05`, which exmex does not read.
-fn without_exponents(text: &str) -> String {
-    let (mut plain, mut rest) = (String::new(), text);
-    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
-        let is_part = |(i, c): (usize, char)| {
-            let after_e = i > 0 && matches!(rest.as_bytes()[start + i - 1], b'e' | b'E');
-            c.is_ascii_digit() || c == '.' || matches!(c, 'e' | 'E') || after_e && "+-".contains(c)
-        };
-        let end = rest[start..].char_indices().find(|&at| !is_part(at)).map(|(i, _)| start + i);
-        let (number, behind) = rest.split_at(end.unwrap_or(rest.len()));
-        let (before, digits) = number.split_at(start);
-        plain += before;
-        match digits.parse::<f64>() {
-            Ok(value) if digits.contains(['e', 'E']) => plain += &value.to_string(),
-            _ => plain += digits,
+        match self {
+            Self::K => k,
+            Self::Constant(value) => *value,
+            Self::Function(apply, inner) => apply(inner.at(k)),
+            Self::Operation(apply, sides) => apply(sides[0].at(k), sides[1].at(k)),
         }
-        rest = behind;
     }
-    plain + rest
+
+    fn operation(apply: fn(T, T) -> T, left: Self, right: Self) -> Self {
+        Self::Operation(apply, Box::new([left, right]))
+    }
 }
 
-/// The operators and functions that occur in the files.
-#[derive(Clone, Debug)]
-struct Operators;
+/// A recursive descent through the formula, a method for each precedence.
+struct Parser<'t> {
+    rest: &'t str,
+}
 
-impl<T: Number> MakeOperators<T> for Operators {
-    fn make<'a>() -> Vec<Operator<'a, T>> {
-        // Not even sums and products are declared commutative: exmex would fold constants
-        // across the others.
-        let binary = |name, prio, apply: fn(T, T) -> T| {
-            Operator::make_bin(name, BinOp { apply, prio, is_commutative: false })
+impl<'t> Parser<'t> {
+    fn sum<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        let mut sum = self.product()?;
+        loop {
+            let apply: fn(T, T) -> T = match self.rest.as_bytes().first() {
+                Some(b'+') => |a, b| a + b,
+                Some(b'-') => |a, b| a - b,
+                _ => return Ok(sum),
+            };
+            self.rest = &self.rest[1..];
+            sum = Expression::operation(apply, sum, self.product()?);
+        }
+    }
+
+    fn product<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        let mut product = self.signed()?;
+        loop {
+            let apply: fn(T, T) -> T = match self.rest.as_bytes().first() {
+                Some(b'*') => |a, b| a * b,
+                Some(b'/') => |a, b| a / b,
+                _ => return Ok(product),
+            };
+            self.rest = &self.rest[1..];
+            product = Expression::operation(apply, product, self.signed()?);
+        }
+    }
+
+    fn signed<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        if self.take("-") {
+            return Ok(Expression::Function(|a| -a, Box::new(self.signed()?)));
+        }
+        self.power()
+    }
+
+    fn power<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        let base = self.operand()?;
+        if self.take("**") {
+            return Ok(Expression::operation(|a, b| a.powf(b), base, self.power()?));
+        }
+        Ok(base)
+    }
+
+    fn operand<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        if self.rest.starts_with(|c: char| c.is_ascii_digit()) {
+            return self.number();
+        }
+        let name = self.split(|_, c| c.is_ascii_alphanumeric());
+        if name == "k" {
+            return Ok(Expression::K);
+        }
+        let apply: fn(T) -> T = match name {
+            "" => |a| a,
+            "sin" => |a| a.sin(),
+            "cos" => |a| a.cos(),
+            "tan" => |a| a.tan(),
+            "exp" => |a| a.exp(),
+            "log" => |a| a.ln(),
+            "sqrt" => |a| a.sqrt(),
+            "sinh" => |a| a.sinh(),
+            "cosh" => |a| a.cosh(),
+            "tanh" => |a| a.tanh(),
+            "asin" => |a| a.asin(),
+            "acos" => |a| a.acos(),
+            "atan" => |a| a.atan(),
+            "abs" => |a| a.abs(),
+            _ => return self.missing("k or a known function before this"),
         };
-        let unary = |name, apply: fn(T) -> T| Operator::make_unary(name, apply);
-        vec![
-            binary("+", 0, |a, b| a + b),
-            binary("-", 0, |a, b| a - b),
-            binary("*", 1, |a, b| a * b),
-            binary("/", 1, |a, b| a / b),
-            binary("**", 2, |a, b| a.powf(b)),
-            unary("sin", |a| a.sin()),
-            unary("cos", |a| a.cos()),
-            unary("tan", |a| a.tan()),
-            unary("exp", |a| a.exp()),
-            unary("log", |a| a.ln()),
-            unary("sqrt", |a| a.sqrt()),
-            unary("sinh", |a| a.sinh()),
-            unary("cosh", |a| a.cosh()),
-            unary("tanh", |a| a.tanh()),
-            unary("asin", |a| a.asin()),
-            unary("acos", |a| a.acos()),
-            unary("atan", |a| a.atan()),
-            unary("abs", |a| a.abs()),
-        ]
+        if !self.take("(") {
+            return self.missing("a number, k or a parenthesis");
+        }
+        let inner = self.sum()?;
+        if !self.take(")") {
+            return self.missing("a closing parenthesis");
+        }
+        Ok(if name.is_empty() { inner } else { Expression::Function(apply, Box::new(inner)) })
+    }
+
+    fn number<T: Number>(&mut self) -> Result<Expression<T>, SyntaxError> {
+        let digits = self.split(|before, c| {
+            let exponent = before.ends_with(['e', 'E']) && matches!(c, '+' | '-');
+            c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E') || exponent
+        });
+        digits.parse().map(Expression::Constant).or_else(|_| self.missing("a number before this"))
+    }
+
+    /// Takes the characters up to one that does not belong to those before it.
+    fn split(&mut self, belongs: impl Fn(&str, char) -> bool) -> &'t str {
+        let mut ends = self.rest.char_indices();
+        let end = ends.find(|&(i, c)| !belongs(&self.rest[..i], c)).map(|(i, _)| i);
+        let (word, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        self.rest = rest;
+        word
+    }
+
+    fn take(&mut self, token: &str) -> bool {
+        let rest = self.rest.strip_prefix(token);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn missing<R>(&self, wanted: &'static str) -> Result<R, SyntaxError> {
+        Err(SyntaxError { wanted, rest: self.rest.to_owned() })
     }
 }
 
@@ -120,6 +186,7 @@ mod tests {
         assert_eq!(value("tan(-k)**2", 0.5), 0.5f64.tan().powi(2));
         assert_eq!(value("-tan(k)**2*k", 0.5), -0.5f64.tan().powi(2) * 0.5);
         assert_eq!(value("2**3/4", 0.0), 2.0);
+        assert_eq!(value("2**k**2", 3.0), 512.0);
         assert_eq!(value("2*-k", 3.0), -6.0);
         assert_eq!(value("k - -3/4 + -k**2", 3.0), -5.25);
         assert_eq!(value("8/-k*2", 4.0), -4.0);
@@ -139,7 +206,7 @@ mod tests {
 
     #[test]
     fn refuses_what_it_does_not_know() {
-        for text in ["k**-2", "x", "erf(k)", "k +", "(k", ""] {
+        for text in ["k**-2", "x", "erf(k)", "k +", "(k", "k)", "2k", "1e", "sin k", ""] {
             assert!(Expression::<f64>::new(text).is_err(), "{text}");
         }
     }

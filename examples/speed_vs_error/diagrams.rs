@@ -1,65 +1,74 @@
-//! Error against work, one diagram for a scene and a kind of work, as SVG.
+//! Error against work, a diagram for each scene, as SVG.
 
+use crate::drawing::{self, Panel, Points, RGBColor, SeriesLabelPosition};
 use crate::methods::{DEFAULT, METHODS};
 use crate::table::Row;
-use kuva::prelude::*;
+use std::error::Error;
 use std::path::Path;
-use std::sync::Arc;
 
-const COLORS: [&str; 7] =
-    ["#111111", "#1f5fa8", "#5fa8e0", "#b5401a", "#e08a3c", "#c9b037", "#7a3fa0"];
+const COLORS: [RGBColor; 7] = [
+    drawing::BLACK,
+    drawing::BLUE,
+    RGBColor(95, 168, 224),
+    drawing::RED,
+    RGBColor(224, 138, 60),
+    RGBColor(150, 130, 20),
+    RGBColor(122, 63, 160),
+];
 /// Exponents of the errors drawn; an error of zero is drawn at the least.
 const EXPONENTS: [f64; 2] = [-17.0, 0.0];
+/// The scenes in the picture of the documentation.
+const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.99", "gear teeth"]];
 
-/// Draws all scenes into a folder.
-pub fn draw(rows: &[Row], folder: &Path) -> std::io::Result<usize> {
-    let mut scenes: Vec<&str> = rows.iter().map(|row| row.scene).collect();
-    scenes.dedup();
-    for (i, scene) in scenes.iter().enumerate() {
-        let rows: Vec<&Row> = rows.iter().filter(|row| row.scene == *scene).collect();
-        let evaluations = |row: &Row| row.outcome.map(|outcome| outcome.cost.evaluations as f64);
-        let number = i + 1;
-        let svg = diagram(&rows, scene, "evaluations of the curves", evaluations);
-        std::fs::write(folder.join(format!("{number:02}_evaluations.svg")), svg)?;
-        let svg = diagram(&rows, scene, "time / µs", |row| row.micros);
-        std::fs::write(folder.join(format!("{number:02}_time.svg")), svg)?;
-    }
-    Ok(2 * scenes.len())
+/// Draws some scenes into one picture, by evaluations, and says where.
+pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
+    let columns = SHOWN.map(|pair| pair.map(|scene| diagram(rows, scene, WORK[0])).into());
+    drawing::save("speed_vs_error", columns.into())
 }
 
-fn diagram(rows: &[&Row], scene: &str, label: &str, work: impl Fn(&Row) -> Option<f64>) -> String {
-    let mut plots: Vec<Plot> = Vec::new();
-    for (method, color) in METHODS.into_iter().zip(COLORS) {
-        let default = rows.iter().filter(|row| row.inversion == DEFAULT && row.limits == DEFAULT);
-        let point = |row: &&Row| {
-            let (work, error) = (work(row)?.max(1.0), row.outcome?.error());
-            error.is_finite().then_some((work, error.log10().clamp(EXPONENTS[0], EXPONENTS[1])))
-        };
-        let points: Vec<(f64, f64)> = default
-            .copied()
-            .filter(|row| row.method == method)
-            .filter_map(|row| point(&row))
-            .collect();
-        if points.is_empty() {
-            continue;
-        }
-        let line =
-            LinePlot::new().with_data(points.clone()).with_color(color).with_stroke_width(2.0);
-        plots.push(line.with_legend(method).into());
-        let marks = ScatterPlot::new().with_data(points).with_color(color).with_size(4.0);
-        plots.push(marks.into());
+/// Draws each scene by evaluations and by time into a folder, and says how many there are.
+pub fn all(rows: &[Row], folder: &Path) -> Result<usize, Box<dyn Error>> {
+    let scenes = scenes(rows);
+    for (i, scene) in scenes.iter().enumerate() {
+        let columns = WORK.map(|work| vec![diagram(rows, scene, work)]);
+        drawing::write(&folder.join(format!("{:02}.svg", i + 1)), columns.into())?;
     }
-    let layout = Layout::auto_from_plots(&plots)
-        .with_title(format!("{scene}: the largest error of a, b and P"))
-        .with_x_label(label)
-        .with_y_label("relative error")
-        .with_log_x()
-        // Exponents, as the library's logarithmic axis ends at 1e-10.
-        .with_y_axis_min(EXPONENTS[0])
-        .with_y_axis_max(EXPONENTS[1])
-        .with_y_tick_step(2.0)
-        .with_y_tick_format(TickFormat::Custom(Arc::new(|exponent| format!("1e{exponent:.0}"))))
-        .with_box_axes()
-        .with_legend_box(false);
-    kuva::render_to_svg(plots, layout)
+    Ok(scenes.len())
+}
+
+/// A kind of work: its name, and how much of it a row has taken.
+type Work = (&'static str, fn(&Row) -> Option<f64>);
+const WORK: [Work; 2] = [
+    ("evaluations of the curves", |row| row.outcome.map(|outcome| outcome.cost.evaluations as f64)),
+    ("time / µs", |row| row.micros),
+];
+
+fn scenes(rows: &[Row]) -> Vec<&'static str> {
+    let mut scenes: Vec<_> = rows.iter().map(|row| row.scene).collect();
+    scenes.dedup();
+    scenes
+}
+
+fn diagram(rows: &[Row], scene: &str, (label, work): Work) -> Panel {
+    let rows = rows
+        .iter()
+        .filter(|row| row.scene == scene && row.inversion == DEFAULT && row.limits == DEFAULT);
+    let mut lines = Vec::new();
+    for (method, color) in METHODS.into_iter().zip(COLORS) {
+        let point = |row: &Row| {
+            let (work, error) = (work(row)?.max(1.0), row.outcome?.error());
+            let drawn = error.log10().clamp(EXPONENTS[0], EXPONENTS[1]);
+            error.is_finite().then_some((work.log10(), drawn))
+        };
+        let points: Points =
+            rows.clone().filter(|row| row.method == method).filter_map(point).collect();
+        lines.push((method, color, points));
+    }
+    let most = lines.iter().flat_map(|line| &line.2).fold(1.0, |most: f64, at| most.max(at.0));
+    let axes = ((label, [0.0, most.ceil()]), ("largest relative error of a, b, P", EXPONENTS));
+    let panel = Panel::new(scene, axes.0, axes.1).size(480, 260).powers(true, true);
+    let drawn = lines.into_iter().filter(|line| !line.2.is_empty());
+    drawn.fold(panel.legend(SeriesLabelPosition::UpperLeft), |panel, (method, color, points)| {
+        panel.line(points.clone(), color, method).dots(points, color, "")
+    })
 }

@@ -22,13 +22,15 @@
 //! else at the points of the reference file that are no closer to an edge) and at a millionth of
 //! the half-width from an edge, where rounding of x alone makes some 1e-10.
 //!
-//! Everything goes to `target/speed_vs_error`: `measured.tsv`, and a diagram for each contact and
-//! each kind of work. What does not depend on the machine is kept in
+//! Everything goes to `target/speed_vs_error`: `measured.tsv`, and for each contact its diagrams of
+//! evaluations and of time; some of them to `target/figures/speed_vs_error.svg`. What does not depend on the machine is kept in
 //! `tests/data/speed_vs_error.tsv`, and compared by `--check`.
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
 mod diagrams;
+#[path = "../shared/drawing.rs"]
+mod drawing;
 #[path = "../../tests/common/kept.rs"]
 mod kept;
 mod measure;
@@ -46,7 +48,7 @@ use std::time::Instant;
 use table::Row;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let argument = std::env::args().nth(1);
+    let argument = std::env::args().skip(1).find(|argument| argument != "--docs");
     let timed = argument.is_none();
     let rows = rows(timed);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -68,12 +70,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             fs::create_dir_all(&folder)?;
             let heading = format!("{}\tmicroseconds", table::HEADING);
             fs::write(folder.join("measured.tsv"), text(&rows, &heading, Row::timed_line))?;
-            let count = diagrams::draw(&rows, &folder)?;
+            let count = diagrams::all(&rows, &folder)?;
             print!("{}", summary::summary(&rows));
             println!("\n{}Times are those of {}.", sources(), machine());
-            println!("measured.tsv and {count} diagrams are in target/speed_vs_error");
+            println!(
+                "measured.tsv and the diagrams of {count} contacts are in target/speed_vs_error"
+            );
         }
     }
+    println!("{}", diagrams::some(&rows)?);
     check_default(&rows);
     Ok(())
 }
