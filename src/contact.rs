@@ -229,23 +229,27 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// The scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the paper's
     /// Eq. (3).
+    #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
         Self { kappa, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
     /// (1 - ν₂²)/E₂`: κ = π E*/2 (Johnson, *Contact Mechanics*, 1985, §4.2).
+    #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
         self.kappa(T::frac_pi_2() * modulus)
     }
 
     /// What becomes of the two edges, at `-b` and at `a`. Default: both are [`Edge::Free`].
+    #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
         Self { edges: [left, right], edge_pressure: None, ..self }
     }
 
     /// Edges where the pressure has given values at given distances from the limits: the paper's
     /// Eq. (6), in place of [`edges`](Self::edges), under a given load.
+    #[must_use]
     pub fn edge_pressure(self, wanted: EdgePressure<T>) -> Self {
         Self { edge_pressure: Some(wanted), ..self }
     }
@@ -253,23 +257,27 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Where the search for the limits starts. Without it, or where it is not on the bodies, at
     /// their lowest gap; or, where the bodies say that they [bulge](crate::Convexity) towards each other, in
     /// the middle of their common range.
+    #[must_use]
     pub fn start(self, interval: Interval<T>) -> Self {
         Self { start: Some(interval), ..self }
     }
 
     /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`].
+    #[must_use]
     pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
     /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both:
     /// `&Brent::DEFAULT`, say.
+    #[must_use]
     pub fn search(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { search: Some(strategy), ..self }
     }
 
     /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
     /// that has solved with another takes up this one.
+    #[must_use]
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }
@@ -277,6 +285,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Whether a solution must be a contact in all of the bodies: then solving ends with
     /// [`Solution::certify`], and its errors. Default: no, since that samples all of the bodies, which
     /// takes far longer than the contact itself.
+    #[must_use]
     pub fn certified(self, certified: bool) -> Self {
         Self { certified, ..self }
     }
@@ -285,6 +294,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// equations, with tension inside or overlap outside if that is what solves them, and
     /// [`Verdict::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
     /// or several.
+    #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }
     }

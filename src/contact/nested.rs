@@ -225,9 +225,9 @@ impl<'s, T: Real> Search<'s, T> {
                     *best = nearer(trial, *best, condition);
                     let value = condition(&trial.residual);
                     if (value > T::zero()) == falls {
-                        lo = unknown
+                        lo = unknown;
                     } else {
-                        hi = unknown
+                        hi = unknown;
                     }
                     if hi - lo <= resolution { T::zero() } else { value }
                 }

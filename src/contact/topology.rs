@@ -609,7 +609,7 @@ impl<T: Real> Search<'_, '_, T> {
         let pressing = Pressing { kappa: conditions.kappa, load, free };
         let mut highest = if free == [true; 2] { T::zero() } else { T::one() / T::zero() };
         for &on in contacts {
-            highest = highest.max(peak::peak(engine, gap, &pressing, on, self.cost).ok()?.1.value);
+            highest = highest.max(peak(engine, gap, &pressing, on, self.cost).ok()?.1.value);
         }
         Some(Capacity { on, end: ends[side], load, peak: highest })
     }

@@ -358,7 +358,7 @@ impl Quadrature<f64> for ReticentPanels {
 
 impl Engine<f64> for Reticent {
     fn fork(&self) -> Box<dyn Engine<f64>> {
-        Box::new(Reticent(self.0.fork()))
+        Box::new(Self(self.0.fork()))
     }
     fn reset(&mut self, same_bodies: bool) {
         self.0.reset(same_bodies);

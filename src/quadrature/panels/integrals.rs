@@ -180,7 +180,7 @@ fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, s
             jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
         }
         let right = HalfAngle::of(on, to);
-        stretch(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
+        stretch(sums, panel, from, &Arc::new(to - from, left, right, width), sketch);
         left = right;
         before = Some(panel);
     }
@@ -188,7 +188,7 @@ fn by_gauss<T: Real>(sums: &mut Sums<T>, panels: &[Panel<T>], on: Interval<T>, s
 }
 
 /// One stretch of several.
-fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, sketch: bool) {
+fn stretch<T: Real>(sums: &mut Sums<T>, panel: &Panel<T>, from: T, arc: &Arc<T>, sketch: bool) {
     const W: usize = 8;
     let rule = if sketch { Gauss::coarsest() } else { Gauss::suited(panel.counting, arc.tangent) };
     let by_x = T::one() / panel.half();

@@ -177,13 +177,13 @@ struct Same(f64);
 
 impl Quadrature<f64> for Same {
     fn engine(&self) -> Result<Box<dyn Engine<f64>>, ContactError<f64>> {
-        Ok(Box::new(Same(self.0)))
+        Ok(Box::new(Self(self.0)))
     }
 }
 
 impl Engine<f64> for Same {
     fn fork(&self) -> Box<dyn Engine<f64>> {
-        Box::new(Same(self.0))
+        Box::new(Self(self.0))
     }
     fn reset(&mut self, _: bool) {}
     fn moments(
