@@ -252,6 +252,22 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
+/// The larger of two errors; NaN if one of them is, which `f64::max` would lose.
+pub trait NanSafe: Copy + PartialOrd {
+    fn nan_max(self, other: Self) -> Self;
+}
+
+impl NanSafe for f64 {
+    fn nan_max(self, other: Self) -> Self {
+        if self.is_nan() || self > other { self } else { other }
+    }
+}
+
+/// The largest of all errors, 0 of none; NaN if one of them is.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, NanSafe::nan_max)
+}
+
 /// The exact pressure of the paper's Example 1.
 pub fn example_1_exact(x: f64) -> f64 {
     -(2.0 * x + (1.0 - x * x) * ((1.0 + x) / (1.0 - x)).ln()) / (PI * PI * (1.0 - x * x).sqrt())
