@@ -45,6 +45,8 @@ pub struct Reference {
     pub limits: Option<Interval<f64>>,
     /// What is known of several contacts.
     pub several: Option<Several>,
+    /// Whether the limits are one of several solutions in one interval under the same load.
+    pub one_of_several: bool,
     /// The variant of the error that must come, where the file names it.
     pub error: Option<String>,
     /// The joints of both bodies.
@@ -116,6 +118,7 @@ impl Reference {
             c: number(&file["C"]).or_else(|| Some(PI * number(&file["F"])?))?,
             limits,
             several,
+            one_of_several: file["all_single_interval_roots"].is_array(),
             error: file["expected_error"].as_str().map(str::to_owned),
             joints,
             rounded_joints,
