@@ -97,7 +97,7 @@ fn the_gap_and_the_stress_beside_adhesive_edges() {
         // Rounding of the heights and of the limits, which is magnified next to an edge; and very close to
         // an edge the integral over the pressure: 1e-12 of its size.
         let gaps = worst(beside.iter().map(|&x| {
-            let rounding = 4.0 * f64::EPSILON * (exact.slope(x).abs() * l + x * x);
+            let rounding = 8.0 * f64::EPSILON * (exact.slope(x).abs() * l + x * x + l * l);
             let close = if x.abs() - l < 1e-6 { 2e-12 * l * l } else { 0.0 };
             (solution.gap_at(x).unwrap() - exact.gap(x)).abs()
                 / (1e-12 * exact.gap(x) + rounding + close)
