@@ -252,16 +252,15 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
-/// The larger of two errors; NaN if one of them is, which `f64::max` would lose.
-pub trait NanSafe: Copy + PartialOrd {
-    fn nan_max(self, other: Self) -> Self;
-}
-
-impl NanSafe for f64 {
+/// Errors of which NaN is the largest: `max` would lose it.
+pub trait NanSafe: Real {
     fn nan_max(self, other: Self) -> Self {
-        if self.is_nan() || self > other { self } else { other }
+        let is_nan = self.partial_cmp(&self).is_none();
+        if is_nan || self > other { self } else { other }
     }
 }
+
+impl<T: Real> NanSafe for T {}
 
 /// The largest of all errors, 0 of none; NaN if one of them is.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {

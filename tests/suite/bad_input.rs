@@ -6,10 +6,10 @@
 use crate::common;
 
 mod answers;
+mod closed_forms;
 mod liars;
 mod panics;
 mod profiles;
-mod references;
 mod scene;
 mod searches;
 

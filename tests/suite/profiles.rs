@@ -154,8 +154,12 @@ fn joints_are_checked() {
         PiecewiseError::Overlap { joint: 1, left: 1.0, right: 0.75 }
     );
     assert_eq!(
-        join(vec![first(), line(0.0, 1.0, 0.0, 1e-9)]),
-        PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 1e-9 }
+        join(vec![first(), line(0.0, 1.0, 0.0, 1e-13)]),
+        PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 1e-13 }
+    );
+    assert_eq!(
+        join(vec![first(), line(0.0, 1.0, 1e-13, 0.0)]),
+        PiecewiseError::Gap { joint: 0, left: 0.0, right: 1e-13 }
     );
     // The wrong order is an overlap.
     assert!(matches!(

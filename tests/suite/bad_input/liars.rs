@@ -2,6 +2,7 @@
 
 use super::answers::ask_all;
 use super::*;
+use crate::common::NanSafe;
 
 #[test]
 fn budgets_of_searches() {
@@ -145,7 +146,7 @@ fn strategies_that_lie() {
                 || {
                     let solution = contact.solve(load)?;
                     let error =
-                        (solution.a() - exact).abs().max((solution.b() - exact).abs()) / exact;
+                        (solution.a() - exact).abs().nan_max((solution.b() - exact).abs()) / exact;
                     off = Some((error, solution.limits_error().unwrap_or(0.0)));
                     Ok(())
                 },
