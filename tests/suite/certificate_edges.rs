@@ -100,7 +100,7 @@ fn the_gap_and_the_stress_beside_adhesive_edges() {
             let rounding = 8.0 * f64::EPSILON * (exact.slope(x).abs() * l + x * x + l * l);
             let close = if x.abs() - l < 1e-6 { 2e-12 * l * l } else { 0.0 };
             (solution.gap_at(x).unwrap() - exact.gap(x)).abs()
-                / (1e-12 * exact.gap(x) + rounding + close)
+                / (2e-12 * exact.gap(x) + rounding + close)
         }));
         let slopes = worst(beside.iter().map(|&x| {
             let rounding = f64::EPSILON / (x.abs() - l);

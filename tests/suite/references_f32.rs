@@ -2,8 +2,8 @@
 //!
 //! What the formulas leave uncertain is measured by evaluating each in `f32` and in `f64` at the
 //! same `k`: the difference of the slopes, and that of `X` times the bend. A file passes if its
-//! errors, as shares of the half-width and of the largest pressure, are at most 1e-6 or, where
-//! that is more, 4 times that noise as a share of the slope, and of what rounding makes of each
+//! errors, as shares of the half-width and of the largest pressure, are at most 1.5e-6 or, where
+//! that is more, 5 times that noise as a share of the slope, and of what rounding makes of each
 //! pressure (`points_amplification`).
 #![allow(missing_docs)]
 
@@ -24,8 +24,13 @@ use linecontact::{Contact, ContactError, Control, Cost, Interval, ParametricProf
 use reference::{Kind, Reference};
 use serde_json::Value;
 
-const WANTED: f64 = 1e-6;
-const MARGIN: f64 = 4.0;
+const WANTED: f64 = 1.5e-6;
+const MARGIN: f64 = 5.0;
+/// The share of that to which limits are held.
+const OF_LIMITS: f64 = 0.3;
+
+/// Rounded over eight units of x in the last place: `f32` does not tell its pressure.
+const BEYOND: [&str; 1] = ["rounded_punch_1e-6"];
 
 /// The smooth pieces of a body.
 fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
@@ -179,7 +184,7 @@ fn check(wanted: impl Fn(&str) -> bool) -> usize {
         let (Kind::Contact, Some(on)) = (want.kind, want.limits) else { continue };
         match errors(&file, &want, on) {
             Ok(Errors { of_limits, of_pressure, floor, estimate }) => {
-                let ok = of_limits <= 1.0 && of_pressure <= 1.0;
+                let ok = of_limits <= OF_LIMITS && of_pressure <= 1.0;
                 println!(
                     "{name:30} {of_limits:7.4} {of_pressure:7.4} {floor:8.1e} {estimate:8.1e} {ok}"
                 );
@@ -202,8 +207,8 @@ fn check(wanted: impl Fn(&str) -> bool) -> usize {
 
 #[test]
 fn contacts_in_single_precision() {
-    let solved = check(|name| !FAILING.contains(&name));
-    assert!(solved >= 19, "{solved}");
+    let solved = check(|name| !FAILING.contains(&name) && !BEYOND.contains(&name));
+    assert!(solved >= 23, "{solved}");
 }
 
 #[test]
