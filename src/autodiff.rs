@@ -61,8 +61,8 @@
 //! of Newton's rule for each order, whatever search has found them. In the closed forms of
 //! [`reference`](mod@crate::reference) they come out to 1e-14, in formulas with noise to the noise of
 //! their derivatives; there is no estimate of their error. A kink or jump of a slope that moves with
-//! the parameter must be declared as a joint: halving finds where it is, not that it moves. Where edges
-//! change their kind ([`Edge::UpTo`](crate::Edge::UpTo)), where a contact gives way, and where contacts are
+//! the parameter must be declared as a breakpoint: halving finds where it is, not that it moves. Where edges
+//! change their kind ([`Edge::FreeUntil`](crate::Edge::FreeUntil)), where a contact gives way, and where contacts are
 //! born or merge, there is no derivative, and what comes out is that of one side, or not finite. (Up to a
 //! merger the inner limits go like the root of the load that is left: their derivatives grow without bound.)
 //! Of several contacts the number and about where they are follow from the values; then all limits take the
@@ -83,10 +83,10 @@ impl<F: DualNumFloat> Real for Dual<F>
 where
     Self: RealField,
 {
-    const PARTS: usize = 2;
-    const MORE_STEPS: usize = 1;
+    const COMPONENTS: usize = 2;
+    const DERIVATIVE_ORDER: usize = 1;
 
-    fn part(self, index: usize) -> Self {
+    fn component(self, index: usize) -> Self {
         Self::from_re(if index == 0 { self.re } else { self.eps })
     }
 }
@@ -95,10 +95,10 @@ impl<F: DualNumFloat, const N: usize> Real for DualSVec<F, N>
 where
     Self: RealField + Copy,
 {
-    const PARTS: usize = 1 + N;
-    const MORE_STEPS: usize = 1;
+    const COMPONENTS: usize = 1 + N;
+    const DERIVATIVE_ORDER: usize = 1;
 
-    fn part(self, index: usize) -> Self {
+    fn component(self, index: usize) -> Self {
         let derivative = |i: usize| self.eps.0.map_or(F::zero(), |eps| eps[i]);
         Self::from_re(index.checked_sub(1).map_or(self.re, derivative))
     }
@@ -108,10 +108,10 @@ impl<F: DualNumFloat> Real for HyperDual<F>
 where
     Self: RealField,
 {
-    const PARTS: usize = 4;
-    const MORE_STEPS: usize = 2;
+    const COMPONENTS: usize = 4;
+    const DERIVATIVE_ORDER: usize = 2;
 
-    fn part(self, index: usize) -> Self {
+    fn component(self, index: usize) -> Self {
         Self::from_re([self.re, self.eps1, self.eps2, self.eps1eps2][index])
     }
 }

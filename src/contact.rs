@@ -2,18 +2,18 @@
 
 mod active_set;
 mod capacity;
-mod check;
+mod signorini_check;
 mod edge_pressure;
 mod edges;
 mod equations;
-mod field;
+mod exterior_field;
 mod first_contact;
 mod moment;
 mod nested;
-mod newton;
+mod newton_single;
 mod peak;
-mod several;
-mod single;
+mod newton_several;
+mod single_contact;
 mod topology;
 
 pub use edge_pressure::EdgePressure;
@@ -23,7 +23,7 @@ pub(crate) use peak::peak;
 use crate::certificate::certify;
 use crate::gap::{Cost, Gap, Shape};
 use crate::quadrature::panels;
-use crate::quadrature::{Engine, Moments, Panels, Quadrature, Trend};
+use crate::quadrature::{Integrator, Moments, Panels, Quadrature, MomentDerivatives};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{Report, Solution, Start, Verdict};
 use crate::{ContactError, Interval, ParametricProfile, Real};
@@ -109,7 +109,7 @@ pub enum Control<T> {
 
 /// A contact that was found.
 #[derive(Clone, Copy)]
-pub(crate) struct Found<T> {
+pub(crate) struct ContactState<T> {
     pub interval: Interval<T>,
     pub load: T,
     /// K_b and K_a: here as everywhere, left before right.
@@ -123,14 +123,14 @@ pub(crate) struct Found<T> {
     /// The load that such an error stands for, where it is known.
     pub force: Option<T>,
     /// How the edge integrals change with the limits, where that is known.
-    pub trend: Option<Trend<T>>,
+    pub trend: Option<MomentDerivatives<T>>,
     /// By how much body 2 was turned counter-clockwise.
     pub tilt: T,
     /// Where the bodies end: at corners, or with their common range.
     pub ends: [T; 2],
 }
 
-impl<T: Real> Found<T> {
+impl<T: Real> ContactState<T> {
     fn new(
         conditions: &Conditions<T>,
         interval: Interval<T>,
@@ -172,7 +172,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// looks at all of it, for a profile just written.
     ///
     /// # Errors
-    /// [`ContactError::Profile`], [`ContactError::Apart`].
+    /// [`ContactError::Profile`], [`ContactError::NoCommonRange`].
     pub fn new(
         lower: &'b dyn ParametricProfile<T>,
         upper: &'b dyn ParametricProfile<T>,
@@ -303,34 +303,34 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`Solution::pressure`].
     ///
     /// # Errors
-    /// [`ContactError::Load`], [`ContactError::Scale`], [`ContactError::Limits`],
-    /// [`ContactError::Adhesion`], [`ContactError::EdgePressure`],
-    /// [`ContactError::EdgePressureLoad`], [`ContactError::Control`], [`ContactError::PeakEdge`],
-    /// [`ContactError::Segments`], [`ContactError::Tolerance`] for what was set;
-    /// [`ContactError::NoFirstContact`], [`ContactError::TooShort`],
-    /// [`ContactError::TooWide`], [`ContactError::PeakTooHigh`], [`ContactError::NoBalance`],
+    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidLimits`],
+    /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
+    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
+    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for what was set;
+    /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
+    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`], [`ContactError::NoEquilibrium`],
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::Evaluations`], [`ContactError::Heights`] from the search;
-    /// [`ContactError::Moment`], [`ContactError::NoTilt`], [`ContactError::TooTilted`] with a given moment; where [`certified`](Self::certified), those of
+    /// [`ContactError::NoPeak`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
+    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
-        let (mut engine, mut workspace) = (self.quadrature.engine()?, Workspace::new());
-        let (found, cost) = self.find(&mut *engine, &mut workspace, control)?;
-        Ok(self.solution(Arc::new(engine), found, cost, workspace.report))
+        let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
+        let (found, cost) = self.find(&mut *integrator, &mut workspace, control)?;
+        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
     }
 
     /// The solution that was found.
     pub(crate) fn solution(
         &self,
-        engine: Arc<Box<dyn Engine<T>>>,
-        found: Found<T>,
+        integrator: Arc<Box<dyn Integrator<T>>>,
+        found: ContactState<T>,
         cost: Cost,
         report: Report,
     ) -> Solution<'b, T> {
         let gap = self.gap.tilted(found.tilt);
-        Solution::new(gap, engine, self.kappa, found, cost, report)
+        Solution::new(gap, integrator, self.kappa, found, cost, report)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -341,16 +341,16 @@ impl<'b, T: Real> Contact<'b, T> {
         self.quadrature
     }
 
-    /// Finds the limits with an engine that has been reset, from the contacts in the workspace.
+    /// Finds the limits with an integrator that has been reset, from the contacts in the workspace.
     pub(crate) fn find(
         &self,
-        engine: &mut dyn Engine<T>,
+        integrator: &mut dyn Integrator<T>,
         workspace: &mut Workspace<T>,
         control: Control<T>,
-    ) -> Result<(Found<T>, Cost), ContactError<T>> {
+    ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
-            return Err(ContactError::Scale { kappa });
+            return Err(ContactError::InvalidKappa { kappa });
         }
         if let Some(start) = self.start {
             check(start)?;
@@ -364,33 +364,33 @@ impl<'b, T: Real> Contact<'b, T> {
         let mut found = match (control, self.edge_pressure) {
             (Control::Load(load), Some(wanted)) => {
                 workspace.report.add(Start::Middle, Verdict::Unchecked);
-                self.by_edge_pressure(wanted, engine, load, &mut cost)?
+                self.by_edge_pressure(wanted, integrator, load, &mut cost)?
             }
             (Control::Load(load), None) => {
                 let conditions = self.under(load)?;
-                topology::find(self, Sought::By(conditions), engine, workspace, &mut cost)?
+                topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
             }
             (Control::HalfWidth(half_width), _) => {
                 if !(half_width.is_finite() && half_width > T::zero()) {
-                    return Err(ContactError::Load { load: half_width });
+                    return Err(ContactError::InvalidLoad { load: half_width });
                 }
                 let given = Given::HalfWidth(half_width);
                 let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
-                topology::find(self, Sought::By(conditions), engine, workspace, &mut cost)?
+                topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
             }
             (Control::PeakPressure(pressure), _) => {
                 if !(pressure.is_finite() && pressure > T::zero()) {
-                    return Err(ContactError::Load { load: pressure });
+                    return Err(ContactError::InvalidLoad { load: pressure });
                 }
-                topology::find(self, Sought::Peak(pressure), engine, workspace, &mut cost)?
+                topology::find(self, Sought::Peak(pressure), integrator, workspace, &mut cost)?
             }
             (Control::Moment { load, moment, about }, _) => {
                 let line = moment::Line::of_moment(load, moment, about)?;
-                moment::find(self, line, engine, workspace, &mut cost)?
+                moment::find(self, line, integrator, workspace, &mut cost)?
             }
             (Control::CentreOfPressure { load, at }, _) => {
                 let line = moment::Line::through(load, at)?;
-                moment::find(self, line, engine, workspace, &mut cost)?
+                moment::find(self, line, integrator, workspace, &mut cost)?
             }
         };
         // A width may be less than the rounding of x, and its load less than any number.
@@ -404,12 +404,12 @@ impl<'b, T: Real> Contact<'b, T> {
         }
         found.ends = self.ends();
         let gap = self.gap.tilted(found.tilt);
-        if panels::several(engine).is_none() {
-            engine.prepare(&gap, found.interval)?;
+        if panels::several(integrator).is_none() {
+            integrator.prepare(&gap, found.interval)?;
         }
-        cost += engine.cost();
+        cost += integrator.cost();
         if self.certified {
-            certify(&gap, self.kappa, &found, engine)?;
+            certify(&gap, self.kappa, &found, integrator)?;
         }
         Ok((found, cost))
     }
@@ -418,21 +418,21 @@ impl<'b, T: Real> Contact<'b, T> {
     fn by_edge_pressure(
         &self,
         wanted: EdgePressure<T>,
-        engine: &mut dyn Engine<T>,
+        integrator: &mut dyn Integrator<T>,
         load: T,
         cost: &mut Cost,
-    ) -> Result<Found<T>, ContactError<T>> {
+    ) -> Result<ContactState<T>, ContactError<T>> {
         let kappa = self.kappa;
         wanted.check()?;
         if !(load.is_finite() && load > T::zero()) {
-            return Err(ContactError::Load { load });
+            return Err(ContactError::InvalidLoad { load });
         }
         let equations = Equations::Pressure { kappa, load, wanted };
-        let nested = nested::find(self, equations, engine, self.start, cost)?;
-        let m = engine.moments(&self.gap, nested.on)?;
+        let nested = nested::find(self, equations, integrator, self.start, cost)?;
+        let m = integrator.moments(&self.gap, nested.on)?;
         let given = Given::Load(load);
         let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };
-        Ok(Found::new(&conditions, nested.on, load, Some(nested.error), &m))
+        Ok(ContactState::new(&conditions, nested.on, load, Some(nested.error), &m))
     }
 
     /// The conditions of a given load.
@@ -441,7 +441,7 @@ impl<'b, T: Real> Contact<'b, T> {
         let sought = edges.iter().any(|edge| edge.is_free());
         let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
         if !load.is_finite() || (sought && !adhesive && load <= T::zero()) {
-            return Err(ContactError::Load { load });
+            return Err(ContactError::InvalidLoad { load });
         }
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
@@ -450,7 +450,7 @@ impl<'b, T: Real> Contact<'b, T> {
     fn ends(&self) -> [T; 2] {
         let [left, right] = self.gap.range();
         let corner = |edge: Edge<T>| match edge {
-            Edge::Fixed(x) | Edge::UpTo(x) if self.edge_pressure.is_none() => Some(x),
+            Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => Some(x),
             _ => None,
         };
         let [first, last] = self.edges.map(corner);
@@ -461,11 +461,11 @@ impl<'b, T: Real> Contact<'b, T> {
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
-                    return Err(ContactError::Adhesion { work });
+                    return Err(ContactError::InvalidAdhesion { work });
                 }
-                Edge::Fixed(x) | Edge::UpTo(x) if !x.is_finite() => {
+                Edge::Fixed(x) | Edge::FreeUntil(x) if !x.is_finite() => {
                     let [left, right] = [x, x];
-                    return Err(ContactError::Limits { interval: Interval { left, right } });
+                    return Err(ContactError::InvalidLimits { interval: Interval { left, right } });
                 }
                 _ => {}
             }
@@ -498,7 +498,7 @@ fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {
     if left.is_finite() && right.is_finite() && left < right {
         Ok(())
     } else {
-        Err(ContactError::Limits { interval })
+        Err(ContactError::InvalidLimits { interval })
     }
 }
 

@@ -39,7 +39,7 @@ pub enum ContactError<T: Real> {
         "the bodies lie beside each other: the lower covers x = {:?} to {:?}, the upper {:?} to {:?}",
         lower[0], lower[1], upper[0], upper[1]
     )]
-    Apart {
+    NoCommonRange {
         /// Range of `x` of the lower body.
         lower: [T; 2],
         /// Range of `x` of the upper body.
@@ -69,13 +69,13 @@ pub enum ContactError<T: Real> {
         "the load (or half-width, or peak pressure) is {load:?}: it must be finite, and positive where \
          limits are sought"
     )]
-    Load {
+    InvalidLoad {
         /// Load per unit length.
         load: T,
     },
     /// The contact modulus, or κ, is not a positive finite number.
     #[error("κ = {kappa:?}: the scale must be positive and finite (κ = π E*/2)")]
-    Scale {
+    InvalidKappa {
         /// κ as given, or π/2 times the modulus as given.
         kappa: T,
     },
@@ -83,7 +83,7 @@ pub enum ContactError<T: Real> {
     #[error("the interval from -b = {:?} to a = {:?} is empty, reversed, not finite, or \
          narrower than the rounding of x",
         interval.left, interval.right)]
-    Limits {
+    InvalidLimits {
         /// The interval as given.
         interval: Interval<T>,
     },
@@ -92,7 +92,7 @@ pub enum ContactError<T: Real> {
         "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
          finite, distances shorter than the bodies and longer than the rounding of x"
     )]
-    EdgePressure {
+    InvalidEdgePressure {
         /// Which of them.
         name: &'static str,
         /// Its value.
@@ -117,7 +117,7 @@ pub enum ContactError<T: Real> {
          load {load:?}, with half-width {half_width:?} and peak pressure {peak:?}; extend the domain \
          or lower the load"
     )]
-    TooShort {
+    DomainTooShort {
         /// The end that the contact reaches first.
         end: T,
         /// The load carried by the largest contact that stays on the bodies, or by several as wide as they
@@ -136,7 +136,7 @@ pub enum ContactError<T: Real> {
          {half_width:?}, which carries {load:?} with peak pressure {peak:?}; extend the domain or lower \
          the half-width"
     )]
-    TooWide {
+    HalfWidthTooLarge {
         /// The half-width asked for.
         wanted: T,
         /// The half-width of the largest contact that stays on the bodies.
@@ -152,9 +152,9 @@ pub enum ContactError<T: Real> {
     /// which one of them just comes there: as where the gap falls towards the end, which touches all at once.
     #[error(
         "under the load {load:?} the contact reaches the end of the bodies at x = {end:?}: extend the \
-         domain, lower the load, or give Edge::UpTo({end:?}) if the bodies have a sharp corner there"
+         domain, lower the load, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there"
     )]
-    RunsOut {
+    EndReached {
         /// The end that it reaches.
         end: T,
         /// The load asked for.
@@ -165,7 +165,7 @@ pub enum ContactError<T: Real> {
         "a contact of half-width {half_width:?} finds no balance anywhere near x = {near:?}: the gap \
          does not close on one place"
     )]
-    NoBalance {
+    NoEquilibrium {
         /// Half-width tried.
         half_width: T,
         /// Point of first contact.
@@ -183,16 +183,16 @@ pub enum ContactError<T: Real> {
     /// The search has spent its budget of evaluations.
     #[error(
         "no contact found in {evaluations} evaluations of the curves, the last from x = {:?} to {:?}; \
-         the budget is {budget}: give a start nearer to the contact, declare joints, or set a looser \
+         the budget is {budget}: give a start nearer to the contact, declare breakpoints, or set a looser \
          tolerance", last.left, last.right
     )]
-    Evaluations {
+    BudgetSpent {
         /// Evaluations of the curves, or values of the slope of the gap, by then.
         evaluations: usize,
         /// How many may be made: 2²⁰ and 1024 for each piece of the bodies; by [`Midpoint`](crate::Midpoint),
         /// which keeps no samples, sixteen times as many, and besides what 4096 pressures take.
         budget: usize,
-        /// The stretch of `x` sampled last.
+        /// The span of `x` sampled last.
         last: Interval<T>,
     },
     /// The search for the limits gave up.
@@ -223,7 +223,7 @@ pub enum ContactError<T: Real> {
         "{segments} segments with {extrapolations} extrapolations: give at least one segment, and \
          fewer than 2^24 points at the finest level"
     )]
-    Segments {
+    InvalidSegments {
         /// N.
         segments: usize,
         /// ET.
@@ -244,7 +244,7 @@ pub enum ContactError<T: Real> {
          {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y'",
         between[0], between[1]
     )]
-    Heights {
+    InconsistentHeights {
         /// Two places in one contact.
         between: [T; 2],
         /// `Y₂ - Y₁` at the second, less that at the first.
@@ -270,7 +270,7 @@ pub enum ContactError<T: Real> {
     /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative.
     #[error(
         "the contact is said to end at the corner x = {x:?}, but the body lifts off there (the strength of \
-         the singularity is {strength:?}): use Edge::UpTo, for a corner that is free until it is reached"
+         the singularity is {strength:?}): use Edge::FreeUntil, for a corner that is free until it is reached"
     )]
     LiftsOff {
         /// The corner.
@@ -301,9 +301,9 @@ pub enum ContactError<T: Real> {
     /// found: something lies between two of them.
     #[error(
         "the slope of the gap at x = {x:?} is {slope:?}, where the panels say {assumed:?}: something \
-         narrow has been missed there; declare joints at its ends, or correct the curve"
+         narrow has been missed there; declare breakpoints at its ends, or correct the curve"
     )]
-    Missed {
+    FeatureMissed {
         /// Where.
         x: T,
         /// The slope of the gap.
@@ -316,7 +316,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "the limits do not balance the bodies: at the free edge x = {x:?} the pressure would have a \
          singularity of strength {strength:?}, where the limits were found to within {allowed:?}; declare \
-         joints, give a start nearer to the contact, or correct the curves, which must be the same at \
+         breakpoints, give a start nearer to the contact, or correct the curves, which must be the same at \
          each call"
     )]
     Unbalanced {
@@ -330,7 +330,7 @@ pub enum ContactError<T: Real> {
     /// The certificate has spent its budget.
     #[error(
         "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
-         {samples} samples: at x = {x:?} it would take more; narrow the domains, or declare joints"
+         {samples} samples: at x = {x:?} it would take more; narrow the domains, or declare breakpoints"
     )]
     Undecided {
         /// Where it has stopped.
@@ -342,13 +342,13 @@ pub enum ContactError<T: Real> {
     },
     /// The tolerance of the panels is negative, one or more, or NaN.
     #[error("{tolerance:?} is no tolerance: give a number from 0 (the default) to below 1")]
-    Tolerance {
+    InvalidTolerance {
         /// The tolerance as given.
         tolerance: T,
     },
     /// A work of adhesion is negative or not finite.
     #[error("the work of adhesion is {work:?}: it must be finite and not negative")]
-    Adhesion {
+    InvalidAdhesion {
         /// The work of adhesion as given.
         work: T,
     },
@@ -357,7 +357,7 @@ pub enum ContactError<T: Real> {
         "both limits are given, -b = {:?} and a = {:?}: then the load must be given too, not the \
          half-width or the peak", interval.left, interval.right
     )]
-    Control {
+    BothLimitsGiven {
         /// The limits.
         interval: Interval<T>,
     },
@@ -365,15 +365,15 @@ pub enum ContactError<T: Real> {
     #[error(
         "the moment, the place it is about, or the place where the load acts is {value:?}: it must be finite"
     )]
-    Moment {
+    InvalidMoment {
         /// The value.
         value: T,
     },
     /// A moment, or the place where the load acts, was asked for where the bodies cannot be turned.
     #[error(
-        "a moment, or the place where the load acts, can be given with the default quadrature Panels and          search, between edges that are Free, Fixed or UpTo: {why}"
+        "a moment, or the place where the load acts, can be given with the default quadrature Panels and          search, between edges that are Free, Fixed or FreeUntil: {why}"
     )]
-    NoTilt {
+    TiltNotSupported {
         /// What stands in the way.
         why: &'static str,
     },
@@ -381,7 +381,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt          {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load          inward, lower it, or extend the domain", ends[0], ends[1]
     )]
-    TooTilted {
+    TiltNotFound {
         /// Load per unit length asked for.
         load: T,
         /// Where it was to act: `x₀ + M/F`.
@@ -454,13 +454,13 @@ pub enum ContactError<T: Real> {
     },
     /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
     #[error("Poisson's ratio is {ratio:?}: it must be from 0 to 1/2")]
-    PoissonRatio {
+    InvalidPoissonRatio {
         /// As given.
         ratio: T,
     },
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {coefficient:?}: it must be finite")]
-    Friction {
+    InvalidFriction {
         /// As given.
         coefficient: T,
     },
@@ -469,7 +469,7 @@ pub enum ContactError<T: Real> {
         "x = {x:?} must lie {}side the contact from {:?} to {:?}",
         if *inside { "in" } else { "out" }, interval.left, interval.right
     )]
-    Misplaced {
+    InvalidPosition {
         /// Where.
         x: T,
         /// Whether it had to be strictly inside.
@@ -479,7 +479,7 @@ pub enum ContactError<T: Real> {
     },
     /// The load does not change the contact in a way that is known.
     #[error("the derivatives by the load are not known: {why}")]
-    NoRate {
+    NoLoadDerivative {
         /// What stands in the way.
         why: &'static str,
     },
@@ -493,7 +493,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"
     )]
-    Lengths {
+    LengthMismatch {
         /// Number of abscissae.
         x: usize,
         /// Number of places for pressures.
@@ -532,8 +532,8 @@ impl<T: Real> ContactError<T> {
         matches!(
             self,
             Self::NoFirstContact { .. }
-                | Self::TooShort { .. }
-                | Self::NoBalance { .. }
+                | Self::DomainTooShort { .. }
+                | Self::NoEquilibrium { .. }
                 | Self::OutsideBodies { .. }
                 | Self::Overflow { .. }
                 | Self::LiftsOff { .. }

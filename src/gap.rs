@@ -8,14 +8,14 @@
 //!
 //! There are two ways to a value. A [`Sampler`] inverts `X(k) = x` at any `x`, starting from its
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
-//! abscissae, and aim instead: see `aim.rs`.
+//! abscissae, and aim instead: see `sample_near.rs`.
 
-mod aim;
-mod first_look;
+mod sample_near;
+mod coarse_heights;
 mod sampler;
 
-pub(crate) use aim::{Knot, Trace, aim};
-pub(crate) use first_look::{FirstLook, LowPlace};
+pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
+pub(crate) use coarse_heights::{CoarseHeights, LowPoint};
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};
@@ -119,16 +119,16 @@ impl<'b, T: Real> Surface<'b, T> {
         low
     }
 
-    /// The first joint to the right of `x`.
-    fn joint_after(&self, x: T) -> Option<T> {
+    /// The first breakpoint to the right of `x`.
+    fn breakpoint_after(&self, x: T) -> Option<T> {
         self.joined?;
         let index = self.index_at(x, Side::Right);
         let end = self.piece(index).ends[1].x;
         (index + 1 < self.len() && end > x).then_some(end)
     }
 
-    /// The last joint to the left of `x`.
-    fn joint_before(&self, x: T) -> Option<T> {
+    /// The last breakpoint to the left of `x`.
+    fn breakpoint_before(&self, x: T) -> Option<T> {
         self.joined?;
         let index = self.index_at(x, Side::Left);
         let start = index.checked_sub(1).map(|before| self.piece(before).ends[1].x);
@@ -164,7 +164,7 @@ impl std::ops::AddAssign for Cost {
     }
 }
 
-/// The side from which a joint is looked at.
+/// The side from which a breakpoint is looked at.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Side {
     Left,
@@ -184,7 +184,7 @@ impl<'b, T: Real> Gap<'b, T> {
         let [lower, upper] = [bodies[0].extent(), bodies[1].extent()];
         let range = [lower[0].max(upper[0]), lower[1].min(upper[1])];
         if range[0] >= range[1] {
-            return Err(ContactError::Apart { lower, upper });
+            return Err(ContactError::NoCommonRange { lower, upper });
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
         Ok(Self { bodies, inversion, range, number, convex, tilt: T::zero() })
@@ -225,66 +225,66 @@ impl<'b, T: Real> Gap<'b, T> {
 
     /// The first place to the right of `x`, and on both bodies, where either profile passes from
     /// one piece to the next.
-    pub fn joint_after(&self, x: T) -> Option<T> {
+    pub fn breakpoint_after(&self, x: T) -> Option<T> {
         let x = x.max(self.range[0]);
-        let [lower, upper] = [0, 1].map(|i| self.bodies[i].joint_after(x));
-        let joint = match (lower, upper) {
+        let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_after(x));
+        let breakpoint = match (lower, upper) {
             (Some(lower), Some(upper)) => Some(lower.min(upper)),
             (lower, upper) => lower.or(upper),
         };
-        joint.filter(|&joint| joint < self.range[1])
+        breakpoint.filter(|&breakpoint| breakpoint < self.range[1])
     }
 
     /// The last place to the left of `x`, and on both bodies, where either profile passes from one
     /// piece to the next.
-    pub fn joint_before(&self, x: T) -> Option<T> {
+    pub fn breakpoint_before(&self, x: T) -> Option<T> {
         let x = x.min(self.range[1]);
-        let [lower, upper] = [0, 1].map(|i| self.bodies[i].joint_before(x));
-        let joint = match (lower, upper) {
+        let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_before(x));
+        let breakpoint = match (lower, upper) {
             (Some(lower), Some(upper)) => Some(lower.max(upper)),
             (lower, upper) => lower.or(upper),
         };
-        joint.filter(|&joint| joint > self.range[0])
+        breakpoint.filter(|&breakpoint| breakpoint > self.range[0])
     }
 
     /// Whether either profile passes from one piece to the next at `x`.
-    pub(crate) fn is_joint(&self, x: T) -> bool {
+    pub(crate) fn is_breakpoint(&self, x: T) -> bool {
         [Body::Lower, Body::Upper].into_iter().any(|body| {
             self.piece_at(body, x, Side::Left).0 != self.piece_at(body, x, Side::Right).0
         })
     }
 
-    /// The joints strictly inside an interval, rising.
-    pub fn joints(&self, on: crate::Interval<T>) -> impl Iterator<Item = T> {
-        let first = self.joint_after(on.left);
-        std::iter::successors(first, |&joint| self.joint_after(joint))
-            .take_while(move |&joint| joint < on.right)
+    /// The breakpoints strictly inside an interval, rising.
+    pub fn breakpoints(&self, on: crate::Interval<T>) -> impl Iterator<Item = T> {
+        let first = self.breakpoint_after(on.left);
+        std::iter::successors(first, |&breakpoint| self.breakpoint_after(breakpoint))
+            .take_while(move |&breakpoint| breakpoint < on.right)
     }
 
-    /// Of the joints strictly inside an interval those where the slope jumps in the direction of
+    /// Of the breakpoints strictly inside an interval those where the slope jumps in the direction of
     /// `sign`, so that the pressure is infinite; and of the others no more than about `most`,
-    /// evenly. (Pressures at all of very many joints would take longer than all else.)
-    pub(crate) fn telling_joints(
+    /// evenly. (Pressures at all of very many breakpoints would take longer than all else.)
+    pub(crate) fn telling_breakpoints(
         &self,
         on: crate::Interval<T>,
         sign: T,
         most: usize,
     ) -> impl Iterator<Item = T> {
-        let stride = 1 + self.joints(on).count() / most;
-        let telling = move |&(i, joint): &(usize, T)| {
-            let [jump, size] = self.jump(joint);
+        let stride = 1 + self.breakpoints(on).count() / most;
+        let telling = move |&(i, breakpoint): &(usize, T)| {
+            let [jump, size] = self.jump(breakpoint);
             i % stride == 0 || sign * jump > T::epsilon().sqrt() * size || !size.is_finite()
         };
-        self.joints(on).enumerate().filter(telling).map(|(_, joint)| joint)
+        self.breakpoints(on).enumerate().filter(telling).map(|(_, breakpoint)| breakpoint)
     }
 
-    /// By how much the slope jumps at a joint, from the ends of the pieces, which are known; and
+    /// By how much the slope jumps at a breakpoint, from the ends of the pieces, which are known; and
     /// how large it is there.
-    pub(crate) fn jump(&self, joint: T) -> [T; 2] {
+    pub(crate) fn jump(&self, breakpoint: T) -> [T; 2] {
         let [mut jump, mut size] = [T::zero(); 2];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
-            let (i, left) = self.piece_at(body, joint, Side::Left);
-            let (j, right) = self.piece_at(body, joint, Side::Right);
+            let (i, left) = self.piece_at(body, breakpoint, Side::Left);
+            let (j, right) = self.piece_at(body, breakpoint, Side::Right);
             if i != j {
                 let [left, right] =
                     [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
@@ -356,7 +356,7 @@ impl<'b, T: Real> Gap<'b, T> {
         if evaluations <= budget {
             Ok(())
         } else {
-            Err(ContactError::Evaluations { evaluations, budget, last })
+            Err(ContactError::BudgetSpent { evaluations, budget, last })
         }
     }
 

@@ -15,7 +15,7 @@ pub struct Interval<T> {
 impl<T: Real> Interval<T> {
     /// The same without derivatives, to start from.
     pub(crate) fn plain(&self) -> Self {
-        Self { left: self.left.part(0), right: self.right.part(0) }
+        Self { left: self.left.component(0), right: self.right.component(0) }
     }
 
     /// Whether it is the same in all parts of its numbers.
@@ -40,7 +40,7 @@ impl<T: Real> Interval<T> {
 
     /// `sqrt((x + b)(a - x))`, from the distances to the two ends so that it keeps its
     /// relative accuracy next to either.
-    pub fn edge_root(&self, x: T) -> T {
+    pub fn chebyshev_weight(&self, x: T) -> T {
         // In shares of the width, whose roots are the same in any unit.
         let width = self.right - self.left;
         width * (((x - self.left) / width).sqrt() * ((self.right - x) / width).sqrt())

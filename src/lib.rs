@@ -92,7 +92,7 @@ pub mod stress;
 #[cfg(feature = "rayon")]
 mod sweep;
 
-pub use certificate::{Certificate, Place};
+pub use certificate::{Certificate, Extremum};
 pub use contact::{Contact, Control, Edge, EdgePressure};
 pub use error::{Body, ContactError};
 pub use gap::{Cost, Gap};

@@ -40,12 +40,12 @@ const MOST_PRESSURES: usize = 4096;
 
 /// Samples what is still missing for the pressure, as part of a search that has cost so much.
 pub(crate) fn complete<T: Real>(
-    engine: &dyn Engine<T>,
+    integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
     on: Interval<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
-    let more = engine.complete(gap)?;
+    let more = integrator.complete(gap)?;
     *cost += more;
     let pressures = more.evaluations.max(more.samples).saturating_mul(MOST_PRESSURES);
     if pressures > 0 { gap.check_budget(*cost, UNKEPT, pressures, on) } else { Ok(()) }
@@ -56,36 +56,36 @@ pub trait Quadrature<T: Real>: Send + Sync {
     /// Sets it up for work.
     ///
     /// # Errors
-    /// [`ContactError::Segments`], [`ContactError::Tolerance`] for settings that cannot be used.
-    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>>;
+    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for settings that cannot be used.
+    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>>;
 
-    /// Whether an engine is one of this quadrature, with these settings, so that a
+    /// Whether an integrator is one of this quadrature, with these settings, so that a
     /// [`Solver`](crate::Solver) may go on with it. By default none is, and each solve takes a new one.
     ///
-    /// An engine is known by its type: `(engine as &dyn Any).downcast_ref::<MyEngine>()`.
-    fn serves(&self, _engine: &dyn Engine<T>) -> bool {
+    /// An integrator is known by its type: `(integrator as &dyn Any).downcast_ref::<MyIntegrator>()`.
+    fn serves(&self, _integrator: &dyn Integrator<T>) -> bool {
         false
     }
 }
 
 /// A [`Quadrature`] at work. It holds numbers only, is handed the gap with each request, and may
 /// keep samples from one to the next.
-pub trait Engine<T: Real>: Any + Send + Sync {
+pub trait Integrator<T: Real>: Any + Send + Sync {
     /// A copy, with all that this one has: for a solver that goes on while a solution is kept.
-    fn fork(&self) -> Box<dyn Engine<T>>;
+    fn fork(&self) -> Box<dyn Integrator<T>>;
 
     /// What follows is a new problem: costs are counted from zero, and unless the bodies are the
     /// same all samples are forgotten.
     fn reset(&mut self, same_bodies: bool);
 
-    /// Takes samples over a stretch of x in which the contact is expected, in place of those that
+    /// Takes samples over a span of x in which the contact is expected, in place of those that
     /// it has: as many as it takes, or (`rough`) only a few, for a first estimate of the limits.
     /// Returns about how large an error of the slope is left, as a fraction of it; `None` (the
-    /// default) says that this engine samples each interval as it comes.
+    /// default) says that this integrator samples each interval as it comes.
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn cover(
+    fn sample_over(
         &mut self,
         _gap: &Gap<'_, T>,
         _on: Interval<T>,
@@ -99,7 +99,7 @@ pub trait Engine<T: Real>: Any + Send + Sync {
     /// comes of it.
     fn hold(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
 
-    /// The stretch over which samples are at hand. `None` (the default) if none are kept.
+    /// The span over which samples are at hand. `None` (the default) if none are kept.
     fn covered(&self) -> Option<Interval<T>> {
         None
     }
@@ -147,7 +147,7 @@ pub trait Engine<T: Real>: Any + Send + Sync {
     fn estimate(
         &self,
         gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
+        load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
     ) -> Result<Estimate<T>, ContactError<T>>;
@@ -159,13 +159,13 @@ pub trait Engine<T: Real>: Any + Send + Sync {
     fn pressures(
         &self,
         gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
+        load_case: &LoadCase<T>,
         x: &[T],
         pressures: &mut [T],
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
         for (pressure, &x) in pressures.iter_mut().zip(x) {
-            *pressure = self.estimate(gap, pressing, x, cost)?.value;
+            *pressure = self.estimate(gap, load_case, x, cost)?.value;
         }
         Ok(())
     }
@@ -176,7 +176,7 @@ pub trait Engine<T: Real>: Any + Send + Sync {
 
 /// What presses on a contact, and what is known of its edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pressing<T> {
+pub struct LoadCase<T> {
     /// The scale κ, a pressure.
     pub kappa: T,
     /// Load per unit length F.
@@ -211,13 +211,13 @@ pub struct Moments<T> {
     /// The largest `|X(k) - x|` that the inversions have left; a length.
     pub inversion: T,
     /// How they change with the limits, where that is known.
-    pub trend: Option<Trend<T>>,
+    pub trend: Option<MomentDerivatives<T>>,
 }
 
 /// `(1/π) ∫ g'(x) cosⁱθ dθ`: with centre c and half-width L, `∂m₀/∂c` is the first, `∂m₀/∂L` and
 /// `∂m₁/∂c` are the second, and `∂m₁/∂L` is the third.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trend<T> {
+pub struct MomentDerivatives<T> {
     /// i = 0.
     pub by_0: T,
     /// i = 1.

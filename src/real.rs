@@ -16,15 +16,15 @@ use num_traits::FromPrimitive;
 )]
 pub trait Real: RealField + Copy {
     /// Of how many plain numbers it is made: 1, and for a dual number one more for each derivative.
-    const PARTS: usize = 1;
+    const COMPONENTS: usize = 1;
 
     /// Steps of Newton's rule that a solution takes beyond the convergence of its value, for the
     /// derivatives to converge: as many as the order of the highest derivative.
-    const MORE_STEPS: usize = 0;
+    const DERIVATIVE_ORDER: usize = 0;
 
-    /// One of the [`PARTS`](Self::PARTS), as a number without derivatives. The first is the value.
+    /// One of the [`COMPONENTS`](Self::COMPONENTS), as a number without derivatives. The first is the value.
     #[must_use]
-    fn part(self, _index: usize) -> Self {
+    fn component(self, _index: usize) -> Self {
         self
     }
 
@@ -52,12 +52,12 @@ impl Real for f64 {}
 
 /// Whether two numbers are the same in all of their parts. (Dual numbers compare by their values.)
 pub(crate) fn same<T: Real>(a: T, b: T) -> bool {
-    (0..T::PARTS).all(|i| a.part(i) == b.part(i))
+    (0..T::COMPONENTS).all(|i| a.component(i) == b.component(i))
 }
 
 /// Whether a number is finite in all of its parts.
 pub(crate) fn is_finite<T: Real>(a: T) -> bool {
-    (0..T::PARTS).all(|i| a.part(i).is_finite())
+    (0..T::COMPONENTS).all(|i| a.component(i).is_finite())
 }
 
 /// `a b + c`, with one rounding where the processor has an instruction for it. (Without one, the exact

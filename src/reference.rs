@@ -137,7 +137,7 @@ pub trait ClosedForm<T: Real>: Debug + Send + Sync {
     }
 
     /// The places where the slope is not smooth, from left to right.
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         Vec::new()
     }
 

@@ -23,7 +23,7 @@ mod brent;
 mod newton;
 mod roots_adapter;
 mod secant;
-mod tracker;
+mod bracket_state;
 
 pub use bisection::Bisection;
 pub use brent::Brent;
@@ -220,7 +220,7 @@ pub enum SearchError<T: Real> {
     },
     /// A strategy has looked at, or returned, a point that is not in the bracket it was given.
     #[error("the strategy went to {x:?}, which is not in the bracket [{lo:?}, {hi:?}]")]
-    Astray {
+    LeftBracket {
         /// Where it went.
         x: T,
         /// Lower end of the bracket.
@@ -233,7 +233,7 @@ pub enum SearchError<T: Real> {
         "the strategy stopped at {x:?}, where the function is still {residual:?}: tighten its \
          tolerance"
     )]
-    Missed {
+    NotConverged {
         /// What it returned.
         x: T,
         /// The function there.

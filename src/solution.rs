@@ -1,10 +1,10 @@
 //! What comes back.
 
 use crate::certificate::{Certificate, certify};
-use crate::contact::{Found, peak};
+use crate::contact::{ContactState, peak};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{Engine, Estimate, Pressing};
+use crate::quadrature::{Integrator, Estimate, LoadCase};
 use crate::{ContactError, Interval, Real};
 use std::sync::Arc;
 
@@ -27,9 +27,9 @@ pub use report::{Report, Start, Trial, Verdict};
 pub struct Solution<'b, T: Real> {
     gap: Gap<'b, T>,
     /// That has solved the contact.
-    engine: Arc<Box<dyn Engine<T>>>,
+    integrator: Arc<Box<dyn Integrator<T>>>,
     kappa: T,
-    found: Found<T>,
+    found: ContactState<T>,
     cost: Cost,
     report: Report,
 }
@@ -37,13 +37,13 @@ pub struct Solution<'b, T: Real> {
 impl<'b, T: Real> Solution<'b, T> {
     pub(crate) fn new(
         gap: Gap<'b, T>,
-        engine: Arc<Box<dyn Engine<T>>>,
+        integrator: Arc<Box<dyn Integrator<T>>>,
         kappa: T,
-        found: Found<T>,
+        found: ContactState<T>,
         cost: Cost,
         report: Report,
     ) -> Self {
-        Self { gap, engine, kappa, found, cost, report }
+        Self { gap, integrator, kappa, found, cost, report }
     }
 
     /// The limit `a`.
@@ -87,7 +87,7 @@ impl<'b, T: Real> Solution<'b, T> {
     /// conditions at the edges. `None` where both limits were given.
     ///
     /// It is a few units in the last place where the slope of the gap is analytic between the
-    /// joints. Much more says that a profile is noisy or has a kink not declared as a joint.
+    /// breakpoints. Much more says that a profile is noisy or has a kink not declared as a breakpoint.
     pub fn limits_error(&self) -> Option<T> {
         self.found.error
     }
@@ -105,20 +105,20 @@ impl<'b, T: Real> Solution<'b, T> {
     /// it: see [`Certificate`] for what is proved, and what it takes.
     ///
     /// A body ends at a sharp corner ([`Edge::Fixed`](crate::Edge::Fixed),
-    /// [`Edge::UpTo`](crate::Edge::UpTo)), however far its curve goes on. Between adhesive edges the
+    /// [`Edge::FreeUntil`](crate::Edge::FreeUntil)), however far its curve goes on. Between adhesive edges the
     /// bodies may pull at each other, and only the outside is looked at.
     ///
     /// # Errors
-    /// [`ContactError::Missed`] where the panels do not know of something in the contact;
+    /// [`ContactError::FeatureMissed`] where the panels do not know of something in the contact;
     /// [`ContactError::Unbalanced`] where its samples leave more at a free edge than
     /// [`limits_error`](Self::limits_error) stands for; [`ContactError::Profile`] for heights that are not finite;
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found, &**self.engine)
+        certify(&self.gap, self.kappa, &self.found, &**self.integrator)
     }
 
-    /// The largest pressure and its place, as far as a grid of 64 points in each contact and the joints
+    /// The largest pressure and its place, as far as a grid of 64 points in each contact and the breakpoints
     /// show which maximum is the largest. The pressure is flat there: its value has all digits, its place half
     /// of them.
     ///
@@ -133,7 +133,7 @@ impl<'b, T: Real> Solution<'b, T> {
     /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others); those of
     /// sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
-        self.engine.complete(&self.gap)?;
+        self.integrator.complete(&self.gap)?;
         let last = self.intervals().len() - 1;
         let mut best = self.peak_in(last)?;
         for i in (0..last).rev() {
@@ -150,11 +150,11 @@ impl<'b, T: Real> Solution<'b, T> {
         let contacts = self.intervals();
         let (on, last) = (contacts[contact], contacts.len() - 1);
         let (x, Estimate { value: pressure, .. }) =
-            peak(&**self.engine, &self.gap, &self.pressing(), on, &mut Cost::default())?;
+            peak(&**self.integrator, &self.gap, &self.load_case(), on, &mut Cost::default())?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
-        let Found { strengths, free, .. } = self.found;
+        let ContactState { strengths, free, .. } = self.found;
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // Where both edges are at fault it is the right one that is named.
         for (i, outermost, x) in [(1, contact == last, on.right), (0, contact == 0, on.left)] {
@@ -182,16 +182,16 @@ impl<'b, T: Real> Solution<'b, T> {
     /// # Errors
     /// Those of sampling the gap.
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
-        let cost = self.engine.complete(&self.gap)?;
-        let (gap, Found { interval: on, load, error, force, .. }) = (&self.gap, self.found);
+        let cost = self.integrator.complete(&self.gap)?;
+        let (gap, ContactState { interval: on, load, error, force, .. }) = (&self.gap, self.found);
         let error = error.unwrap_or(T::zero());
         let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
-        let Found { strengths, adhesive, .. } = self.found;
+        let ContactState { strengths, adhesive, .. } = self.found;
         let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
         let held = [held(0), held(1)];
-        let pressing = self.pressing();
-        let (engine, contacts) = (&**self.engine, self.intervals());
-        Ok(Pressure { gap, engine, pressing, on, contacts, force, held, cost })
+        let load_case = self.load_case();
+        let (integrator, contacts) = (&**self.integrator, self.intervals());
+        Ok(Pressure { gap, integrator, load_case, on, contacts, force, held, cost })
     }
 
     /// The contact in which a place lies.
@@ -203,7 +203,7 @@ impl<'b, T: Real> Solution<'b, T> {
 
     /// The contacts on their panels, if they are several.
     pub(crate) fn several(&self) -> Option<&Several<T>> {
-        panels::several(&**self.engine)
+        panels::several(&**self.integrator)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -214,13 +214,13 @@ impl<'b, T: Real> Solution<'b, T> {
         self.kappa
     }
 
-    pub(crate) fn found(&self) -> &Found<T> {
+    pub(crate) fn found(&self) -> &ContactState<T> {
         &self.found
     }
 
-    fn pressing(&self) -> Pressing<T> {
-        let Found { load, free, .. } = self.found;
-        Pressing { kappa: self.kappa, load, free }
+    fn load_case(&self) -> LoadCase<T> {
+        let ContactState { load, free, .. } = self.found;
+        LoadCase { kappa: self.kappa, load, free }
     }
 }
 
@@ -236,8 +236,8 @@ pub struct Peak<T> {
 /// The pressure over a contact.
 pub struct Pressure<'p, T: Real> {
     gap: &'p Gap<'p, T>,
-    engine: &'p dyn Engine<T>,
-    pressing: Pressing<T>,
+    integrator: &'p dyn Integrator<T>,
+    load_case: LoadCase<T>,
     /// From the first to the last limit.
     on: Interval<T>,
     contacts: &'p [Interval<T>],
@@ -259,7 +259,7 @@ impl<T: Real> Pressure<'_, T> {
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
         let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
         // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
-        let free = self.pressing.free == [true; 2];
+        let free = self.load_case.free == [true; 2];
         if free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
             Err(ContactError::Unresolved { x, pressure, error })
         } else {
@@ -272,15 +272,15 @@ impl<T: Real> Pressure<'_, T> {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
-    /// [`ContactError::Lengths`] if the two slices are not of the same length.
+    /// [`ContactError::LengthMismatch`] if the two slices are not of the same length.
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         if x.len() != pressures.len() {
-            return Err(ContactError::Lengths { x: x.len(), pressures: pressures.len() });
+            return Err(ContactError::LengthMismatch { x: x.len(), pressures: pressures.len() });
         }
         let mut cost = Cost::default();
         // Without a way out of the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
-            self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut cost)?;
+            self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut cost)?;
             let finite = |pressure: &T| pressure.is_finite();
             if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
                 return Ok(());
@@ -305,7 +305,7 @@ impl<T: Real> Pressure<'_, T> {
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let [free_b, free_a] = self.pressing.free;
+        let [free_b, free_a] = self.load_case.free;
         let first = self.contacts.partition_point(|on| on.right <= x);
         let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
             let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
@@ -315,14 +315,14 @@ impl<T: Real> Pressure<'_, T> {
                 Ok(Estimate { value: T::zero(), error: T::zero() })
             };
         };
-        let mut estimate = self.engine.estimate(self.gap, &self.pressing, x, cost)?;
+        let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
         if !estimate.value.is_finite() {
             return Err(ContactError::Singular { x });
         }
         // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
         // of it. The load is what it is: so the change is of second order, but for points so close
         // to an edge that they might lie on its other side.
-        let change = self.force / (T::pi() * on.edge_root(x));
+        let change = self.force / (T::pi() * on.chebyshev_weight(x));
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
@@ -336,7 +336,7 @@ impl<T: Real> Pressure<'_, T> {
 
     /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
     pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        self.engine.pressures(self.gap, &self.pressing, x, pressures, &mut Cost::default())
+        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
     }
 
     /// What making ready has cost.
@@ -347,7 +347,7 @@ impl<T: Real> Pressure<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Solution<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { found: Found { interval, load, .. }, kappa, cost, .. } = self;
+        let Self { found: ContactState { interval, load, .. }, kappa, cost, .. } = self;
         let mut debug = f.debug_struct("Solution");
         debug.field("interval", interval).field("load", load).field("kappa", kappa);
         debug.field("cost", cost).finish_non_exhaustive()
@@ -356,9 +356,9 @@ impl<T: Real> std::fmt::Debug for Solution<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { on, pressing, cost, .. } = self;
+        let Self { on, load_case, cost, .. } = self;
         let mut debug = f.debug_struct("Pressure");
-        debug.field("on", on).field("pressing", pressing);
+        debug.field("on", on).field("load_case", load_case);
         debug.field("cost", cost).finish_non_exhaustive()
     }
 }

@@ -1,7 +1,7 @@
 //! Solving again: the next load, the next time step.
 
 use crate::contact::{Control, Workspace};
-use crate::quadrature::Engine;
+use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::solution::Solution;
 use crate::{Contact, ContactError, Real};
@@ -39,7 +39,7 @@ use std::sync::Arc;
 /// # Ok::<(), ContactError<f64>>(())
 /// ```
 pub struct Solver<T: Real> {
-    engine: Option<Arc<Box<dyn Engine<T>>>>,
+    integrator: Option<Arc<Box<dyn Integrator<T>>>>,
     workspace: Workspace<T>,
     /// The gap last solved, by its number; the contacts found are in the workspace.
     last: Option<u64>,
@@ -49,7 +49,7 @@ impl<T: Real> Solver<T> {
     /// A solver that has not solved anything yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { engine: None, workspace: Workspace::new(), last: None }
+        Self { integrator: None, workspace: Workspace::new(), last: None }
     }
 
     /// Solves a scene, as [`Contact::solve`] does. Where the quadrature of the scene is not that of the
@@ -65,18 +65,18 @@ impl<T: Real> Solver<T> {
     ) -> Result<Solution<'b, T>, ContactError<T>> {
         let (gap, last) = (contact.gap(), self.last.take());
         let quadrature = contact.chosen_quadrature();
-        let engine = self.engine.take().filter(|engine| quadrature.serves(&***engine));
-        let last = last.filter(|_| engine.is_some());
-        let engine = match engine {
-            Some(engine) => engine,
-            None => Arc::new(quadrature.engine()?),
+        let integrator = self.integrator.take().filter(|integrator| quadrature.serves(&***integrator));
+        let last = last.filter(|_| integrator.is_some());
+        let integrator = match integrator {
+            Some(integrator) => integrator,
+            None => Arc::new(quadrature.integrator()?),
         };
-        let engine = self.engine.insert(engine);
+        let integrator = self.integrator.insert(integrator);
         let work = loop {
-            match Arc::get_mut(engine) {
+            match Arc::get_mut(integrator) {
                 Some(work) => break &mut **work,
-                // A solution that was kept keeps its engine.
-                None => *engine = Arc::new(engine.fork()),
+                // A solution that was kept keeps its integrator.
+                None => *integrator = Arc::new(integrator.fork()),
             }
         };
         work.reset(last == Some(gap.number()));
@@ -87,7 +87,7 @@ impl<T: Real> Solver<T> {
         let one = std::slice::from_ref(&found.interval);
         self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
         self.last = Some(gap.number());
-        Ok(contact.solution(engine.clone(), found, cost, self.workspace.report))
+        Ok(contact.solution(integrator.clone(), found, cost, self.workspace.report))
     }
 }
 

@@ -33,7 +33,7 @@ const ROWS: usize = 64;
 ///     |done| eprintln!("{done} of {}", loads.len()),
 /// );
 /// assert!((half_widths[0].as_ref().unwrap() - 0.2).abs() < 1e-15);
-/// assert!(matches!(half_widths[1], Err(ContactError::Load { .. })));
+/// assert!(matches!(half_widths[1], Err(ContactError::InvalidLoad { .. })));
 /// assert!((half_widths[2].as_ref().unwrap() - 0.4).abs() < 1e-15);
 /// # Ok::<(), ContactError<f64>>(())
 /// ```

@@ -64,7 +64,7 @@ pub fn limits() -> Result<Tally, ContactError<f64>> {
     let mut tally = Tally::default();
     for scene in scenes::all() {
         for (i, search) in searches().iter().enumerate() {
-            let outcome = solve(&scene, &scene.contact()?.search(&**search));
+            let outcome = solve(&scene, &scene.contact()?.limit_search(&**search));
             row(&scene, i, &outcome);
             tally.add(i, &outcome);
         }
@@ -103,7 +103,7 @@ pub fn poor_starts() -> Result<Tally, ContactError<f64>> {
             print!("{name:<24} {:<20}", start.name);
             let mut outcomes = Vec::new();
             for search in &searches() {
-                let contact = scene.contact()?.search(&**search);
+                let contact = scene.contact()?.limit_search(&**search);
                 let outcome = solve(
                     &scene,
                     &contact.start(Interval { left: middle - reach, right: middle + reach }),

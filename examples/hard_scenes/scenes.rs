@@ -179,8 +179,8 @@ pub fn all() -> Vec<Scene> {
         [Vec::new(), flank],
     ));
     let form = Ellipse::circle(1.0, 0.3).expect("a contact");
-    let joints = [-1.2, -1e-2, -1e-5, -1e-9, 0.0, 1e-12, 1e-7, 0.25, 0.25 + 1e-8, 1.2];
-    let arcs = joints.windows(2).map(|ends| circle(ends[0], ends[1])).collect();
+    let breakpoints = [-1.2, -1e-2, -1e-5, -1e-9, 0.0, 1e-12, 1e-7, 0.25, 0.25 + 1e-8, 1.2];
+    let arcs = breakpoints.windows(2).map(|ends| circle(ends[0], ends[1])).collect();
     scenes.push(Scene::of("circle in arcs down to 1e-12", &form, arcs));
     scenes.extend([0.9, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9].map(|amplitude| wave(amplitude, 12.0)));
     scenes

@@ -93,7 +93,7 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
         Err(error) => return failed(error.to_string(), format!("{error:?}")),
     };
     if let Some(oracle) = oracle {
-        let elements = Report::of_elements(&name, &reference, &answer, &oracle, &reference.joints);
+        let elements = Report::of_elements(&name, &reference, &answer, &oracle, &reference.breakpoints);
         return Ok(match one_interval(&name, &bodies, &reference) {
             Ok(one) => one.and(elements),
             Err(why) => Report::of_error(&name, reference.kind_name, false, why),
@@ -110,7 +110,7 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     // Given edges enter the integral for the pressure with the root of both distances, and G with it.
     let weight =
         if reference.kind == Kind::Fixed { |angle: f64| angle.sin().powi(2) } else { |_| 1.0 };
-    let rounded = &reference.rounded_joints;
+    let rounded = &reference.rounded_breakpoints;
     let noise = noise::measure([&*bodies[0], &*bodies[1]], on, &places, rounded, weight)?;
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
 }
@@ -139,7 +139,7 @@ fn one_interval(name: &str, bodies: &[Body<f64>; 2], wanted: &Reference) -> Resu
     let cost = solution.cost() + pressure.cost();
     let answer = Answer { contacts: solution.intervals().to_vec(), pressures, cost };
     let both = [&*bodies[0], &*bodies[1]];
-    let noise = noise::measure(both, on, &places, &wanted.rounded_joints, |_| 1.0);
+    let noise = noise::measure(both, on, &places, &wanted.rounded_breakpoints, |_| 1.0);
     let noise = noise.map_err(|error| error.to_string())?;
     let mut report = Report::of_answer(name, wanted, &answer, &noise);
     let off = (solution.load() / load - 1.0).abs();
@@ -165,7 +165,7 @@ fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
     let gap = |x| boundary_elements::height(upper, x) - boundary_elements::height(lower, x);
     let [one, two] = [range::of(lower), range::of(upper)];
     let range = [one[0].max(two[0]), one[1].min(two[1])];
-    boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.joints)
+    boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.breakpoints)
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

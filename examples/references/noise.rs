@@ -32,7 +32,7 @@ pub struct Noise {
     pub steepest: f64,
 }
 
-/// Measures the noise at places within a contact, given from left to right. The joints `rounded` are
+/// Measures the noise at places within a contact, given from left to right. The breakpoints `rounded` are
 /// not where the bodies' formulas have them. `weight` is that of the
 /// slope in its mean, by the angle θ of `x = c + L cos θ`.
 ///
@@ -84,31 +84,31 @@ fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, Prof
     }
 }
 
-/// A joint at which the slope of the gap jumps, or may.
+/// A breakpoint at which the slope of the gap jumps, or may.
 struct Jump {
     x: f64,
     by: f64,
-    /// By how much the slope jumps on top of that because the joint is rounded: the curvature does.
+    /// By how much the slope jumps on top of that because the breakpoint is rounded: the curvature does.
     perhaps: f64,
 }
 
 impl Jump {
     /// The pressure has the logarithm of the distance from it, which is off by what rounding makes of
-    /// the place of a joint such as 1/3: no more than that can be known, at the joint itself nothing.
+    /// the place of a breakpoint such as 1/3: no more than that can be known, at the breakpoint itself nothing.
     fn noise(&self, x: f64, on: Interval<f64>) -> f64 {
         let rounded = place_rounding(self.x);
         let distance = (x - self.x).abs();
         if rounded <= 0.0 {
             return 0.0;
         }
-        // Infinite at the joint, but only of a slope that jumps.
+        // Infinite at the breakpoint, but only of a slope that jumps.
         let by = self.by.abs();
         let place = if by > 0.0 { by * (rounded / distance).ln_1p() } else { 0.0 };
         (place + self.perhaps * (on.half_width() / distance.max(rounded)).ln_1p()) / PI
     }
 }
 
-/// The most by which a joint is rounded.
+/// The most by which a breakpoint is rounded.
 fn place_rounding(x: f64) -> f64 {
     0.5 * f64::EPSILON * x.abs()
 }
@@ -227,8 +227,8 @@ mod tests {
     use linecontact::{Curve, CurvePoint, Flat, Interval, Piecewise};
 
     #[test]
-    fn a_joint_that_is_rounded() {
-        // x²/2, and from 1/3 on a curvature of 1 + bend. With the joint off by u the slope jumps by
+    fn a_breakpoint_that_is_rounded() {
+        // x²/2, and from 1/3 on a curvature of 1 + bend. With the breakpoint off by u the slope jumps by
         // bend u, and the pressure at a distance d has (bend u/π²) ln(L/d) more or less.
         let (bend, third) = (1e8, 1.0 / 3.0);
         let piece = |from: f64, to: f64, bend: f64| {

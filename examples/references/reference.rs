@@ -49,10 +49,10 @@ pub struct Reference {
     pub one_of_several: bool,
     /// The variant of the error that must come, where the file names it.
     pub error: Option<String>,
-    /// The joints of both bodies.
-    pub joints: Vec<f64>,
-    /// Joints that are no numbers of 64 bits, such as 1/3, rounded.
-    pub rounded_joints: Vec<f64>,
+    /// The breakpoints of both bodies.
+    pub breakpoints: Vec<f64>,
+    /// Breakpoints that are no numbers of 64 bits, such as 1/3, rounded.
+    pub rounded_breakpoints: Vec<f64>,
     /// Points with a finite pressure that is not zero.
     pub points: Vec<Point>,
 }
@@ -107,9 +107,9 @@ impl Reference {
                 points.push(Point { x, pressure, amplification });
             }
         }
-        let joints = list("breakpoints_x").iter().filter_map(number).collect();
-        let rounded = list("breakpoints_x").iter().filter(|joint| !is_exact(joint));
-        let rounded_joints = rounded.filter_map(number).collect();
+        let breakpoints = list("breakpoints_x").iter().filter_map(number).collect();
+        let rounded = list("breakpoints_x").iter().filter(|breakpoint| !is_exact(breakpoint));
+        let rounded_breakpoints = rounded.filter_map(number).collect();
         let kappa = number(&file["scale_value"]).or_else(|| scale(file["scale"].as_str()?))?;
         Some(Self {
             kind_name,
@@ -120,8 +120,8 @@ impl Reference {
             several,
             one_of_several: file["all_single_interval_roots"].is_array(),
             error: file["expected_error"].as_str().map(str::to_owned),
-            joints,
-            rounded_joints,
+            breakpoints,
+            rounded_breakpoints,
             points,
         })
     }
@@ -174,7 +174,7 @@ mod tests {
     use serde_json::Value;
 
     #[test]
-    fn joints_that_are_rounded() {
+    fn breakpoints_that_are_rounded() {
         let is_exact = |text: &str| is_exact(&Value::from(text));
         for text in [
             "0.25",

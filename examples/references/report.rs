@@ -221,7 +221,7 @@ fn floor(reference: &Reference, i: usize, on: Interval<f64>, noise: &Noise) -> f
     // the distances from the edges, which are in the root.
     let share = |edge: f64| (x.abs() + edge.abs()) / (2.0 * (x - edge).abs());
     let edges = (share(on.left) + share(on.right)) * ROUNDING;
-    let rise = on.half_width() / on.edge_root(x);
+    let rise = on.half_width() / on.chebyshev_weight(x);
     let terms = noise.steepest * ROUNDING + noise.mean_slope;
     rounded + edges + unit * (noise.slope[i] + rise * terms)
 }

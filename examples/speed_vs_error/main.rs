@@ -102,7 +102,7 @@ fn rows(timed: bool) -> Vec<Row> {
     rows
 }
 
-/// The default engine at its default tolerance is as good as the data allow; a search of one limit
+/// The default integrator at its default tolerance is as good as the data allow; a search of one limit
 /// at a time may stop a few units in the last place earlier.
 fn check_default(rows: &[Row]) {
     for scene in scenes::all() {

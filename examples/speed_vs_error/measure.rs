@@ -35,7 +35,7 @@ fn contact<'a>(scene: &'a Scene, way: &'a Way) -> Result<Contact<'a, f64>, Conta
         contact = contact.inversion(search);
     }
     if let Some(search) = methods::search(way.limits) {
-        contact = contact.search(search);
+        contact = contact.limit_search(search);
     }
     Ok(contact)
 }

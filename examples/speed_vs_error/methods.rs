@@ -27,8 +27,8 @@ pub const SEARCHES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
 
 /// A search by its name; the default has none.
 pub fn search(name: &str) -> Option<&'static dyn LimitSearch<f64>> {
-    use linecontact::search::Tolerance;
-    const FULL: Tolerance = Tolerance::FULL;
+    use linecontact::search::StoppingCriteria;
+    const FULL: StoppingCriteria = StoppingCriteria::FULL;
     Some(match name {
         "bisection" => &Bisection { tolerance: FULL },
         "secant" => &Secant { tolerance: FULL },
@@ -66,7 +66,7 @@ fn midpoint(method: &'static str, rule: Midpoint) -> Way {
 /// All ways to solve this contact.
 pub fn all(scene: &Scene) -> Vec<Way> {
     // What is right depends on how the slope of the gap times the root ends.
-    let right = if scene.fixed { Exponents::Even } else { Exponents::HalfOdd };
+    let right = if scene.fixed { Exponents::Even } else { Exponents::HalfInteger };
     let mut ways: Vec<Way> = [1e-3, 1e-6, 1e-9, 1e-12, 0.0].map(panels).into();
     for (method, extrapolations, exponents) in [
         ("right powers ET=4", 4, right),

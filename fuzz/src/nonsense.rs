@@ -30,7 +30,7 @@ fn interval(rng: &mut Rng) -> [f64; 2] {
 fn edge(rng: &mut Rng) -> Edge<f64> {
     match rng.below(8) {
         0 => Edge::Fixed(number(rng)),
-        1 => Edge::UpTo(number(rng)),
+        1 => Edge::FreeUntil(number(rng)),
         2 => Edge::Adhesive(number(rng)),
         _ => Edge::Free,
     }

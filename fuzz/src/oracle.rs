@@ -21,7 +21,7 @@ pub enum Term {
 use Term::*;
 
 impl Term {
-    /// Height, slope and curvature; at a joint those of the side.
+    /// Height, slope and curvature; at a breakpoint those of the side.
     pub fn at(&self, x: f64, right: bool) -> [f64; 3] {
         let none = [0.0; 3];
         match *self {
@@ -77,21 +77,21 @@ impl Term {
         }
     }
 
-    pub fn joint(&self) -> Option<f64> {
+    pub fn breakpoint(&self) -> Option<f64> {
         match *self {
             RampRight(_, x) | RampLeft(_, x) | Jump(_, x) | Power(_, _, x) => Some(x),
             _ => None,
         }
     }
 
-    /// On a stretch of which `middle` is a point, so that a place rounded to a joint is on its side.
+    /// On a span of which `middle` is a point, so that a place rounded to a breakpoint is on its side.
     fn on(&self, x: f64, middle: f64) -> [f64; 3] {
-        match self.joint() {
-            Some(joint) if (x - joint) * (middle - joint) <= 0.0 => {
-                // The curvature of a power may be infinite at the joint itself.
+        match self.breakpoint() {
+            Some(breakpoint) if (x - breakpoint) * (middle - breakpoint) <= 0.0 => {
+                // The curvature of a power may be infinite at the breakpoint itself.
                 let x =
-                    if matches!(self, Power(..)) && x == joint { joint + 1e-300 } else { joint };
-                self.at(x, middle > joint)
+                    if matches!(self, Power(..)) && x == breakpoint { breakpoint + 1e-300 } else { breakpoint };
+                self.at(x, middle > breakpoint)
             }
             _ => self.at(x, true),
         }
@@ -122,7 +122,7 @@ impl On {
         (z.abs() < 1.0).then(|| z.acos())
     }
 
-    /// Calls with θ, its weight, its distances from the two ends of the stretch that it is on, and
+    /// Calls with θ, its weight, its distances from the two ends of the span that it is on, and
     /// the middle of that.
     fn over(
         &self,
@@ -132,7 +132,7 @@ impl On {
     ) {
         let mut ends = vec![0.0, PI];
         for term in terms {
-            ends.extend(term.joint().and_then(|x| self.angle(x)));
+            ends.extend(term.breakpoint().and_then(|x| self.angle(x)));
             if let Tanh(_, w, x0) = *term {
                 let near = [-20.0, -5.0, -1.0, 0.0, 1.0, 5.0, 20.0];
                 ends.extend(near.iter().filter_map(|share| self.angle(x0 + share * w)));
@@ -187,8 +187,8 @@ impl On {
             sum += if term.is_finite() { term } else { 0.0 };
         });
         for term in terms {
-            if let Jump(jump, joint) = *term {
-                sum += self.angle(joint).map_or(0.0, |theta| jump * kernel(theta, theta - phi));
+            if let Jump(jump, breakpoint) = *term {
+                sum += self.angle(breakpoint).map_or(0.0, |theta| jump * kernel(theta, theta - phi));
             }
         }
         sum / (PI * PI)

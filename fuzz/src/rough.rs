@@ -134,7 +134,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     let of = |error: linecontact::ContactError<f64>| format!("refused: {error}");
     let mut contact = Contact::new(&*lower, &*upper).map_err(of)?.kappa(scene.kappa);
     if scene.corners {
-        let [left, right] = scene.ends.map(Edge::UpTo);
+        let [left, right] = scene.ends.map(Edge::FreeUntil);
         contact = contact.edges(left, right);
     }
     let solution = contact.solve(Control::Load(scene.load)).map_err(of)?;
@@ -156,13 +156,13 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
 
     // At the nodes of the series, and next to what the pressure may break down at.
     let all: Vec<Term> = scene.upper.iter().chain(&scene.lower).copied().collect();
-    let joints: Vec<f64> = all.iter().filter_map(Term::joint).collect();
+    let breakpoints: Vec<f64> = all.iter().filter_map(Term::breakpoint).collect();
     let (mut peak, mut least) = (0.0f64, [f64::INFINITY, f64::NAN]);
     let aside =
-        |joint: f64| (1..12).flat_map(move |i| [joint - 0.1f64.powi(i), joint + 0.1f64.powi(i)]);
+        |breakpoint: f64| (1..12).flat_map(move |i| [breakpoint - 0.1f64.powi(i), breakpoint + 0.1f64.powi(i)]);
     for on in contacts {
         let evenly = (1..128).map(|i| on.at_angle(PI * f64::from(i) / 128.0));
-        let near = joints.iter().flat_map(|&joint| aside(joint)).filter(|&x| on.contains(x));
+        let near = breakpoints.iter().flat_map(|&breakpoint| aside(breakpoint)).filter(|&x| on.contains(x));
         for x in evenly.chain(near) {
             let p: f64 = at(x)?;
             peak = peak.max(p);

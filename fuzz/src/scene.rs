@@ -10,7 +10,7 @@ use linecontact::{
 
 const EPSILON: f64 = f64::EPSILON;
 const QUADRATURE: Midpoint =
-    Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfOdd };
+    Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfInteger };
 
 /// What is solved, and how.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ struct Scene {
     kappa: f64,
     upper: Vec<Term>,
     lower: Vec<Term>,
-    joints: Vec<f64>,
+    breakpoints: Vec<f64>,
     declared: bool,
     ends: [f64; 2],
     parameters: [usize; 2],
@@ -46,9 +46,9 @@ impl Scene {
         let on = On { centre, half_width };
         let mut terms = smooth_terms(rng, on);
         if rng.chance(0.6) {
-            terms.extend((0..1 + rng.below(3)).map(|_| jointed_term(rng, on)).collect::<Vec<_>>());
+            terms.extend((0..1 + rng.below(3)).map(|_| breakpointed_term(rng, on)).collect::<Vec<_>>());
         }
-        let joints: Vec<f64> = terms.iter().filter_map(Term::joint).collect();
+        let breakpoints: Vec<f64> = terms.iter().filter_map(Term::breakpoint).collect();
         let [mean, ..] = on.moments(&terms);
         terms.push(Term::Level(-mean));
         let [_, first, size] = on.moments(&terms);
@@ -90,7 +90,7 @@ impl Scene {
             kappa: if rng.chance(0.5) { 1.0 } else { rng.scale(1e-6, 1e6) },
             upper,
             lower,
-            joints,
+            breakpoints,
             declared: rng.chance(0.8),
             ends: [-4.0 - rng.share(), 4.0 + rng.share()],
             parameters: [rng.below(3), rng.below(3)],
@@ -151,7 +151,7 @@ fn smooth_terms(rng: &mut Rng, on: On) -> Vec<Term> {
     (0..count).map(term).collect()
 }
 
-fn jointed_term(rng: &mut Rng, on: On) -> Term {
+fn breakpointed_term(rng: &mut Rng, on: On) -> Term {
     let x = place(rng, on);
     let c = if rng.chance(0.3) { 2f64.powi(rng.below(28) as i32) } else { rng.scale(0.1, 10.0) };
     match rng.below(8) {
@@ -162,7 +162,7 @@ fn jointed_term(rng: &mut Rng, on: On) -> Term {
     }
 }
 
-/// A body between two ends, its joints declared or not.
+/// A body between two ends, its breakpoints declared or not.
 pub fn body(
     terms: &[Term],
     ends: [f64; 2],
@@ -174,7 +174,7 @@ pub fn body(
     }
     let mut ends = ends.to_vec();
     if declared {
-        ends.extend(terms.iter().filter_map(Term::joint).filter(|x| x.abs() < 3.999));
+        ends.extend(terms.iter().filter_map(Term::breakpoint).filter(|x| x.abs() < 3.999));
     }
     ends.sort_by(f64::total_cmp);
     ends.dedup();
@@ -229,7 +229,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     contact =
         if scene.midpoint { contact.quadrature(&QUADRATURE) } else { contact.quadrature(&panels) };
     if scene.nested {
-        contact = contact.search(&brent);
+        contact = contact.limit_search(&brent);
     }
     if let Some([left, right]) = scene.start {
         contact = contact.start(Interval { left, right });
@@ -237,7 +237,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     contact = match scene.way {
         Way::Load | Way::HalfWidth => contact,
         Way::CornersBeyond => contact
-            .edges(Edge::UpTo(left - 0.01 * half_width), Edge::UpTo(right + 0.5 * half_width)),
+            .edges(Edge::FreeUntil(left - 0.01 * half_width), Edge::FreeUntil(right + 0.5 * half_width)),
         Way::CornerAtEdge => contact.edges(Edge::Fixed(left), Edge::Free),
         Way::NoAdhesion => contact.edges(Edge::Adhesive(0.0), Edge::Adhesive(0.0)),
     };
@@ -277,8 +277,8 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     if off.is_nan() || off > 20.0 * allowed {
         return Err(format!("load: off by {off:.2e}, estimated {estimate:.2e}, noise {noise:.1e}"));
     }
-    // At joints the rule knows neither its order nor its error.
-    if scene.way == Way::NoAdhesion || (scene.midpoint && !scene.joints.is_empty()) {
+    // At breakpoints the rule knows neither its order nor its error.
+    if scene.way == Way::NoAdhesion || (scene.midpoint && !scene.breakpoints.is_empty()) {
         return Ok(true);
     }
     let pressure = solution.pressure().map_err(|e| format!("refused: pressure: {e}"))?;
@@ -289,7 +289,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         let near = rng.scale(1e-6, 1e-1);
         let z = [rng.between(-0.99, 0.99), 1.0 - near, near - 1.0][i % 3];
         let x = centre + half_width * z;
-        let apart = scene.joints.iter().map(|joint| (joint - x).abs()).fold(half_width, f64::min);
+        let apart = scene.breakpoints.iter().map(|breakpoint| (breakpoint - x).abs()).fold(half_width, f64::min);
         if x <= solution.hull().left || x >= solution.hull().right || apart == 0.0 {
             continue;
         }
@@ -304,7 +304,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         let off = (got.value - exact).abs();
         if off.is_nan() || off > 3.0 * got.error + rounding {
             return Err(format!(
-                "pressure: at z = {z}, {} from a joint: {:e} for {exact:e}, error {:.1e}, rounding {rounding:.1e}",
+                "pressure: at z = {z}, {} from a breakpoint: {:e} for {exact:e}, error {:.1e}, rounding {rounding:.1e}",
                 apart / half_width,
                 got.value,
                 got.error
@@ -314,7 +314,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     if rng.chance(0.1) {
         solution.certify().map_err(|e| format!("certificate: {e}"))?;
         let x = centre + half_width * rng.between(-0.9, 0.9);
-        let apart = scene.joints.iter().map(|joint| (joint - x).abs()).fold(half_width, f64::min);
+        let apart = scene.breakpoints.iter().map(|breakpoint| (breakpoint - x).abs()).fold(half_width, f64::min);
         let regular = apart > 1e-3 * half_width && !scene.midpoint;
         if let (Ok(residual), true) = (solution.residual(x), regular)
             && residual.abs() > size * (1e-9 + 1e3 * (estimate + noise))

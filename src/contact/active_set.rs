@@ -22,7 +22,7 @@ mod potential;
 use crate::numerics::dot;
 use crate::{ContactError, Interval, Real};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-use potential::{Place, Potential};
+use potential::{Extremum, Potential};
 use std::cmp::Ordering::Equal;
 
 /// Cells at first; where a check has failed, twice as many may see more.
@@ -107,7 +107,7 @@ pub(super) enum NotFound<T: Real> {
     NotFinite { x: T, height: T },
     /// The range is empty, or the load or κ not positive and finite.
     Scene { kappa: T, load: T, range: [T; 2] },
-    /// The set of loaded cells does not settle.
+    /// The set of loaded cells does not converge.
     Unsettled { solves: usize },
 }
 
@@ -173,23 +173,23 @@ impl<T: Real> ActiveSet<T> {
         let mut set = Self::new(scene, height)?;
         set.take_up(scene.start, height)?;
         for _ in 0..MOST_CUTS {
-            set.settle()?;
+            set.converge()?;
             let (marks, intervals) = (set.marks(scene.known), set.intervals());
             if !set.cut(&marks, &intervals, height)? {
                 break;
             }
         }
         if set.changed {
-            set.settle()?;
+            set.converge()?;
         }
         Ok(set)
     }
 
     fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
         let Scene { kappa, load, at, range, cells, .. } = *scene;
-        let [kappa, load] = [kappa, load].map(|value| value.part(0));
-        let at = at.map(|at| at.part(0));
-        let range = range.map(|end| end.part(0));
+        let [kappa, load] = [kappa, load].map(|value| value.component(0));
+        let at = at.map(|at| at.component(0));
+        let range = range.map(|end| end.component(0));
         let width = range[1] - range[0];
         let positive = |value: T| value > T::zero() && value.is_finite();
         if !([kappa, load, width].into_iter().all(positive)
@@ -317,7 +317,7 @@ impl<T: Real> ActiveSet<T> {
             Some(height) => height,
             None => {
                 let x = cell.centre();
-                let height = height(x).map_err(NotFound::Height)?.part(0);
+                let height = height(x).map_err(NotFound::Height)?.component(0);
                 if !height.is_finite() {
                     return Err(NotFound::NotFinite { x, height });
                 }
@@ -399,7 +399,7 @@ impl<T: Real> ActiveSet<T> {
     /// Makes ready for forces on cells that were cut.
     fn prepare(&mut self) {
         let [left, right] = self.range;
-        let place = |cell: &Cell<T>| Place {
+        let place = |cell: &Cell<T>| Extremum {
             centre: (cell.centre() - left) / (right - left),
             width: cell.width() / (right - left),
         };
@@ -418,7 +418,7 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// Changes the set of loaded cells until none pulls and none overlaps, but for one at a limit of many cells.
-    fn settle(&mut self) -> Result<(), NotFound<T>> {
+    fn converge(&mut self) -> Result<(), NotFound<T>> {
         if self.changed {
             self.prepare();
         }
@@ -656,7 +656,7 @@ impl<T: Real> ActiveSet<T> {
         let [first, end] = self.range;
         let (mut i, mut before) = (0, None);
         for (k, &[x, height]) in known.iter().enumerate() {
-            let [x, height] = [x, height].map(|value| value.part(0));
+            let [x, height] = [x, height].map(|value| value.component(0));
             if !(x > first && x < end) {
                 continue;
             }
@@ -666,7 +666,7 @@ impl<T: Real> ActiveSet<T> {
             let cell = &self.cells[i];
             // Much closer together than they are nothing is known.
             let beside = known[(k + 1).min(known.len() - 1)][0] - known[k.saturating_sub(1)][0];
-            if cell.width() < T::of(CLOSEST) * beside.part(0) {
+            if cell.width() < T::of(CLOSEST) * beside.component(0) {
                 continue;
             }
             let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);
@@ -814,7 +814,7 @@ mod tests {
     fn even(scene: &Scene<'_, f64>, cells: usize, h: impl Fn(f64) -> f64) -> Coarse<f64> {
         let scene = Scene { cells, known: &[], start: &[], ..*scene };
         let mut set = ActiveSet::new(&scene, &mut |x| Ok(h(x))).unwrap();
-        set.settle().unwrap();
+        set.converge().unwrap();
         set.found()
     }
 

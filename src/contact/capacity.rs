@@ -9,7 +9,7 @@ use super::edges::{Conditions, Edge};
 use super::equations::Equations;
 use super::peak::peak;
 use crate::gap::Cost;
-use crate::quadrature::{Engine, Panels, Pressing, Quadrature};
+use crate::quadrature::{Integrator, Panels, LoadCase, Quadrature};
 use crate::search::{Bracket, Brent, LimitSearch};
 use crate::{ContactError, Interval, Real};
 
@@ -38,13 +38,13 @@ impl<T: Real> Capacity<T> {
     /// The error for a load that is more than the bodies bear.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;
-        ContactError::TooShort { end, carried, load, half_width: on.half_width(), peak }
+        ContactError::DomainTooShort { end, carried, load, half_width: on.half_width(), peak }
     }
 
     /// The error for a width that the bodies have no room for.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::TooWide { wanted, half_width: on.half_width(), end, load, peak }
+        ContactError::HalfWidthTooLarge { wanted, half_width: on.half_width(), end, load, peak }
     }
 
     /// The error for a peak higher than that of any contact there is room for.
@@ -62,29 +62,29 @@ pub(super) fn capacity<T: Real>(
     [left, right]: [T; 2],
     cost: &mut Cost,
 ) -> Option<Capacity<T>> {
-    let mut engine = Panels::FULL.engine().ok()?;
+    let mut integrator = Panels::FULL.integrator().ok()?;
     let fixed = conditions.edges.map(|edge| edge.limit());
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
-    let mut pinned = Pinned { contact, equations, engine: &mut *engine };
+    let mut pinned = Pinned { contact, equations, integrator: &mut *integrator };
     let found = LEFT_OUT.into_iter().find_map(|share| {
         let out = T::of(share) * T::epsilon() * (right - left);
         let [left, right] = [fixed[0].unwrap_or(left + out), fixed[1].unwrap_or(right - out)];
-        pinned.widest(Interval { left, right })
+        pinned.largest_contact(Interval { left, right })
     });
     let capacity = found.and_then(|(on, side)| {
-        let m = engine.moments(&contact.gap, on).ok()?;
+        let m = integrator.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;
-        engine.prepare(&contact.gap, on).ok()?;
+        integrator.prepare(&contact.gap, on).ok()?;
         let free = [conditions.edges[1].is_free(), conditions.edges[0].is_free()];
-        let pressing = Pressing { kappa: conditions.kappa, load, free };
+        let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let peak = if fixed == [None; 2] {
-            peak(&*engine, &contact.gap, &pressing, on, &mut Cost::default()).ok()?.1.value
+            peak(&*integrator, &contact.gap, &load_case, on, &mut Cost::default()).ok()?.1.value
         } else {
             T::one() / T::zero()
         };
         Some(Capacity { on, end: [left, right][side], load, peak })
     });
-    *cost += engine.cost();
+    *cost += integrator.cost();
     // Without adhesion one that would have to be pulled at is none: the bodies touch beside a hollow.
     let pulled = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
     let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
@@ -95,12 +95,12 @@ pub(super) fn capacity<T: Real>(
 struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     equations: Equations<T>,
-    engine: &'s mut dyn Engine<T>,
+    integrator: &'s mut dyn Integrator<T>,
 }
 
 impl<T: Real> Pinned<'_, T> {
     /// The balanced one, and which end it reaches.
-    fn widest(&mut self, whole: Interval<T>) -> Option<(Interval<T>, usize)> {
+    fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, usize)> {
         let Interval { left, right } = whole;
         match self.equations.limits() {
             [Some(_), _] => return Some((whole, 1)),
@@ -141,12 +141,12 @@ impl<T: Real> Pinned<'_, T> {
     /// Positive: the contact must move to the right.
     fn shift(&mut self, on: Interval<T>) -> Option<T> {
         // Panels much wider than a contact would not see what is narrow in it.
-        let covered = self.engine.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(2.0 * NARROWER) * on.half_width() {
-            self.engine.forget();
+            self.integrator.forget();
         }
         let (equations, gap) = (&self.equations, &self.contact.gap);
-        let residual = equations.residual(gap, on, self.engine, &mut Cost::default()).ok()?;
+        let residual = equations.residual(gap, on, self.integrator, &mut Cost::default()).ok()?;
         residual.is_finite().then(|| residual.shift())
     }
 }

@@ -52,8 +52,8 @@ impl<T: Real> EdgePressure<T> {
         residual: &Residual<T>,
     ) -> Result<(), ContactError<T>> {
         let [x_b, x_a] = self.places(on);
-        let at_a = residual.at_a / (T::pi() * on.edge_root(x_a));
-        let at_b = residual.at_b / (T::pi() * on.edge_root(x_b));
+        let at_a = residual.at_a / (T::pi() * on.chebyshev_weight(x_a));
+        let at_b = residual.at_b / (T::pi() * on.chebyshev_weight(x_b));
         if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {
             Ok(())
         } else {
@@ -72,7 +72,7 @@ impl<T: Real> EdgePressure<T> {
         ];
         for (name, value, positive) in entries {
             if !value.is_finite() || (positive && value <= T::zero()) {
-                return Err(ContactError::EdgePressure { name, value });
+                return Err(ContactError::InvalidEdgePressure { name, value });
             }
         }
         Ok(())

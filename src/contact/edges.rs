@@ -13,7 +13,7 @@ pub enum Edge<T> {
     Fixed(T),
     /// A smooth body with a sharp corner at this `x`: free as long as the contact does not reach
     /// the corner, fixed from then on.
-    UpTo(T),
+    FreeUntil(T),
     /// Adhesion over so short a range that it acts at the edge alone (Johnson, Kendall and
     /// Roberts), with this work of adhesion w: energy per unit area, not negative.
     Adhesive(T),
@@ -29,7 +29,7 @@ impl<T: Real> Edge<T> {
     }
 
     pub(super) fn is_free(&self) -> bool {
-        matches!(self, Self::Free | Self::UpTo(_))
+        matches!(self, Self::Free | Self::FreeUntil(_))
     }
 }
 
@@ -73,7 +73,7 @@ impl<T: Real> Conditions<T> {
 
     /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`. By roots, so as not to
     /// underflow.
-    pub fn pull(&self, half_width: T) -> [T; 2] {
+    pub fn edge_strengths(&self, half_width: T) -> [T; 2] {
         self.edges.map(|edge| match edge {
             Edge::Adhesive(work) => self.kappa.sqrt() * work.sqrt() * half_width.sqrt(),
             _ => T::zero(),

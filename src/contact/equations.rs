@@ -3,7 +3,7 @@
 use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Engine, Moments, Pressing, complete};
+use crate::quadrature::{Integrator, Moments, LoadCase, complete};
 use crate::{ContactError, Interval, Real};
 
 /// The conditions at the edges, as two numbers to be brought to zero.
@@ -41,7 +41,7 @@ impl<T: Real> Residual<T> {
         self.above(self.floor, self.at_a - self.at_b)
     }
 
-    /// The shift, or zero if it is settled well enough for the load to be looked at: moving a
+    /// The shift, or zero if it is converged well enough for the load to be looked at: moving a
     /// contact changes its spread by less than its shift, so with a shift a thousandth of the
     /// spread the sign of the spread is certain. As the spread vanishes this tightens.
     pub fn rough_shift(&self) -> T {
@@ -102,7 +102,7 @@ impl<T: Real> Equations<T> {
     /// Whether adhesion pulls at one edge more than at the other.
     pub fn is_lopsided(&self) -> bool {
         let Self::Strength { conditions, .. } = self else { return false };
-        let [at_b, at_a] = conditions.pull(T::one());
+        let [at_b, at_a] = conditions.edge_strengths(T::one());
         at_b != at_a
     }
 
@@ -111,7 +111,7 @@ impl<T: Real> Equations<T> {
         if let Self::Pressure { wanted, .. } = self {
             for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
                 if value >= range[1] - range[0] {
-                    return Err(ContactError::EdgePressure { name, value });
+                    return Err(ContactError::InvalidEdgePressure { name, value });
                 }
             }
         }
@@ -131,19 +131,19 @@ impl<T: Real> Equations<T> {
         &self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-        engine: &mut dyn Engine<T>,
+        integrator: &mut dyn Integrator<T>,
         cost: &mut Cost,
     ) -> Result<Residual<T>, ContactError<T>> {
         let two = T::of(2.0);
         match *self {
             // π L K at each edge: forces, which stay finite as the contact shrinks.
             Self::Strength { conditions, load } => {
-                let m = engine.moments(gap, on)?;
+                let m = integrator.moments(gap, on)?;
                 let stiffness = conditions.kappa * on.half_width();
                 let rounding = rounding(on);
                 let carried = stiffness * m.first;
                 let balance = stiffness * m.mean;
-                let pull = conditions.pull(on.half_width()).map(|pull| pull + pull);
+                let pull = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
                 let half = T::of(0.5);
                 // Beside a corner the two may cancel, and little load be left.
                 let both = m.first.abs() + m.mean.abs();
@@ -193,22 +193,22 @@ impl<T: Real> Equations<T> {
                     ("ε_b", wanted.distance_b, x_b, on.left),
                 ] {
                     if x == end {
-                        return Err(ContactError::EdgePressure { name, value });
+                        return Err(ContactError::InvalidEdgePressure { name, value });
                     }
                 }
-                engine.prepare(gap, on)?;
-                complete(engine, gap, on, cost)?;
-                let pressing = Pressing { kappa, load, free: [false; 2] };
+                integrator.prepare(gap, on)?;
+                complete(integrator, gap, on, cost)?;
+                let load_case = LoadCase { kappa, load, free: [false; 2] };
                 let mut error = T::zero();
                 let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
-                    let estimate = engine.estimate(gap, &pressing, x, cost)?;
-                    let root = T::pi() * on.edge_root(x);
+                    let estimate = integrator.estimate(gap, &load_case, x, cost)?;
+                    let root = T::pi() * on.chebyshev_weight(x);
                     error += root * estimate.error / load;
                     Ok(root * (estimate.value - pressure))
                 };
                 let (at_a, at_b) = (residual(x_a, wanted.at_a)?, residual(x_b, wanted.at_b)?);
                 let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
-                let tolerance = |x, tolerance| T::pi() * on.edge_root(x) * tolerance;
+                let tolerance = |x, tolerance| T::pi() * on.chebyshev_weight(x) * tolerance;
                 let tolerance_a = tolerance(x_a, wanted.tolerance_a);
                 let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
                 Ok(Residual { at_a, at_b, floor, carried: None, size: load, growth, error })

@@ -20,7 +20,7 @@ pub(super) fn first_contact<T: Real>(
     let range = gap.range();
     let mut signs = widen(sampler, gap, Interval { left: range[0], right: range[1] }, start)?;
     match jump(sampler, gap, &mut signs)? {
-        Some(joint) => Ok(joint),
+        Some(breakpoint) => Ok(breakpoint),
         None => zero(sampler, gap, signs),
     }
 }
@@ -84,7 +84,7 @@ fn scan<T: Real>(
     Err(not_found)
 }
 
-/// A wedge touches at a joint, where the slope has no zero but jumps through it. Where no joint
+/// A wedge touches at a breakpoint, where the slope has no zero but jumps through it. Where no breakpoint
 /// is the place, they narrow the bracket.
 fn jump<T: Real>(
     sampler: &mut Sampler<T>,
@@ -92,16 +92,16 @@ fn jump<T: Real>(
     Signs { x, slope }: &mut Signs<T>,
 ) -> Result<Option<T>, ContactError<T>> {
     let mut after = x[0];
-    while let Some(joint) = gap.joint_after(after).filter(|&joint| joint < x[1]) {
-        after = joint;
-        let left = sampler.slope_from(gap, joint, Side::Left)?;
-        let right = sampler.slope_from(gap, joint, Side::Right)?;
+    while let Some(breakpoint) = gap.breakpoint_after(after).filter(|&breakpoint| breakpoint < x[1]) {
+        after = breakpoint;
+        let left = sampler.slope_from(gap, breakpoint, Side::Left)?;
+        let right = sampler.slope_from(gap, breakpoint, Side::Right)?;
         if left > T::zero() {
-            (x[1], slope[1]) = (joint, left);
+            (x[1], slope[1]) = (breakpoint, left);
         } else if right < T::zero() {
-            (x[0], slope[0]) = (joint, right);
+            (x[0], slope[0]) = (breakpoint, right);
         } else {
-            return Ok(Some(joint));
+            return Ok(Some(breakpoint));
         }
     }
     Ok(None)

@@ -1,14 +1,14 @@
 //! The contact under a load that acts at a given place: the bodies turn until it does.
 //!
-//! The tilt is one more unknown of every search: [eliminated](super::newton) of one interval, with all
-//! limits of [several](super::several), and with the forces of the [active set](super::active_set). A change
+//! The tilt is one more unknown of every search: [eliminated](super::newton_single) of one interval, with all
+//! limits of [several](super::newton_several), and with the forces of the [active set](super::active_set). A change
 //! of the tilt samples nothing.
 
 use super::edges::{Conditions, Edge, Given};
 use super::topology::{self, Sought, Workspace};
-use super::{Contact, Found};
+use super::{Contact, ContactState};
 use crate::gap::Cost;
-use crate::quadrature::Engine;
+use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::{ContactError, Interval, Real};
 
@@ -20,17 +20,17 @@ const AT_END: f64 = 0.01;
 
 /// The line in which a load acts.
 #[derive(Clone, Copy)]
-pub(super) struct Line<T> {
+pub(super) struct LineOfLoad<T> {
     load: T,
     at: T,
     /// How far `at` may be off by rounding.
     rounding: T,
 }
 
-impl<T: Real> Line<T> {
+impl<T: Real> LineOfLoad<T> {
     pub fn of_moment(load: T, moment: T, about: T) -> Result<Self, ContactError<T>> {
         if let Some(&value) = [moment, about].iter().find(|value| !value.is_finite()) {
-            return Err(ContactError::Moment { value });
+            return Err(ContactError::InvalidMoment { value });
         }
         let arm = moment / load;
         let rounding = T::epsilon() * (about.abs() + arm.abs());
@@ -39,10 +39,10 @@ impl<T: Real> Line<T> {
 
     pub fn through(load: T, at: T) -> Result<Self, ContactError<T>> {
         if !(load.is_finite() && load > T::zero()) {
-            return Err(ContactError::Load { load });
+            return Err(ContactError::InvalidLoad { load });
         }
         if !at.is_finite() {
-            return Err(ContactError::Moment { value: at });
+            return Err(ContactError::InvalidMoment { value: at });
         }
         Ok(Self { load, at, rounding: T::epsilon() * at.abs() })
     }
@@ -51,23 +51,23 @@ impl<T: Real> Line<T> {
 /// Finds the contact under a load in a given line, with the tilt of its bodies.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
-    line: Line<T>,
-    engine: &mut dyn Engine<T>,
+    line: LineOfLoad<T>,
+    integrator: &mut dyn Integrator<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
-) -> Result<Found<T>, ContactError<T>> {
+) -> Result<ContactState<T>, ContactError<T>> {
     let edges = contact.checked_edges()?;
-    let refuse = |why| Err(ContactError::NoTilt { why });
+    let refuse = |why| Err(ContactError::TiltNotSupported { why });
     if edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_))) {
         return refuse("an edge is Adhesive");
     }
     if contact.search.is_some() {
         return refuse("a strategy of one's own adjusts the limits");
     }
-    if !panels::is_panels(engine) {
+    if !panels::is_panels(integrator) {
         return refuse("the quadrature is another");
     }
-    let Line { load, at, rounding } = line;
+    let LineOfLoad { load, at, rounding } = line;
     let conditions = Conditions { kappa: contact.kappa, edges, given: Given::Centre { load, at } };
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
     let ends = contact.ends();
@@ -76,13 +76,13 @@ pub(super) fn find<T: Real>(
         return Err(ContactError::OutsideBodies { x: at, range: ends });
     }
     let sought = Sought::By(conditions);
-    let mut found = match topology::find(contact, sought, engine, workspace, cost) {
+    let mut found = match topology::find(contact, sought, integrator, workspace, cost) {
         Err(error) if !given && may_be_beyond(&error) => {
-            return Err(nearest(contact, conditions, engine, workspace, cost).unwrap_or(error));
+            return Err(nearest(contact, conditions, integrator, workspace, cost).unwrap_or(error));
         }
         found => found?,
     };
-    let several = panels::several(engine).map(Several::contacts);
+    let several = panels::several(integrator).map(Several::contacts);
     let contacts = several.unwrap_or(std::slice::from_ref(&found.interval));
     let narrowest = contacts.iter().map(Interval::half_width).reduce(|one, other| one.min(other));
     let doubt = rounding / narrowest.unwrap_or(T::one());
@@ -103,14 +103,14 @@ fn may_be_beyond<T: Real>(error: &ContactError<T>) -> bool {
 fn nearest<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,
-    engine: &mut dyn Engine<T>,
+    integrator: &mut dyn Integrator<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
 ) -> Option<ContactError<T>> {
     let (load, at, ends) = (conditions.load(), conditions.at()?, contact.ends());
     let mut find = |given| {
         let sought = Sought::By(Conditions { given, ..conditions });
-        topology::find(contact, sought, engine, workspace, cost)
+        topology::find(contact, sought, integrator, workspace, cost)
     };
     let half = T::of(0.5);
     let (mut reached, mut beyond) = (half * ends[0] + half * ends[1], at);
@@ -124,8 +124,8 @@ fn nearest<T: Real>(
             Err(_) => beyond = at,
         }
     }
-    let Found { tilt, interval: Interval { left, right }, .. } = found;
+    let ContactState { tilt, interval: Interval { left, right }, .. } = found;
     let room = (left - ends[0]).min(ends[1] - right);
     let is_at_end = room <= T::of(AT_END) * (ends[1] - ends[0]);
-    is_at_end.then_some(ContactError::TooTilted { load, at, reached, tilt, ends })
+    is_at_end.then_some(ContactError::TiltNotFound { load, at, reached, tilt, ends })
 }

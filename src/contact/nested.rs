@@ -20,7 +20,7 @@
 //! last width had, the outer one from the start, by factors that a round body would need.
 
 mod derivatives;
-mod place;
+mod centre;
 mod width;
 
 use super::Contact;
@@ -28,11 +28,11 @@ use super::edges::{Conditions, Given};
 use super::equations::{Equations, Residual};
 use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
-use crate::quadrature::Engine;
+use crate::quadrature::Integrator;
 use crate::search::{Bracket, LimitSearch, SearchError};
 use crate::{ContactError, Interval, Real};
 use derivatives::differentiate;
-use place::Placed;
+use centre::Centred;
 
 /// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is
 /// as much narrower would fall between the nodes.
@@ -53,7 +53,7 @@ pub(super) struct Nested<T> {
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
-    engine: &mut dyn Engine<T>,
+    integrator: &mut dyn Integrator<T>,
     start: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Nested<T>, ContactError<T>> {
@@ -64,7 +64,7 @@ pub(super) fn find<T: Real>(
         ..
     } = equations
     {
-        return place(contact, equations, engine, width, start, cost);
+        return place(contact, equations, integrator, width, start, cost);
     }
     equations.check(range)?;
     let origin = match equations.limits() {
@@ -82,7 +82,7 @@ pub(super) fn find<T: Real>(
         (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
         (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
-    let mut search = Search::new(contact, equations, engine, origin, cost);
+    let mut search = NestedSearch::new(contact, equations, integrator, origin, cost);
     let trial = search.widen(half_width)?;
     if let Equations::Pressure { wanted, .. } = equations {
         wanted.met(trial.on, &trial.residual)?;
@@ -90,7 +90,7 @@ pub(super) fn find<T: Real>(
     // What the quadrature leaves open, and what the search has left of the conditions.
     let Residual { at_a, at_b, size, .. } = trial.residual;
     let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / size;
-    let on = differentiate(&equations, gap, search.engine, trial.on, None, search.cost)?;
+    let on = differentiate(&equations, gap, search.integrator, trial.on, None, search.cost)?;
     Ok(Nested { on, error: trial.residual.error + missed })
 }
 
@@ -98,7 +98,7 @@ pub(super) fn find<T: Real>(
 fn place<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
-    engine: &mut dyn Engine<T>,
+    integrator: &mut dyn Integrator<T>,
     half_width: T,
     start: Option<Interval<T>>,
     cost: &mut Cost,
@@ -110,27 +110,27 @@ fn place<T: Real>(
     let (origin, range) = (first?, gap.range());
     // The load is not known, and tells nothing of how well the contact has to be in balance.
     let unbalance = Residual::shift;
-    let mut search = Search { unbalance, ..Search::new(contact, equations, engine, origin, cost) };
+    let mut search = NestedSearch { unbalance, ..NestedSearch::new(contact, equations, integrator, origin, cost) };
     for _ in 0..MOST_BESIDE {
-        match search.place(half_width)? {
-            Placed::At(trial) => {
+        match search.centre(half_width)? {
+            Centred::At(trial) => {
                 let Residual { at_a, at_b, size, error, .. } = trial.residual;
                 let missed = T::of(0.5) * (at_a - at_b).abs() / size;
                 let width = Some(half_width);
                 let on =
-                    differentiate(&equations, gap, search.engine, trial.on, width, search.cost)?;
+                    differentiate(&equations, gap, search.integrator, trial.on, width, search.cost)?;
                 return Ok(Nested { on, error: error + missed });
             }
-            Placed::Beyond(end) => {
+            Centred::Beyond(end) => {
                 let x = [search.origin - half_width, search.origin + half_width][end];
                 return Err(ContactError::OutsideBodies { x, range });
             }
             // Pulled at one edge more than at the other, it may sit further on.
-            Placed::Adrift(on) if equations.is_lopsided() => {
+            Centred::Adrift(on) if equations.is_lopsided() => {
                 let before = search.origin;
                 search.origin = if on.left < before { on.left } else { on.right };
             }
-            Placed::Adrift(_) => break,
+            Centred::Adrift(_) => break,
         }
     }
     Err(search.no_balance(half_width))
@@ -138,15 +138,15 @@ fn place<T: Real>(
 
 /// A contact tried, and by how much it misses the conditions.
 #[derive(Clone, Copy)]
-struct Trial<T> {
+struct TrialContact<T> {
     on: Interval<T>,
     residual: Residual<T>,
 }
 
-struct Search<'s, T: Real> {
+struct NestedSearch<'s, T: Real> {
     equations: Equations<T>,
     gap: &'s Gap<'s, T>,
-    engine: &'s mut dyn Engine<T>,
+    integrator: &'s mut dyn Integrator<T>,
     cost: &'s mut Cost,
     strategy: &'s dyn LimitSearch<T>,
     /// The point of first contact.
@@ -162,18 +162,18 @@ struct Search<'s, T: Real> {
     unbalance: fn(&Residual<T>) -> T,
 }
 
-impl<'s, T: Real> Search<'s, T> {
+impl<'s, T: Real> NestedSearch<'s, T> {
     fn new(
         contact: &'s Contact<'s, T>,
         equations: Equations<T>,
-        engine: &'s mut dyn Engine<T>,
+        integrator: &'s mut dyn Integrator<T>,
         origin: T,
         cost: &'s mut Cost,
     ) -> Self {
         Self {
             equations,
             gap: &contact.gap,
-            engine,
+            integrator,
             cost,
             strategy: contact.strategy(),
             origin,
@@ -185,27 +185,27 @@ impl<'s, T: Real> Search<'s, T> {
         }
     }
 
-    fn attempt(&mut self, on: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+    fn attempt(&mut self, on: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
         // Panels much wider than the contact are not as good as they look.
-        let covered = self.engine.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(WIDEST) * on.half_width() {
-            self.engine.forget();
+            self.integrator.forget();
         }
-        let residual = self.equations.residual(self.gap, on, self.engine, self.cost)?;
+        let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;
         if !residual.is_finite() {
             return Err(ContactError::Overflow { interval: on });
         }
-        Ok(Trial { on, residual })
+        Ok(TrialContact { on, residual })
     }
 
     /// Runs the user's strategy on one of the conditions and returns the best trial met.
     fn run(
         &mut self,
         bracket: &Bracket<T>,
-        best: &mut Trial<T>,
+        best: &mut TrialContact<T>,
         condition: fn(&Residual<T>) -> T,
-        mut attempt: impl FnMut(&mut Self, T) -> Result<Trial<T>, ContactError<T>>,
-    ) -> Result<Trial<T>, ContactError<T>> {
+        mut attempt: impl FnMut(&mut Self, T) -> Result<TrialContact<T>, ContactError<T>>,
+    ) -> Result<TrialContact<T>, ContactError<T>> {
         let mut failed = None;
         let strategy = self.strategy;
         let resolution = self.resolution();
@@ -216,7 +216,7 @@ impl<'s, T: Real> Search<'s, T> {
             if x >= bracket.lo && x <= bracket.hi {
                 return Ok(());
             }
-            let source = SearchError::Astray { x, lo: bracket.lo, hi: bracket.hi };
+            let source = SearchError::LeftBracket { x, lo: bracket.lo, hi: bracket.hi };
             Err(ContactError::LimitSearch { best: on, source })
         };
         let found = strategy.find(
@@ -257,10 +257,10 @@ impl<'s, T: Real> Search<'s, T> {
     }
 
     fn no_balance(&self, half_width: T) -> ContactError<T> {
-        ContactError::NoBalance { half_width, near: self.origin }
+        ContactError::NoEquilibrium { half_width, near: self.origin }
     }
 }
 
-fn nearer<T: Real>(one: Trial<T>, other: Trial<T>, condition: fn(&Residual<T>) -> T) -> Trial<T> {
+fn nearer<T: Real>(one: TrialContact<T>, other: TrialContact<T>, condition: fn(&Residual<T>) -> T) -> TrialContact<T> {
     if condition(&other.residual).abs() < condition(&one.residual).abs() { other } else { one }
 }

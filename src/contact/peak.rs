@@ -6,10 +6,10 @@
 
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
-use super::single::Single;
-use super::{Contact, Found};
-use crate::gap::{Cost, FirstLook, Gap};
-use crate::quadrature::{Engine, Estimate, Pressing, complete};
+use super::single_contact::Single;
+use super::{Contact, ContactState};
+use crate::gap::{Cost, CoarseHeights, Gap};
+use crate::quadrature::{Integrator, Estimate, LoadCase, complete};
 use crate::search::{Bracket, Newton};
 use crate::{ContactError, Interval, Real};
 
@@ -21,9 +21,9 @@ const MOST_LOADS: usize = 200;
 
 /// Where the pressure of a prepared contact is largest, and how large, adding to `cost` what it takes.
 pub(crate) fn peak<T: Real>(
-    engine: &dyn Engine<T>,
+    integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
-    pressing: &Pressing<T>,
+    load_case: &LoadCase<T>,
     on: Interval<T>,
     cost: &mut Cost,
 ) -> Result<(T, Estimate<T>), ContactError<T>> {
@@ -32,7 +32,7 @@ pub(crate) fn peak<T: Real>(
         *x = on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS));
     }
     let mut pressures = [T::zero(); POINTS];
-    engine.pressures(gap, pressing, &x, &mut pressures, cost)?;
+    integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
     let mut best = 0;
     for i in 0..POINTS {
         if pressures[i] > pressures[best] {
@@ -42,19 +42,19 @@ pub(crate) fn peak<T: Real>(
     let around = |i: usize| if i < POINTS { x[i] } else { on.left };
     let before = if best == 0 { on.right } else { x[best - 1] };
     let (mut lo, mut hi) = (around(best + 1), before);
-    let mut top = (x[best], engine.estimate(gap, pressing, x[best], cost)?);
+    let mut top = (x[best], integrator.estimate(gap, load_case, x[best], cost)?);
     let mut at = |x: T| -> Result<T, ContactError<T>> {
-        let pressure = engine.estimate(gap, pressing, x, cost)?;
+        let pressure = integrator.estimate(gap, load_case, x, cost)?;
         if pressure.value > top.1.value {
             top = (x, pressure);
         }
         Ok(pressure.value)
     };
-    // Joints are where a pressure is not smooth, and may be infinite.
-    for joint in gap.telling_joints(on, T::one(), 4 * POINTS) {
-        let pressure = at(joint)?;
+    // Breakpoints are where a pressure is not smooth, and may be infinite.
+    for breakpoint in gap.telling_breakpoints(on, T::one(), 4 * POINTS) {
+        let pressure = at(breakpoint)?;
         if !pressure.is_finite() && pressure > T::zero() {
-            return Ok((joint, Estimate { value: pressure, error: T::zero() }));
+            return Ok((breakpoint, Estimate { value: pressure, error: T::zero() }));
         }
     }
     // Golden section: the pressure is flat at its peak, so half the digits of x are enough.
@@ -79,8 +79,8 @@ pub(crate) fn peak<T: Real>(
 struct Trials<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     wanted: T,
-    look: Option<&'s FirstLook<T>>,
-    engine: &'s mut dyn Engine<T>,
+    look: Option<&'s CoarseHeights<T>>,
+    integrator: &'s mut dyn Integrator<T>,
     cost: &'s mut Cost,
     /// Where the next contact is looked for first.
     last: Option<Interval<T>>,
@@ -89,18 +89,18 @@ struct Trials<'s, T: Real> {
 }
 
 /// A contact, its largest pressure, and how that grows with the load.
-type Trial<T> = (Found<T>, T, T);
+type PeakTrial<T> = (ContactState<T>, T, T);
 
 impl<T: Real> Trials<'_, T> {
     fn conditions(&self, given: Given<T>) -> Conditions<T> {
         Conditions { kappa: self.contact.kappa, edges: [Edge::Free; 2], given }
     }
 
-    fn at(&mut self, given: Given<T>) -> Result<Trial<T>, ContactError<T>> {
+    fn at(&mut self, given: Given<T>) -> Result<PeakTrial<T>, ContactError<T>> {
         let (contact, conditions) = (self.contact, self.conditions(given));
         let (start, look, bears) = (contact.start, self.look, self.bears);
-        let (engine, cost) = (&mut *self.engine, &mut *self.cost);
-        let mut single = Single { contact, conditions, start, look, engine, cost, bears };
+        let (integrator, cost) = (&mut *self.integrator, &mut *self.cost);
+        let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
         let found = single.find(self.last);
         // A corner may end them before they end themselves.
         if contact.ends() == contact.gap.range() {
@@ -110,16 +110,16 @@ impl<T: Real> Trials<'_, T> {
         let on = found.interval;
         let rounding = T::of(8.0) * T::epsilon() * on.half_width();
         super::check_within(on, contact.ends(), rounding)?;
-        self.engine.prepare(&contact.gap, on)?;
-        complete(self.engine, &contact.gap, on, self.cost)?;
-        let pressing = Pressing { kappa: contact.kappa, load: found.load, free: found.free };
+        self.integrator.prepare(&contact.gap, on)?;
+        complete(self.integrator, &contact.gap, on, self.cost)?;
+        let load_case = LoadCase { kappa: contact.kappa, load: found.load, free: found.free };
         let (x, Estimate { value: pressure, error: doubt }) =
-            peak(self.engine, &contact.gap, &pressing, on, self.cost)?;
+            peak(self.integrator, &contact.gap, &load_case, on, self.cost)?;
         self.last = Some(on.plain());
         // The half-width goes with the peak, and is known no better.
         let error = found.error.map(|error| error + doubt / pressure.abs());
-        let rate = T::frac_1_pi() / on.edge_root(x);
-        Ok((Found { error, ..found }, pressure, rate))
+        let rate = T::frac_1_pi() / on.chebyshev_weight(x);
+        Ok((ContactState { error, ..found }, pressure, rate))
     }
 }
 
@@ -127,14 +127,14 @@ impl<T: Real> Trials<'_, T> {
 fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
     let edges = contact.checked_edges()?;
     if let [Edge::Fixed(left), Edge::Fixed(right)] = edges {
-        return Err(ContactError::Control { interval: Interval { left, right } });
+        return Err(ContactError::BothLimitsGiven { interval: Interval { left, right } });
     }
     let range = contact.gap.range();
     for edge in edges {
         match edge {
             Edge::Free => {}
-            Edge::UpTo(x) if x >= range[0] && x <= range[1] => {}
-            Edge::UpTo(x) => return Err(ContactError::OutsideBodies { x, range }),
+            Edge::FreeUntil(x) if x >= range[0] && x <= range[1] => {}
+            Edge::FreeUntil(x) => return Err(ContactError::OutsideBodies { x, range }),
             Edge::Fixed(_) | Edge::Adhesive(_) => return Err(ContactError::PeakEdge { edge }),
         }
     }
@@ -145,23 +145,23 @@ fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>>
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     wanted: T,
-    look: Option<&FirstLook<T>>,
-    engine: &mut dyn Engine<T>,
+    look: Option<&CoarseHeights<T>>,
+    integrator: &mut dyn Integrator<T>,
     warm: Option<Interval<T>>,
     cost: &mut Cost,
-) -> Result<Found<T>, ContactError<T>> {
+) -> Result<ContactState<T>, ContactError<T>> {
     check_edges(contact)?;
-    let mut trials = Trials { contact, wanted, look, engine, cost, last: warm, bears: None };
+    let mut trials = Trials { contact, wanted, look, integrator, cost, last: warm, bears: None };
     let found = by_search(&mut trials, warm)?;
-    if T::MORE_STEPS == 0 {
+    if T::DERIVATIVE_ORDER == 0 {
         return Ok(found);
     }
     // The derivatives of the load. From one step to the next one more is exact, but for the rate, which
     // is that at a peak found to half the digits.
-    let mut load = found.load.part(0);
-    for _ in 0..T::MORE_STEPS + 2 {
+    let mut load = found.load.component(0);
+    for _ in 0..T::DERIVATIVE_ORDER + 2 {
         let (_, pressure, rate) = trials.at(Given::Load(load))?;
-        load += (wanted - pressure) / rate.part(0);
+        load += (wanted - pressure) / rate.component(0);
     }
     Ok(trials.at(Given::Load(load))?.0)
 }
@@ -169,7 +169,7 @@ pub(super) fn find<T: Real>(
 fn by_search<T: Real>(
     trials: &mut Trials<'_, T>,
     warm: Option<Interval<T>>,
-) -> Result<Found<T>, ContactError<T>> {
+) -> Result<ContactState<T>, ContactError<T>> {
     let (contact, wanted) = (trials.contact, trials.wanted);
     let (zero, one) = (T::zero(), T::one());
     let (range, infinite) = (contact.gap.range(), one / zero);
@@ -182,7 +182,7 @@ fn by_search<T: Real>(
     let begin = trials.at(Given::HalfWidth(half_width));
     let mut bears = trials.bears.flatten();
     // The load of a width that fits on a flat is nothing but rounding.
-    let carries = |found: &Found<T>| found.load > found.force.unwrap_or(zero);
+    let carries = |found: &ContactState<T>| found.load > found.force.unwrap_or(zero);
     let mut begin =
         begin.ok().filter(|(found, pressure, _)| carries(found) && pressure.is_finite());
     let first = match (&begin, bears) {
@@ -207,11 +207,11 @@ fn by_search<T: Real>(
         let (pressure, rate) = match trial {
             Ok((found, pressure, _)) if pressure == wanted => return Ok(found),
             Ok((_, pressure, rate)) => (pressure, rate),
-            Err(ContactError::NoBalance { .. }) if high.is_none() => (zero, zero),
+            Err(ContactError::NoEquilibrium { .. }) if high.is_none() => (zero, zero),
             Err(
-                ContactError::TooShort { .. }
+                ContactError::DomainTooShort { .. }
                 | ContactError::OutsideBodies { .. }
-                | ContactError::NoBalance { .. },
+                | ContactError::NoEquilibrium { .. },
             ) => {
                 let conditions = trials.conditions(Given::Load(load));
                 let look = || capacity(contact, &conditions, contact.ends(), trials.cost);
@@ -271,10 +271,10 @@ fn by_search<T: Real>(
 fn enclosed<T: Real>(
     trials: &mut Trials<'_, T>,
     bracket: &Bracket<T>,
-) -> Result<Found<T>, ContactError<T>> {
+) -> Result<ContactState<T>, ContactError<T>> {
     let wanted = trials.wanted;
     let strategy = trials.contact.search.unwrap_or(&Newton::DEFAULT);
-    let (mut best, mut failed): (Option<(T, Found<T>)>, _) = (None, None);
+    let (mut best, mut failed): (Option<(T, ContactState<T>)>, _) = (None, None);
     let mut f = |load| match trials.at(Given::Load(load)) {
         Ok((found, pressure, rate)) => {
             let missed = pressure - wanted;
@@ -294,7 +294,7 @@ fn enclosed<T: Real>(
         // A strategy may have left something, or more than it says.
         (None, Ok(_), Some((missed, found))) => {
             let error = found.error.map(|error| error + missed / wanted);
-            Ok(Found { error, ..found })
+            Ok(ContactState { error, ..found })
         }
         (None, Err(source), Some((_, found))) => {
             Err(ContactError::LimitSearch { best: found.interval, source })

@@ -1,22 +1,22 @@
 //! Which intervals the bodies touch in.
 //!
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
-//! [checked](super::check): nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
+//! [checked](super::signorini_check): nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
 //! coarse [active set](super::active_set) says in how many intervals the bodies touch and about where, and
-//! Newton's method finds [all limits](super::several) at once; and where that leads to an end of the bodies, the
+//! Newton's method finds [all limits](super::newton_several) at once; and where that leads to an end of the bodies, the
 //! load under which a limit just comes there. Without adhesion a contact problem has one
 //! solution: what passes the checks is it, whatever the way there.
 
 use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
 use super::capacity::{Capacity, capacity};
-use super::check::{Check, Pulled};
+use super::signorini_check::{SignoriniCheck, TensionSpans};
 use super::edges::{Conditions, Edge, Given};
-use super::field::Field;
-use super::several::{Besides, Newton, Outcome};
-use super::single::Single;
-use super::{Contact, Found, peak};
-use crate::gap::{Cost, FirstLook, Gap, LowPlace, Sampler};
-use crate::quadrature::{Engine, Panels, Pressing, Quadrature, panels};
+use super::exterior_field::ExteriorField;
+use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
+use super::single_contact::Single;
+use super::{Contact, ContactState, peak};
+use crate::gap::{Cost, CoarseHeights, Gap, LowPoint, Sampler};
+use crate::quadrature::{Integrator, Panels, LoadCase, Quadrature, panels};
 use crate::solution::{Report, Start, Verdict};
 use crate::{ContactError, Interval, Real};
 
@@ -39,28 +39,28 @@ const MOST_SHARES: usize = 6;
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, with the number of the gap that they are of.
-    look: FirstLook<T>,
+    look: CoarseHeights<T>,
     of: Option<u64>,
-    newton: Newton<T>,
-    fields: Vec<Field<T>>,
+    newton: NewtonSeveral<T>,
+    fields: Vec<ExteriorField<T>>,
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
-    pulled: Pulled<T>,
+    tension_spans: TensionSpans<T>,
     pub report: Report,
 }
 
 impl<T: Real> Workspace<T> {
     pub fn new() -> Self {
         Self {
-            look: FirstLook::new(),
+            look: CoarseHeights::new(),
             of: None,
-            newton: Newton::new(),
+            newton: NewtonSeveral::new(),
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
-            pulled: Pulled::new(),
+            tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
     }
@@ -81,7 +81,7 @@ impl<T: Real> Workspace<T> {
         &mut self,
         gap: &Gap<'_, T>,
         cost: &mut Cost,
-    ) -> Result<&FirstLook<T>, ContactError<T>> {
+    ) -> Result<&CoarseHeights<T>, ContactError<T>> {
         if self.of != Some(gap.number()) {
             self.of = None;
             // It serves whatever the tilt.
@@ -105,10 +105,10 @@ pub(super) enum Sought<T> {
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     sought: Sought<T>,
-    engine: &mut dyn Engine<T>,
+    integrator: &mut dyn Integrator<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
-) -> Result<Found<T>, ContactError<T>> {
+) -> Result<ContactState<T>, ContactError<T>> {
     let gap = &contact.gap;
     let edges = contact.checked_edges()?;
     let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
@@ -118,7 +118,7 @@ pub(super) fn find<T: Real>(
     let mut search = Search {
         contact,
         sought,
-        engine,
+        integrator,
         workspace,
         cost,
         cells,
@@ -138,7 +138,7 @@ pub(super) fn find<T: Real>(
         // Of several valleys heights tell at less cost what a search for one contact fails at.
         if search.has_valleys(convex)? {
             match search.several(None) {
-                Err(error) if !matches!(error, ContactError::TooShort { .. }) => {}
+                Err(error) if !matches!(error, ContactError::DomainTooShort { .. }) => {}
                 found => return found,
             }
         }
@@ -173,7 +173,7 @@ pub(super) fn find<T: Real>(
 struct Search<'s, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     sought: Sought<T>,
-    engine: &'s mut dyn Engine<T>,
+    integrator: &'s mut dyn Integrator<T>,
     workspace: &'s mut Workspace<T>,
     cost: &'s mut Cost,
     /// Cells that the next active set starts with.
@@ -191,7 +191,7 @@ struct Search<'s, 'b, T: Real> {
 impl<T: Real> Search<'_, '_, T> {
     /// Seeks one contact: where it was, where the user says, or at the lowest gap. Without a
     /// look at the bodies it starts in their middle.
-    fn one(&mut self, looks: bool) -> (Start, Result<Found<T>, ContactError<T>>) {
+    fn one(&mut self, looks: bool) -> (Start, Result<ContactState<T>, ContactError<T>>) {
         let mut start = if self.turns() { Start::LineOfLoad } else { Start::Middle };
         let (contact, cost) = (self.contact, &mut *self.cost);
         let last = self.workspace.last.first().copied();
@@ -208,13 +208,13 @@ impl<T: Real> Search<'_, '_, T> {
             (_, Some(_)) => Start::Given,
             _ => start,
         };
-        let engine = &mut *self.engine;
+        let integrator = &mut *self.integrator;
         let found = match self.sought {
             Sought::By(conditions) => {
                 let (start, bears) = (contact.start, None);
-                Single { contact, conditions, start, look, engine, cost, bears }.find(last)
+                Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
             }
-            Sought::Peak(pressure) => peak::find(contact, pressure, look, engine, last, cost),
+            Sought::Peak(pressure) => peak::find(contact, pressure, look, integrator, last, cost),
         };
         (start, found)
     }
@@ -222,7 +222,7 @@ impl<T: Real> Search<'_, '_, T> {
     /// What a solution fails by, if anything.
     fn checked(
         &mut self,
-        found: &Found<T>,
+        found: &ContactState<T>,
         convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
         if let Some(error) = found.lifts_off(&self.contact.edges) {
@@ -232,23 +232,23 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(None);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
-        // Where the engine has no panels, the contact is looked at on some that are made for it.
+        // Where the integrator has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
-        if panels::several(self.engine).is_none() {
-            let engine = if panels::is_panels(self.engine) {
-                &mut *self.engine
+        if panels::several(self.integrator).is_none() {
+            let integrator = if panels::is_panels(self.integrator) {
+                &mut *self.integrator
             } else {
-                &mut **own.insert(Panels::FULL.engine()?)
+                &mut **own.insert(Panels::FULL.integrator()?)
             };
-            engine.prepare(gap, found.interval)?;
+            integrator.prepare(gap, found.interval)?;
         }
-        let engine = own.as_deref().unwrap_or(&*self.engine);
+        let integrator = own.as_deref().unwrap_or(&*self.integrator);
         self.workspace.look(gap, self.cost)?;
-        let Workspace { look, fields, pulled, .. } = &mut *self.workspace;
-        let check = Check { gap, engine, kappa, found, closed: &self.closed };
+        let Workspace { look, fields, tension_spans, .. } = &mut *self.workspace;
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
         let (interval, load) = (found.interval, found.load);
         fields.clear();
-        if let Some([x, pressure]) = check.tension(fields, pulled)? {
+        if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
                 return Err(ContactError::Overflow { interval });
             }
@@ -261,10 +261,10 @@ impl<T: Real> Search<'_, '_, T> {
             }
             check.resolve(fields)?;
             let [left, right] = self.contact.ends();
-            let within = |low: &LowPlace<T>| low.x >= left && low.x <= right;
+            let within = |low: &LowPoint<T>| low.x >= left && low.x <= right;
             let turned =
-                |low: LowPlace<T>| LowPlace { height: gap.turned(low.x, low.height), ..low };
-            let heights = look.low_places().map(turned).filter(within);
+                |low: LowPoint<T>| LowPoint { height: gap.turned(low.x, low.height), ..low };
+            let heights = look.low_points().map(turned).filter(within);
             overlap = check.overlap(fields, heights, self.cost)?;
         }
         if let Some(own) = own {
@@ -291,7 +291,7 @@ impl<T: Real> Search<'_, '_, T> {
     /// Whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
         let adhesive = |edge: &Edge<T>| matches!(edge, Edge::Adhesive(_));
-        // Engines of the user's, and the paper's, know but one contact; so do the searches.
+        // Integrators of the user's, and the paper's, know but one contact; so do the searches.
         let by_load = matches!(
             self.sought,
             Sought::By(Conditions { given: Given::Load(_) | Given::Centre { .. }, .. })
@@ -299,16 +299,16 @@ impl<T: Real> Search<'_, '_, T> {
         by_load
             && !self.contact.edges.iter().any(adhesive)
             && self.contact.search.is_none()
-            && panels::is_panels(self.engine)
+            && panels::is_panels(self.integrator)
     }
 
     /// Seeks any number of contacts; `fault` is what one alone has failed by.
-    fn several(&mut self, fault: Option<ContactError<T>>) -> Result<Found<T>, ContactError<T>> {
+    fn several(&mut self, fault: Option<ContactError<T>>) -> Result<ContactState<T>, ContactError<T>> {
         let gap = &self.contact.gap;
         let [from, to] = gap.range();
         let edges = self.contact.edges;
         let no_balance =
-            ContactError::NoBalance { half_width: T::of(0.5) * (to - from), near: from };
+            ContactError::NoEquilibrium { half_width: T::of(0.5) * (to - from), near: from };
         let Sought::By(conditions) = self.sought else { return Err(fault.unwrap_or(no_balance)) };
         if !self.may_be_several() {
             return Err(fault.unwrap_or(no_balance));
@@ -316,7 +316,7 @@ impl<T: Real> Search<'_, '_, T> {
         let first = fault.clone().filter(|fault| Verdict::of(fault) == Verdict::NotFound);
         let mut fault = fault;
         let ends = self.contact.ends();
-        let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::UpTo(_)));
+        let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
         let fixed = edges.map(|edge| matches!(edge, Edge::Fixed(_)));
         let last = &self.workspace.last;
         let is_near = last.len() > 1 && self.end.is_none();
@@ -341,14 +341,14 @@ impl<T: Real> Search<'_, '_, T> {
                 }
                 self.active_set(&conditions)?;
             }
-            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
+            let Workspace { newton: NewtonSeveral { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
             let last = on.len() - 1;
             let corners = [
                 fixed[0] || at_corner[0] && on[0].left <= ends[0],
                 fixed[1] || at_corner[1] && on[last].right >= ends[1],
             ];
-            let found = match self.settle(&conditions, corners, ends) {
+            let found = match self.converge(&conditions, corners, ends) {
                 Ok(found) => found,
                 Err(error) if error.may_be_several() => {
                     self.workspace.report.add(start, Verdict::NotFound);
@@ -367,7 +367,7 @@ impl<T: Real> Search<'_, '_, T> {
                         self.workspace.report.add(start, Verdict::of(&error));
                         // Where one overlap follows another, cells see all of them at once.
                         let again =
-                            start == Start::Trial && self.workspace.pulled.stretches.is_empty();
+                            start == Start::Trial && self.workspace.tension_spans.spans.is_empty();
                         start = if self.mend(&error) && !again {
                             Start::Trial
                         } else {
@@ -379,38 +379,38 @@ impl<T: Real> Search<'_, '_, T> {
                 },
                 Err(outcome) => outcome,
             };
-            if let Outcome::Closed(i) = outcome
+            if let SeveralOutcome::Closed(i) = outcome
                 && self.workspace.newton.is_nothing(i)
             {
                 self.closed.push(self.workspace.newton.closed_gap(i));
             }
             // Where the search has led without an end says little.
-            let Workspace { newton: Newton { on, .. }, before, .. } = &mut *self.workspace;
+            let Workspace { newton: NewtonSeveral { on, .. }, before, .. } = &mut *self.workspace;
             on.clone_from(before);
             let verdict = match outcome {
-                Outcome::Closed(i) => {
+                SeveralOutcome::Closed(i) => {
                     on[i].right = on.remove(i + 1).right;
                     Verdict::Merged
                 }
-                Outcome::Lost(i) if on.len() > 1 => {
+                SeveralOutcome::Lost(i) if on.len() > 1 => {
                     on.remove(i);
                     Verdict::Lost
                 }
-                Outcome::Beyond(0) if at_corner[0] => {
+                SeveralOutcome::Beyond(0) if at_corner[0] => {
                     on[0].left = ends[0];
                     Verdict::ReachedCorner
                 }
-                Outcome::Beyond(1) if at_corner[1] => {
+                SeveralOutcome::Beyond(1) if at_corner[1] => {
                     on[last].right = ends[1];
                     Verdict::ReachedCorner
                 }
                 // This end is reached under less.
-                Outcome::Beyond(side) if self.end.is_some() => {
+                SeveralOutcome::Beyond(side) if self.end.is_some() => {
                     self.end = Some(side);
                     Verdict::ReachedCorner
                 }
                 _ => {
-                    if let Outcome::Beyond(side) = outcome {
+                    if let SeveralOutcome::Beyond(side) = outcome {
                         self.runs_out = Some(side);
                     }
                     // Where contacts were mended cells are to look; of others nothing is to be learnt.
@@ -426,44 +426,44 @@ impl<T: Real> Search<'_, '_, T> {
         // What one contact alone has failed by says more than that it was not found.
         let runs_out = self
             .runs_out
-            .map(|side| ContactError::RunsOut { end: ends[side], load: conditions.load() });
+            .map(|side| ContactError::EndReached { end: ends[side], load: conditions.load() });
         // Unless that is what it would bear alone.
         let says = |fault: &ContactError<T>| match fault {
-            ContactError::NoBalance { .. } => false,
-            ContactError::TooShort { .. } => runs_out.is_none(),
+            ContactError::NoEquilibrium { .. } => false,
+            ContactError::DomainTooShort { .. } => runs_out.is_none(),
             _ => true,
         };
         Err(first.filter(says).or(runs_out).or(fault).unwrap_or(no_balance))
     }
 
     /// Moves the contacts at hand to where they bear the load.
-    fn settle(
+    fn converge(
         &mut self,
         conditions: &Conditions<T>,
         corners: [bool; 2],
         ends: [T; 2],
-    ) -> Result<Result<Found<T>, Outcome>, ContactError<T>> {
+    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
         let contact = self.contact;
         let newton = &mut self.workspace.newton;
         if let [on] = newton.on[..] {
             let (mut start, look, bears) = (Some(on), None, Some(None));
-            let (mut conditions, engine, cost) = (*conditions, &mut *self.engine, &mut *self.cost);
+            let (mut conditions, integrator, cost) = (*conditions, &mut *self.integrator, &mut *self.cost);
             if self.end.is_some() {
                 let mut widest = capacity(contact, &conditions, ends, cost);
                 // At a corner more is borne, up to the other end.
                 for (edge, end) in conditions.edges.iter_mut().zip(ends) {
-                    if matches!(edge, Edge::UpTo(_)) && widest.is_some_and(|at| at.end == end) {
+                    if matches!(edge, Edge::FreeUntil(_)) && widest.is_some_and(|at| at.end == end) {
                         *edge = Edge::Fixed(end);
                         widest = capacity(contact, &conditions, ends, cost);
                         break;
                     }
                 }
-                let Some(widest) = widest else { return Ok(Err(Outcome::Failed)) };
+                let Some(widest) = widest else { return Ok(Err(SeveralOutcome::Failed)) };
                 start = Some(widest.on);
                 conditions.given = Given::HalfWidth(widest.on.half_width());
             }
             let found =
-                Single { contact, conditions, start, look, engine, cost, bears }.find(start)?;
+                Single { contact, conditions, start, look, integrator, cost, bears }.find(start)?;
             (newton.on[0], newton.tilt) = (found.interval, found.tilt);
             return Ok(Ok(found));
         }
@@ -476,13 +476,13 @@ impl<T: Real> Search<'_, '_, T> {
                 _ => {}
             }
         }
-        let Some(several) = panels::several_mut(self.engine) else {
-            return Ok(Err(Outcome::Failed));
+        let Some(several) = panels::several_mut(self.integrator) else {
+            return Ok(Err(SeveralOutcome::Failed));
         };
         let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
         let load = conditions.load() / conditions.kappa;
-        let outcome = newton.settle(several, &contact.gap, load, corners, ends, besides)?;
-        if outcome != Outcome::Found {
+        let outcome = newton.converge(several, &contact.gap, load, corners, ends, besides)?;
+        if outcome != SeveralOutcome::Found {
             return Ok(Err(outcome));
         }
         let load = match self.end {
@@ -492,7 +492,7 @@ impl<T: Real> Search<'_, '_, T> {
         let found = newton.found(several, conditions.kappa, load, corners, ends);
         // A corner that pulls does not hold the contact.
         for (side, edge) in conditions.edges.iter().enumerate() {
-            if corners[side] && found.strengths[side] < T::zero() && matches!(edge, Edge::UpTo(_)) {
+            if corners[side] && found.strengths[side] < T::zero() && matches!(edge, Edge::FreeUntil(_)) {
                 let last = newton.on.len() - 1;
                 let inward =
                     T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
@@ -501,7 +501,7 @@ impl<T: Real> Search<'_, '_, T> {
                     _ => newton.on[last].right -= inward,
                 }
                 let corners = if side == 0 { [false, corners[1]] } else { [corners[0], false] };
-                return self.settle(conditions, corners, ends);
+                return self.converge(conditions, corners, ends);
             }
         }
         Ok(Ok(found))
@@ -510,11 +510,11 @@ impl<T: Real> Search<'_, '_, T> {
     /// Parts the contacts at hand where they would pull, or puts one where the bodies would overlap; whether
     /// any is left.
     fn mend(&mut self, fault: &ContactError<T>) -> bool {
-        let Workspace { newton: Newton { on, .. }, pulled, .. } = &mut *self.workspace;
-        for stretch in &pulled.stretches {
+        let Workspace { newton: NewtonSeveral { on, .. }, tension_spans, .. } = &mut *self.workspace;
+        for span in &tension_spans.spans {
             let apart = |on: Interval<T>| {
-                let left = Interval { right: on.right.min(stretch.left), ..on };
-                let right = Interval { left: on.left.max(stretch.right), ..on };
+                let left = Interval { right: on.right.min(span.left), ..on };
+                let right = Interval { left: on.left.max(span.right), ..on };
                 [left, right].into_iter().filter(|on| on.left < on.right)
             };
             *on = on.drain(..).flat_map(apart).collect();
@@ -564,7 +564,7 @@ impl<T: Real> Search<'_, '_, T> {
         self.cost.heights += sampler.cost.evaluations;
         coarse.map_err(|error| match error {
             NotFound::Height(error) => error,
-            _ => ContactError::NoBalance {
+            _ => ContactError::NoEquilibrium {
                 half_width: T::of(0.5) * (range[1] - range[0]),
                 near: look.lowest(),
             },
@@ -574,7 +574,7 @@ impl<T: Real> Search<'_, '_, T> {
     /// The end of the bodies that contacts reach, where no corner holds them.
     fn end_reached(&self, coarse: &Coarse<T>) -> Option<usize> {
         let is_corner =
-            |side: usize| matches!(self.contact.edges[side], Edge::Fixed(_) | Edge::UpTo(_));
+            |side: usize| matches!(self.contact.edges[side], Edge::Fixed(_) | Edge::FreeUntil(_));
         (0..2).find(|&side| coarse.reaches[side] && !is_corner(side))
     }
 
@@ -586,7 +586,7 @@ impl<T: Real> Search<'_, '_, T> {
         let mut search = Search {
             contact: self.contact,
             sought,
-            engine: &mut *self.engine,
+            integrator: &mut *self.integrator,
             workspace: &mut *self.workspace,
             cost: &mut *self.cost,
             cells: FIRST_CELLS,
@@ -595,7 +595,7 @@ impl<T: Real> Search<'_, '_, T> {
             end: Some(end),
             has_run_out: false,
         };
-        let Found { interval: on, load, free, .. } = search.several(None).ok()?;
+        let ContactState { interval: on, load, free, .. } = search.several(None).ok()?;
         let ends = self.contact.ends();
         let room = [on.left - ends[0], ends[1] - on.right];
         let side = usize::from(room[1] < room[0]);
@@ -603,13 +603,13 @@ impl<T: Real> Search<'_, '_, T> {
         if room[side] > T::epsilon().sqrt() * on.half_width() {
             return None;
         }
-        let (engine, gap) = (&*self.engine, &self.contact.gap);
+        let (integrator, gap) = (&*self.integrator, &self.contact.gap);
         let one = [on];
-        let contacts = panels::several(engine).map_or(&one[..], |several| several.contacts());
-        let pressing = Pressing { kappa: conditions.kappa, load, free };
+        let contacts = panels::several(integrator).map_or(&one[..], |several| several.contacts());
+        let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let mut highest = if free == [true; 2] { T::zero() } else { T::one() / T::zero() };
         for &on in contacts {
-            highest = highest.max(peak(engine, gap, &pressing, on, self.cost).ok()?.1.value);
+            highest = highest.max(peak(integrator, gap, &load_case, on, self.cost).ok()?.1.value);
         }
         Some(Capacity { on, end: ends[side], load, peak: highest })
     }

@@ -36,7 +36,7 @@ impl<T: Real> Default for Sampler<T> {
 }
 
 impl<T: Real> Sampler<T> {
-    /// The slope of the gap `f₂' - f₁'` at `x`. A joint belongs to the piece on its left.
+    /// The slope of the gap `f₂' - f₁'` at `x`. A breakpoint belongs to the piece on its left.
     ///
     /// # Errors
     /// [`ContactError::OutsideBodies`], [`ContactError::Inversion`],
@@ -177,7 +177,7 @@ impl<T: Real> Sampler<T> {
             let strayed = strayed.or(root.ok().filter(outside).map(|root| root.x));
             match (root, strayed) {
                 (_, Some(k)) => {
-                    let source = SearchError::Astray { x: k, lo, hi };
+                    let source = SearchError::LeftBracket { x: k, lo, hi };
                     return Err(ContactError::Inversion { body, x, source });
                 }
                 (Ok(root), None) => root.x,
@@ -189,7 +189,7 @@ impl<T: Real> Sampler<T> {
             }
         };
         let mut found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
-        for _ in 0..T::MORE_STEPS {
+        for _ in 0..T::DERIVATIVE_ORDER {
             let step = (x - found.point.x) / found.point.dx;
             if step.is_finite() {
                 found = at(found.k + step);
@@ -202,7 +202,7 @@ impl<T: Real> Sampler<T> {
         let missed = found.point.x - x;
         // What a strategy leaves shows in the estimates, unless it leaves almost everything.
         if missed.abs() > T::of(0.1) * (ends[1] - ends[0]) {
-            let source = SearchError::Missed { x: k, residual: missed };
+            let source = SearchError::NotConverged { x: k, residual: missed };
             return Err(ContactError::Inversion { body, x, source });
         }
         self.missed = self.missed.max(missed.abs());

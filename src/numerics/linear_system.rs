@@ -30,7 +30,7 @@ impl<T: Real> LinearSystem<T> {
         self.factors.clear();
         self.scales.clear();
         for row in matrix.chunks_exact(n) {
-            let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).part(0);
+            let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).component(0);
             if !(scale > zero && scale.is_finite()) {
                 return false;
             }

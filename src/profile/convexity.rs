@@ -14,7 +14,7 @@ pub enum Convexity {
     Unknown,
     /// The slope dY/dX is the same everywhere.
     Straight,
-    /// The slope never falls with X, at joints either: an upper body that bulges towards the contact.
+    /// The slope never falls with X, at breakpoints either: an upper body that bulges towards the contact.
     Convex,
     /// The slope never rises with X: a lower body that bulges towards the contact.
     Concave,

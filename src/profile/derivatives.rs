@@ -19,7 +19,7 @@ use crate::quadrature::Gauss;
 /// Ranges into which the domain is divided at first.
 const RANGES: usize = 64;
 /// Parts into which a range that does not agree is divided.
-const PARTS: usize = 16;
+const COMPONENTS: usize = 16;
 /// How many of them have to disagree with the same sign.
 const MOST_PARTS: usize = 12;
 /// How often a range is divided.
@@ -208,14 +208,14 @@ impl<T: Real> Range<T> {
         if !self.is_off(i) || levels == 0 || !wide {
             return Ok(None);
         }
-        let parts = ranges(curve, self.k, PARTS)?;
+        let parts = ranges(curve, self.k, COMPONENTS)?;
         let worse = |a: &Self, b: &Self| a.missed[i].abs() > b.missed[i].abs();
         let worst =
             parts.iter().fold(parts[0], |max, part| if worse(part, &max) { *part } else { max });
         if is_wrong(&parts, i) {
             // A typical one: that at the end of a body may have troubles of its own.
             let typical = typical(&parts, i);
-            if is_wrong(&ranges(curve, typical.k, PARTS)?, i) {
+            if is_wrong(&ranges(curve, typical.k, COMPONENTS)?, i) {
                 return Ok(Some(typical.as_fault(i)));
             }
         }

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// Each piece has a parameter and a range of its own, over which `X` may rise or fall: a
 /// formula that holds "for x ≤ 0" usually has several branches in `k`, and the range says
 /// which is meant. Where two pieces meet the slope may jump; `X` and `Y` may not. The solver
-/// sees the pieces, inverts each on its own range, and splits its integrals at the joints.
+/// sees the pieces, inverts each on its own range, and splits its integrals at the breakpoints.
 ///
 /// As a profile in its own right it has the parameter `i + s` on piece `i`, `s` running
 /// from 0 at its left end to 1 at its right, which serves to draw it.
@@ -48,7 +48,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     ///
     /// # Errors
     /// What [`Piece::new`] says of a piece, as [`PiecewiseError::InPiece`];
-    /// [`PiecewiseError::Gap`], [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a joint;
+    /// [`PiecewiseError::Gap`], [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a breakpoint;
     /// [`PiecewiseError::NoPieces`].
     pub fn new(parts: Vec<P>) -> Result<Self, PiecewiseError<T>> {
         Self::with_tolerance(parts, T::of(64.0) * T::epsilon())
@@ -81,26 +81,26 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if parts.is_empty() {
             return Err(PiecewiseError::NoPieces);
         }
-        for joint in 0..parts.len() - 1 {
-            let [x, x_next] = [0, 1].map(|i| ends[joint + i].1.map(|point| point.x));
+        for breakpoint in 0..parts.len() - 1 {
+            let [x, x_next] = [0, 1].map(|i| ends[breakpoint + i].1.map(|point| point.x));
             let (left, right) = (x[1], x_next[0]);
             let mismatch = right - left;
             if mismatch.abs() > tolerance * extent(x).max(extent(x_next)) {
                 return Err(if mismatch > T::zero() {
-                    PiecewiseError::Gap { joint, left, right }
+                    PiecewiseError::Gap { breakpoint, left, right }
                 } else {
-                    PiecewiseError::Overlap { joint, left, right }
+                    PiecewiseError::Overlap { breakpoint, left, right }
                 });
             }
-            let y = heights(joint, &ends[joint])?;
-            let y_next = heights(joint + 1, &ends[joint + 1])?;
+            let y = heights(breakpoint, &ends[breakpoint])?;
+            let y_next = heights(breakpoint + 1, &ends[breakpoint + 1])?;
             let jump = y_next[0] - y[1];
             if jump.abs() > tolerance * extent(y).max(extent(y_next)) {
-                return Err(PiecewiseError::Jump { joint, x: left, left: y[1], right: y_next[0] });
+                return Err(PiecewiseError::Jump { breakpoint, x: left, left: y[1], right: y_next[0] });
             }
         }
         let mut convexity = parts[0].convexity();
-        for (joint, pair) in ends.windows(2).enumerate() {
+        for (breakpoint, pair) in ends.windows(2).enumerate() {
             let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
             // Slopes that are the same but for rounding make no corner; 0/0 says nothing.
             let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
@@ -111,7 +111,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             } else {
                 Convexity::Unknown
             };
-            convexity = convexity.joined(parts[joint + 1].convexity(), change);
+            convexity = convexity.joined(parts[breakpoint + 1].convexity(), change);
         }
         Ok(Self { parts, tolerance, ends, smooth, convexity })
     }
@@ -218,12 +218,12 @@ pub enum PiecewiseError<T: Real> {
     NoPieces,
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
-        "gap of {:?} at joint {joint}: the piece on its left ends at x = {left:?}, the next starts \
+        "gap of {:?} at breakpoint {breakpoint}: the piece on its left ends at x = {left:?}, the next starts \
          at x = {right:?}", *right - *left
     )]
     Gap {
-        /// Index of the joint, 0 between the first two pieces.
-        joint: usize,
+        /// Index of the breakpoint, 0 between the first two pieces.
+        breakpoint: usize,
         /// Where the left piece ends.
         left: T,
         /// Where the right piece starts.
@@ -232,12 +232,12 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours overlap: `x` between them belongs to both. Also what pieces in the
     /// wrong order look like.
     #[error(
-        "overlap of {:?} at joint {joint}: the piece on its left ends at x = {left:?}, the next \
+        "overlap of {:?} at breakpoint {breakpoint}: the piece on its left ends at x = {left:?}, the next \
          starts at x = {right:?}; pieces go from left to right", *left - *right
     )]
     Overlap {
-        /// Index of the joint, 0 between the first two pieces.
-        joint: usize,
+        /// Index of the breakpoint, 0 between the first two pieces.
+        breakpoint: usize,
         /// Where the left piece ends.
         left: T,
         /// Where the right piece starts.
@@ -245,12 +245,12 @@ pub enum PiecewiseError<T: Real> {
     },
     /// Two neighbours meet at different heights.
     #[error(
-        "jump of {:?} at joint {joint} (x = {x:?}): Y = {left:?} on its left, {right:?} on its right",
+        "jump of {:?} at breakpoint {breakpoint} (x = {x:?}): Y = {left:?} on its left, {right:?} on its right",
         *right - *left
     )]
     Jump {
-        /// Index of the joint, 0 between the first two pieces.
-        joint: usize,
+        /// Index of the breakpoint, 0 between the first two pieces.
+        breakpoint: usize,
         /// Where.
         x: T,
         /// `Y` at the end of the left piece.

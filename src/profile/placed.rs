@@ -165,7 +165,7 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
     fn convexity(&self) -> Convexity {
         let [[a, b], [c, d]] = self.placement.matrix;
         // d²Y/dX² is multiplied by the determinant over the third power of dX/dx.
-        let stretch = if self.placement.is_upright() {
+        let span = if self.placement.is_upright() {
             a
         } else {
             let [from, to] = self.curve.domain();
@@ -173,7 +173,7 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
             (a * dx + b * dy) * dx
         };
         let determinant = a * d - b * c;
-        if (determinant > T::zero()) == (stretch > T::zero()) {
+        if (determinant > T::zero()) == (span > T::zero()) {
             self.curve.convexity()
         } else {
             self.curve.convexity().flipped()

@@ -55,7 +55,7 @@ impl<T: Real> Default for Fit<T> {
 /// two cubics are one (de Boor's "not a knot"), so that four points of a cubic give that cubic; a
 /// smoothed spline ends straight.
 ///
-/// The third derivative jumps at the knots, which are the joints of the profile. A contact costs some
+/// The third derivative jumps at the knots, which are the breakpoints of the profile. A contact costs some
 /// ten samples for each knot in it; no curve is evaluated for them, as the slope is known.
 ///
 /// ```

@@ -13,7 +13,7 @@
 //! **The exponents.** The error expands in w², w⁴, ... if h is smooth at both ends, as in the
 //! paper's Example 1. Where `g` does not vanish at an edge (any free edge), h ends like a square
 //! root and the error expands in w^{3/2}, w^{5/2}, ...: then the paper's extrapolation gains a
-//! factor 7 and no order, and [`Exponents::HalfOdd`] restores it. A joint inside the contact
+//! factor 7 and no order, and [`Exponents::HalfInteger`] restores it. A breakpoint inside the contact
 //! breaks either expansion unless it lies on the grid.
 //!
 //! **Next to an edge** the expansion holds from about a segment inward. Closer, the error of the
@@ -23,12 +23,12 @@
 //! A + B t through its values at the edges. The rule is run on that line as well, for which the
 //! integrals are known (π z for 1, π (z² - 1/2) for t), and what it misses is its error, up to
 //! and into the last segment. What the last extrapolation changed is added: that sees kinks. A
-//! jump of the slope at a joint is added by its size and distance.
+//! jump of the slope at a breakpoint is added by its size and distance.
 
 mod level;
 
 use super::moments::moments;
-use super::{Engine, Estimate, Moments, Pressing, Quadrature, UNKEPT};
+use super::{Integrator, Estimate, Moments, LoadCase, Quadrature, UNKEPT};
 use crate::gap::{Cost, Gap, Sampler, Side};
 use crate::{ContactError, Interval, Real};
 use level::{Level, Pole};
@@ -53,14 +53,14 @@ pub enum Exponents {
     /// 2, 4, 6, ...: as the paper has it; right where `sqrt(1 - t²) g` is smooth at the edges.
     Even,
     /// 3/2, 5/2, 7/2, ...: right where `g` is finite and not zero at the edges.
-    HalfOdd,
+    HalfInteger,
 }
 
 impl Exponents {
     fn power<T: Real>(self, i: usize) -> T {
         match self {
             Self::Even => T::count(2 * (i + 1)),
-            Self::HalfOdd => T::count(i + 1) + T::of(0.5),
+            Self::HalfInteger => T::count(i + 1) + T::of(0.5),
         }
     }
 }
@@ -76,7 +76,7 @@ impl Midpoint {
     /// is smooth the relative error is about 1e-13 in the middle of the contact, 1e-9 at 0.8 L
     /// from it, and 1e-5 a segment (L/32) from an edge.
     pub const DEFAULT: Self =
-        Self { segments: 64, extrapolations: 4, exponents: Exponents::HalfOdd };
+        Self { segments: 64, extrapolations: 4, exponents: Exponents::HalfInteger };
 
     /// The segments of each level.
     fn levels(&self) -> Option<Vec<usize>> {
@@ -96,37 +96,37 @@ impl Default for Midpoint {
 }
 
 impl<T: Real> Quadrature<T> for Midpoint {
-    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>> {
+    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         let Self { segments, extrapolations, .. } = *self;
         let Some(levels) = self.levels() else {
-            return Err(ContactError::Segments { segments, extrapolations });
+            return Err(ContactError::InvalidSegments { segments, extrapolations });
         };
         let sampler = Sampler::default();
         let sums = OnceLock::new();
-        Ok(Box::new(AtWork { rule: *self, levels, sampler, on: None, sums, moments: None }))
+        Ok(Box::new(MidpointIntegrator { rule: *self, levels, sampler, on: None, sums, moments: None }))
     }
 
-    fn serves(&self, engine: &dyn Engine<T>) -> bool {
-        let engine: &dyn Any = engine;
-        engine.downcast_ref().is_some_and(|AtWork { rule, .. }: &AtWork<T>| rule == self)
+    fn serves(&self, integrator: &dyn Integrator<T>) -> bool {
+        let integrator: &dyn Any = integrator;
+        integrator.downcast_ref().is_some_and(|MidpointIntegrator { rule, .. }: &MidpointIntegrator<T>| rule == self)
     }
 }
 
 #[derive(Clone)]
-struct AtWork<T: Real> {
+struct MidpointIntegrator<T: Real> {
     rule: Midpoint,
     levels: Vec<usize>,
     /// Kept from one trial to the next: it knows where on the curves it is.
     sampler: Sampler<T>,
     /// The interval prepared, and the levels sampled on it when they are first needed.
     on: Option<Interval<T>>,
-    sums: OnceLock<Sums<T>>,
+    sums: OnceLock<MidpointSums<T>>,
     /// The interval last integrated over, and the error of its edge integrals.
     moments: Option<(Interval<T>, T)>,
 }
 
-impl<T: Real> Engine<T> for AtWork<T> {
-    fn fork(&self) -> Box<dyn Engine<T>> {
+impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
+    fn fork(&self) -> Box<dyn Integrator<T>> {
         Box::new(self.clone())
     }
 
@@ -164,19 +164,19 @@ impl<T: Real> Engine<T> for AtWork<T> {
             levels.push(Level::sample(&mut sampler, gap, on, n, trapezoidal)?);
         }
         let mut jumps = Vec::new();
-        for x in gap.joints(on) {
+        for x in gap.breakpoints(on) {
             let left = sampler.slope_from(gap, x, Side::Left)?;
             jumps.push((x, (sampler.slope_from(gap, x, Side::Right)? - left).abs()));
         }
         let exponents = self.rule.exponents;
-        self.sums.get_or_init(|| Sums { on, levels, jumps, exponents });
+        self.sums.get_or_init(|| MidpointSums { on, levels, jumps, exponents });
         Ok(sampler.cost)
     }
 
     fn estimate(
         &self,
         gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
+        load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
     ) -> Result<Estimate<T>, ContactError<T>> {
@@ -185,8 +185,8 @@ impl<T: Real> Engine<T> for AtWork<T> {
             return Ok(Estimate { value: T::zero(), error: T::one() / T::zero() });
         };
         let Estimate { value, error } = sums.at(gap, x, cost)?;
-        let edge = T::pi() * T::pi() * sums.on.edge_root(x);
-        let Pressing { kappa, load, .. } = *pressing;
+        let edge = T::pi() * T::pi() * sums.on.chebyshev_weight(x);
+        let LoadCase { kappa, load, .. } = *load_case;
         let value = (T::pi() * load - kappa * value) / edge;
         // An error of the edge integrals is one of the limits, or of the load.
         let same = |(on, _): &(Interval<T>, T)| on.is_same(&sums.on);
@@ -202,15 +202,15 @@ impl<T: Real> Engine<T> for AtWork<T> {
 
 /// All levels, sampled on one interval.
 #[derive(Clone)]
-struct Sums<T: Real> {
+struct MidpointSums<T: Real> {
     on: Interval<T>,
     levels: Vec<Level<T>>,
-    /// The joints in the interval, and by how much the slope jumps there.
+    /// The breakpoints in the interval, and by how much the slope jumps there.
     jumps: Vec<(T, T)>,
     exponents: Exponents,
 }
 
-impl<T: Real> Sums<T> {
+impl<T: Real> MidpointSums<T> {
     /// The Cauchy integral `I(x)`.
     fn at(&self, gap: &Gap<'_, T>, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let mut pole = Pole::new(gap, self.on, x);
@@ -234,14 +234,14 @@ impl<T: Real> Sums<T> {
         Ok(Estimate { value: half_width * value.0, error: half_width * error })
     }
 
-    /// What the rule can miss of `PV∫ h/(z - t) dt` where h jumps at a joint: the joint may lie
+    /// What the rule can miss of `PV∫ h/(z - t) dt` where h jumps at a breakpoint: the breakpoint may lie
     /// anywhere in its segment, and next to it the integral has a logarithm.
     fn jump_error(&self, x: T) -> T {
         let half = T::of(0.5);
         let coarsest = self.levels[0].n;
         let segment = (self.on.right - self.on.left) / T::count(coarsest);
-        let missed = |&(joint, jump): &(T, T)| {
-            let segments = (x - joint).abs() / segment;
+        let missed = |&(breakpoint, jump): &(T, T)| {
+            let segments = (x - breakpoint).abs() / segment;
             let shape = if segments > half {
                 half / segments
             } else {
@@ -250,7 +250,7 @@ impl<T: Real> Sums<T> {
             // A kink alone has no logarithm, and ln 0 times no jump is none.
             if jump.is_zero() { jump } else { jump * shape }
         };
-        let root = |x| self.on.edge_root(x) / self.on.half_width();
+        let root = |x| self.on.chebyshev_weight(x) / self.on.half_width();
         let sum = |sum, jump: &(T, T)| sum + root(jump.0) * missed(jump);
         self.jumps.iter().fold(T::zero(), sum)
     }

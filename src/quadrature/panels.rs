@@ -1,10 +1,10 @@
 //! The slope of the gap as polynomial panels, and everything from them.
 //!
 //! The user's curves are the cost, so they are sampled once: on panels, each with a Chebyshev
-//! series, over a stretch a little wider than the contact. Edge integrals, their derivatives by
+//! series, over a span a little wider than the contact. Edge integrals, their derivatives by
 //! the limits, and the pressure then come from the series alone.
 //!
-//! The panels end at the joints of the bodies. Each starts with a few nodes and takes more while
+//! The panels end at the breakpoints of the bodies. Each starts with a few nodes and takes more while
 //! the coefficients say that this will do; where they do not fall (a kink that nobody declared,
 //! an end like a square root) the panel is halved. Where they have sunk into the noise of the
 //! user's formulas more samples would not help: the panel is left as it is, and the level of the
@@ -15,51 +15,51 @@
 
 pub(crate) mod angles;
 pub(crate) mod chebyshev;
-mod conjugate;
-mod continuation;
-mod cover;
-mod far;
-mod groups;
-mod integrals;
-mod nodes;
+mod hilbert_transform;
+mod reexpansion;
+mod panel_set;
+mod near_far_sum;
+mod treecode;
+mod edge_integrals;
+mod interpolation;
 mod panel;
 mod several;
 
 pub(crate) use angles::Gauss;
 
-use super::{Engine, Estimate, Moments, Pressing, Quadrature};
+use super::{Integrator, Estimate, Moments, LoadCase, Quadrature};
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
 use chebyshev::{MOST, SIZES};
-use conjugate::{Conjugate, Edges, LANES};
-pub(crate) use cover::Cover;
+use hilbert_transform::{HilbertTransform, Edges, LANES};
+pub(crate) use panel_set::PanelSet;
 pub(crate) use panel::Panel;
 use panel::Series;
-pub(crate) use several::{Punch, Several, System};
+pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
 
 /// Whether the slope of the gap rises all over the contact last prepared, up to a share of itself; `None` for
-/// other engines, and for several contacts.
-pub(crate) fn rises<T: Real>(engine: &dyn Engine<T>, share: T) -> Option<bool> {
-    let engine: &dyn Any = engine;
-    let engine: &AtWork<T> = engine.downcast_ref()?;
-    let allowed = share * engine.cover.size;
-    (!engine.is_several)
-        .then(|| integrals::rise(&engine.cover.panels, engine.conjugate.on, allowed))
+/// other integrators, and for several contacts.
+pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {
+    let integrator: &dyn Any = integrator;
+    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
+    let allowed = share * integrator.cover.size;
+    (!integrator.is_several)
+        .then(|| edge_integrals::rise(&integrator.cover.panels, integrator.conjugate.on, allowed))
 }
 
 /// Shows the nodes of the panels of one contact, if it is held by panels.
 pub(crate) fn nodes<T: Real>(
-    engine: &dyn Engine<T>,
+    integrator: &dyn Integrator<T>,
     contact: usize,
     show: &mut dyn FnMut(T) -> Result<(), ContactError<T>>,
 ) -> Result<(), ContactError<T>> {
-    let engine: &dyn Any = engine;
-    let Some(engine) = engine.downcast_ref::<AtWork<T>>() else { return Ok(()) };
-    let (cover, on) = if engine.is_several {
-        (engine.several.cover(contact), engine.several.contacts()[contact])
+    let integrator: &dyn Any = integrator;
+    let Some(integrator) = integrator.downcast_ref::<PanelIntegrator<T>>() else { return Ok(()) };
+    let (cover, on) = if integrator.is_several {
+        (integrator.several.cover(contact), integrator.several.contacts()[contact])
     } else {
-        (&engine.cover, engine.conjugate.on)
+        (&integrator.cover, integrator.conjugate.on)
     };
     for panel in panel::within(&cover.panels, on) {
         for &z in &chebyshev::Table::of(panel.n).z[..panel.n] {
@@ -94,15 +94,15 @@ impl Default for Panels {
 }
 
 impl<T: Real> Quadrature<T> for Panels {
-    fn engine(&self) -> Result<Box<dyn Engine<T>>, ContactError<T>> {
+    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
-            return Err(ContactError::Tolerance { tolerance: T::of(self.tolerance) });
+            return Err(ContactError::InvalidTolerance { tolerance: T::of(self.tolerance) });
         }
         let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
-        let (cover, conjugate) = (Cover::new(tolerance), Conjugate::new());
+        let (cover, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
         let (moments, over, fall, is_several) = (None, None, None, false);
-        Ok(Box::new(AtWork {
+        Ok(Box::new(PanelIntegrator {
             rule: *self,
             cover,
             conjugate,
@@ -114,22 +114,22 @@ impl<T: Real> Quadrature<T> for Panels {
         }))
     }
 
-    fn serves(&self, engine: &dyn Engine<T>) -> bool {
-        let engine: &dyn Any = engine;
-        engine.downcast_ref().is_some_and(|AtWork { rule, .. }: &AtWork<T>| rule == self)
+    fn serves(&self, integrator: &dyn Integrator<T>) -> bool {
+        let integrator: &dyn Any = integrator;
+        integrator.downcast_ref().is_some_and(|PanelIntegrator { rule, .. }: &PanelIntegrator<T>| rule == self)
     }
 }
 
 /// The edge integrals over an interval that the panels cover.
 pub(crate) fn edge_integrals<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
-    integrals::moments(panels, on, false, &mut None)
+    edge_integrals::moments(panels, on, false, &mut None)
 }
 
 #[derive(Clone)]
-struct AtWork<T> {
+struct PanelIntegrator<T> {
     rule: Panels,
-    cover: Cover<T>,
-    conjugate: Conjugate<T>,
+    cover: PanelSet<T>,
+    conjugate: HilbertTransform<T>,
     /// The interval last integrated over: in the end that of the conjugate.
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Where one panel holds it, the series of that.
@@ -141,30 +141,30 @@ struct AtWork<T> {
     is_several: bool,
 }
 
-/// Turns an engine of panels to several contacts; `None` for any other engine, which knows but one.
-pub(crate) fn several_mut<T: Real>(engine: &mut dyn Engine<T>) -> Option<&mut Several<T>> {
-    let engine: &mut dyn Any = engine;
-    let engine: &mut AtWork<T> = engine.downcast_mut()?;
-    engine.is_several = true;
-    Some(&mut engine.several)
+/// Turns an integrator of panels to several contacts; `None` for any other integrator, which knows but one.
+pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
+    let integrator: &mut dyn Any = integrator;
+    let integrator: &mut PanelIntegrator<T> = integrator.downcast_mut()?;
+    integrator.is_several = true;
+    Some(&mut integrator.several)
 }
 
-/// Whether an engine is one of panels.
-pub(crate) fn is_panels<T: Real>(engine: &dyn Engine<T>) -> bool {
-    let engine: &dyn Any = engine;
-    engine.is::<AtWork<T>>()
+/// Whether an integrator is one of panels.
+pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
+    let integrator: &dyn Any = integrator;
+    integrator.is::<PanelIntegrator<T>>()
 }
 
-/// The several contacts that an engine was last turned to; `None` if it was one.
-pub(crate) fn several<T: Real>(engine: &dyn Engine<T>) -> Option<&Several<T>> {
-    let engine: &dyn Any = engine;
-    let engine: &AtWork<T> = engine.downcast_ref()?;
-    engine.is_several.then_some(&engine.several)
+/// The several contacts that an integrator was last turned to; `None` if it was one.
+pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
+    let integrator: &dyn Any = integrator;
+    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
+    integrator.is_several.then_some(&integrator.several)
 }
 
-impl<T: Real> AtWork<T> {
+impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
-        let m = integrals::moments(&self.cover.panels, on, false, &mut self.over);
+        let m = edge_integrals::moments(&self.cover.panels, on, false, &mut self.over);
         self.moments = Some((on, m));
         m
     }
@@ -205,12 +205,12 @@ impl<T: Real> AtWork<T> {
     }
 }
 
-impl<T: Real> Engine<T> for AtWork<T> {
-    fn fork(&self) -> Box<dyn Engine<T>> {
+impl<T: Real> Integrator<T> for PanelIntegrator<T> {
+    fn fork(&self) -> Box<dyn Integrator<T>> {
         Box::new(self.clone())
     }
 
-    fn cover(
+    fn sample_over(
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
@@ -257,12 +257,12 @@ impl<T: Real> Engine<T> for AtWork<T> {
             }
         }
         if self.fall.is_some() {
-            return Ok(integrals::moments(&self.cover.panels, on, true, &mut self.over));
+            return Ok(edge_integrals::moments(&self.cover.panels, on, true, &mut self.over));
         }
         let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         self.cover.extend(gap, sampled)?;
         let m = self.remember(on);
-        // What is good enough for a wide stretch may be nothing to a narrow one in its middle.
+        // What is good enough for a wide span may be nothing to a narrow one in its middle.
         let reach = self.cover.interval().map_or(T::zero(), |have| have.half_width());
         if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
             return self.sample_anew(gap, on);
@@ -273,13 +273,13 @@ impl<T: Real> Engine<T> for AtWork<T> {
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         self.is_several = false;
         let m = self.moments(gap, on)?;
-        // Nor is it to what little the contact has beyond a joint.
+        // Nor is it to what little the contact has beyond a breakpoint.
         if self.fall.is_none() && self.is_poor(&m) && self.cover.overshoots(gap, on) {
             let sampled = self.sample_anew(gap, on)?;
             // But limits and load are those of the panels before.
             self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
-        let Cover { panels, size, tolerance, .. } = &self.cover;
+        let PanelSet { panels, size, tolerance, .. } = &self.cover;
         self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
         Ok(())
     }
@@ -287,25 +287,25 @@ impl<T: Real> Engine<T> for AtWork<T> {
     fn pressures(
         &self,
         _gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
+        load_case: &LoadCase<T>,
         x: &[T],
         out: &mut [T],
         _cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
         if self.is_several {
             self.several.pressures(x, out);
-            out.iter_mut().for_each(|pressure| *pressure *= pressing.kappa);
+            out.iter_mut().for_each(|pressure| *pressure *= load_case.kappa);
             return Ok(());
         }
         let (whole, rest) = x.as_chunks::<LANES>();
         let (out, rest_out) = out.as_chunks_mut::<LANES>();
         for (x, out) in whole.iter().zip(out) {
-            *out = self.in_lanes(pressing, x, LANES);
+            *out = self.in_lanes(load_case, x, LANES);
         }
         if let [first, ..] = rest {
             let mut lanes = [*first; LANES];
             lanes[..rest.len()].copy_from_slice(rest);
-            rest_out.copy_from_slice(&self.in_lanes(pressing, &lanes, rest.len())[..rest.len()]);
+            rest_out.copy_from_slice(&self.in_lanes(load_case, &lanes, rest.len())[..rest.len()]);
         }
         Ok(())
     }
@@ -313,13 +313,13 @@ impl<T: Real> Engine<T> for AtWork<T> {
     fn estimate(
         &self,
         gap: &Gap<'_, T>,
-        pressing: &Pressing<T>,
+        load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
     ) -> Result<Estimate<T>, ContactError<T>> {
         let mut value = [T::zero()];
-        self.pressures(gap, pressing, &[x], &mut value, cost)?;
-        let Pressing { kappa, .. } = *pressing;
+        self.pressures(gap, load_case, &[x], &mut value, cost)?;
+        let LoadCase { kappa, .. } = *load_case;
         if self.is_several {
             let error = kappa * self.several.error(x) + T::of(4.0) * T::epsilon() * value[0].abs();
             return Ok(Estimate { value: value[0], error });
@@ -328,7 +328,7 @@ impl<T: Real> Engine<T> for AtWork<T> {
         let of_series = kappa * self.conjugate.error(&self.cover.panels, x) / (T::pi() * T::pi());
         // An error of the edge integrals is one of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
-        let of_edges = T::of(6.0) * strength / (T::pi() * on.edge_root(x));
+        let of_edges = T::of(6.0) * strength / (T::pi() * on.chebyshev_weight(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
         Ok(Estimate { value: value[0], error })
     }
@@ -374,14 +374,14 @@ impl<T: Real> Engine<T> for AtWork<T> {
     }
 }
 
-impl<T: Real> AtWork<T> {
+impl<T: Real> PanelIntegrator<T> {
     /// The pressure at so many points strictly inside the contact.
     #[inline(always)]
-    fn in_lanes(&self, pressing: &Pressing<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
+    fn in_lanes(&self, load_case: &LoadCase<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
         let on = self.conjugate.on;
-        let scale = pressing.kappa / (T::pi() * T::pi());
+        let scale = load_case.kappa / (T::pi() * T::pi());
         let (half, least) = (T::of(0.5), T::of(0.1));
-        let [free, bound] = self.strengths(pressing);
+        let [free, bound] = self.strengths(load_case);
         let edges = Edges::of(on, x);
         let regular = self.conjugate.at(x, count, &edges);
         std::array::from_fn(|i| {
@@ -398,14 +398,14 @@ impl<T: Real> AtWork<T> {
     }
 
     /// K_b and K_a: what is left of them at free edges, and what they are at the others.
-    fn strengths(&self, pressing: &Pressing<T>) -> [[T; 2]; 2] {
+    fn strengths(&self, load_case: &LoadCase<T>) -> [[T; 2]; 2] {
         let zero = T::zero();
         let Some((_, m)) = self.moments else { return [[zero; 2]; 2] };
-        let mean_pressure = pressing.load / self.conjugate.on.half_width();
-        let strength = |sum: T| (mean_pressure - pressing.kappa * sum) / T::pi();
+        let mean_pressure = load_case.load / self.conjugate.on.half_width();
+        let strength = |sum: T| (mean_pressure - load_case.kappa * sum) / T::pi();
         let both = [strength(m.first - m.mean), strength(m.first + m.mean)];
         let pick =
-            |free: bool| [0, 1].map(|i| if pressing.free[i] == free { both[i] } else { zero });
+            |free: bool| [0, 1].map(|i| if load_case.free[i] == free { both[i] } else { zero });
         [pick(true), pick(false)]
     }
 }

@@ -3,18 +3,18 @@
 //! For κ = π² and L = 1, at the place θ, of what happens at φ: see the two representations in the
 //! documentation of the module above.
 
-use super::special::{artanh_minus, minus_atan};
+use crate::numerics::special_functions::{artanh_minus, minus_atan};
 use crate::{Interval, Real};
 
 /// Sine and cosine of θ/2, with `x = c + L cos θ`: the square roots of the distances of x to the
 /// two limits, each with all its digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct HalfAngle<T> {
+pub(super) struct Angle<T> {
     pub sin: T,
     pub cos: T,
 }
 
-impl<T: Real> HalfAngle<T> {
+impl<T: Real> Angle<T> {
     pub fn of(limits: Interval<T>, x: T) -> Self {
         let width = limits.right - limits.left;
         let root = |distance: T| (distance / width).sqrt();
@@ -38,7 +38,7 @@ impl<T: Real> HalfAngle<T> {
 
 /// Λ: the pressure of a slope that jumps by one at φ. `offset` is cos θ - cos φ, which only the
 /// caller knows to all digits.
-pub(super) fn jump<T: Real>(theta: HalfAngle<T>, phi: HalfAngle<T>, offset: T) -> T {
+pub(super) fn jump<T: Real>(theta: Angle<T>, phi: Angle<T>, offset: T) -> T {
     // sin((θ + φ)/2)/sin((θ - φ)/2) = (m + n)/(m - n), and m² - n² = offset/2.
     let (m, n) = (phi.sin * theta.cos, theta.sin * phi.cos);
     T::of(2.0) * (m.min(n) / (T::of(0.5) * offset.abs()).sqrt()).asinh()
@@ -46,7 +46,7 @@ pub(super) fn jump<T: Real>(theta: HalfAngle<T>, phi: HalfAngle<T>, offset: T) -
 
 /// `offset Λ + φ sin θ`: the pressure of a slope that is level up to φ and rises by one from there
 /// to θ = 0. Positive; φ is given as an angle, too.
-pub(super) fn bend<T: Real>(theta: HalfAngle<T>, phi: HalfAngle<T>, angle: T, offset: T) -> T {
+pub(super) fn bend<T: Real>(theta: Angle<T>, phi: Angle<T>, angle: T, offset: T) -> T {
     let [two, four] = [2.0, 4.0].map(T::of);
     if offset == T::zero() {
         return angle * theta.sine();

@@ -68,7 +68,7 @@ impl<T: Real> ClosedForm<T> for Biquadratic<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let root = limits.edge_root(x);
+        let root = limits.chebyshev_weight(x);
         let quartic = self.quartic * root * l * l + two * self.quartic * root * x * x;
         kappa / T::pi() * (root / self.radius + two * quartic)
     }

@@ -1,6 +1,6 @@
 //! Ellipse, circle and hyperbola.
 
-use super::special::elliptic;
+use crate::numerics::special_functions::elliptic;
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Interval, Real};
 
@@ -69,7 +69,7 @@ impl<T: Real> ClosedForm<T> for Ellipse<T> {
             return T::zero();
         }
         let integral = elliptic(self.cosine(self.half_width), self.cosine(x).powi(2), one, one);
-        let root = limits.edge_root(x) / self.along;
+        let root = limits.chebyshev_weight(x) / self.along;
         T::of(2.0) * kappa * (self.across / self.along) * root * integral / T::pi().powi(2)
     }
 
@@ -136,7 +136,7 @@ impl<T: Real> ClosedForm<T> for Hyperbola<T> {
         let complement = self.tip / scale;
         let p = (self.tip.hypot(x) / scale).powi(2);
         let integral = elliptic(complement, p, T::one(), complement * complement);
-        let root = limits.edge_root(x) / scale;
+        let root = limits.chebyshev_weight(x) / scale;
         T::of(2.0) * kappa * self.slope * root * integral / T::pi().powi(2)
     }
 

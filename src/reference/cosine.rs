@@ -1,6 +1,6 @@
 //! One crest of a cosine.
 
-use super::special::series;
+use crate::numerics::special_functions::series;
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Interval, Real};
 
@@ -79,7 +79,7 @@ impl<T: Real> ClosedForm<T> for Cosine<T> {
                 break;
             }
         }
-        kappa / T::pi() * (q * self.amplitude) * (q * limits.edge_root(x)) * sum
+        kappa / T::pi() * (q * self.amplitude) * (q * limits.chebyshev_weight(x)) * sum
     }
 
     fn height(&self, x: T) -> T {

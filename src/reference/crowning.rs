@@ -81,7 +81,7 @@ impl<T: Real> ClosedForm<T> for Crowning<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let shares = (limits.edge_root(x) / self.root(self.half_width))
+        let shares = (limits.chebyshev_weight(x) / self.root(self.half_width))
             * (self.half_length / (self.half_length - x));
         T::of(2.0) * kappa / T::pi() * (self.depth / (self.half_length + x)) * shares
     }

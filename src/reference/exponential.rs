@@ -1,6 +1,6 @@
 //! An exponential less its tangent.
 
-use super::special::{exp_minus, series};
+use crate::numerics::special_functions::{exp_minus, series};
 use super::{ClosedForm, ReferenceError, outside, positive};
 use crate::{Interval, Real};
 
@@ -83,7 +83,7 @@ impl<T: Real> ClosedForm<T> for Exponential<T> {
             }
         }
         let share = integral_sum / bessel_sum;
-        kappa / T::pi() * (limits.edge_root(x) / self.radius) * share
+        kappa / T::pi() * (limits.chebyshev_weight(x) / self.radius) * share
     }
 
     fn height(&self, x: T) -> T {

@@ -22,7 +22,7 @@ pub fn body<T: Real>(
     to: T,
 ) -> Result<Piecewise<T, Graph<'_, T>>, PiecewiseError<T>> {
     let mut ends = vec![from];
-    ends.extend(form.joints().into_iter().filter(|&x| x > from && x < to));
+    ends.extend(form.breakpoints().into_iter().filter(|&x| x > from && x < to));
     ends.push(to);
     Piecewise::new(ends.windows(2).map(|ends| Graph { form, ends: [ends[0], ends[1]] }).collect())
 }

@@ -1,6 +1,6 @@
 //! The parabola of Hertz.
 
-use super::special::sinh_minus;
+use crate::numerics::special_functions::sinh_minus;
 use super::{ClosedForm, ReferenceError, centred, outside, positive};
 use crate::{Interval, Real};
 
@@ -74,7 +74,7 @@ impl<T: Real> ClosedForm<T> for Hertz<T> {
         if outside(self.limits(), x) {
             return T::zero();
         }
-        kappa / T::pi() * (self.limits().edge_root(x) / self.radius)
+        kappa / T::pi() * (self.limits().chebyshev_weight(x) / self.radius)
     }
 
     fn height(&self, x: T) -> T {

@@ -1,6 +1,6 @@
 //! The parabola with adhesion.
 
-use super::special::convex_root;
+use crate::numerics::special_functions::convex_root;
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Edge, Interval, Real};
 
@@ -80,7 +80,7 @@ impl<T: Real> ClosedForm<T> for Jkr<T> {
         if outside(self.limits(), x) {
             return T::zero();
         }
-        let root = self.limits().edge_root(x);
+        let root = self.limits().chebyshev_weight(x);
         (kappa * (root / self.radius) - self.pull(kappa) / root) / T::pi()
     }
 

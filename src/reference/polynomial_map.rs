@@ -41,12 +41,12 @@ pub struct PolynomialMap<T, F> {
     zeros: Vec<T>,
     contacts: Vec<Interval<T>>,
     /// Where the slope is not smooth, and v there.
-    joints: Vec<[T; 2]>,
+    breakpoints: Vec<[T; 2]>,
 }
 
 impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
     /// With the form H, the number N of contacts, the amplitude s of the polynomial, in the unit of
-    /// the lengths of H, and the half-width r of the stretch on which it swings between ±s.
+    /// the lengths of H, and the half-width r of the span on which it swings between ±s.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if N is 0, s or r is not positive and finite, s not larger than
@@ -69,7 +69,7 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
             radius,
             zeros: Vec::new(),
             contacts: Vec::new(),
-            joints: Vec::new(),
+            breakpoints: Vec::new(),
         };
         map.zeros = (0..count).map(|branch| map.place(count, branch, T::zero())).collect();
         for branch in 0..count {
@@ -77,11 +77,11 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
             let [left, right] = if map.rises(branch) { ends } else { [ends[1], ends[0]] };
             map.contacts.push(Interval { left, right });
         }
-        for v in map.form.joints() {
+        for v in map.form.breakpoints() {
             let places = map.places(v);
-            map.joints.extend(places.into_iter().map(|x| [x, v]));
+            map.breakpoints.extend(places.into_iter().map(|x| [x, v]));
         }
-        map.joints.sort_by(|a, b| a[0].partial_cmp(&b[0]).unwrap_or(std::cmp::Ordering::Equal));
+        map.breakpoints.sort_by(|a, b| a[0].partial_cmp(&b[0]).unwrap_or(std::cmp::Ordering::Equal));
         Ok(map)
     }
 
@@ -148,9 +148,9 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
             slope = slope * factor + value * double;
             value *= factor;
         }
-        // At a joint the value is known.
-        let joint = self.joints.iter().find(|joint| joint[0] == x);
-        [joint.map_or(value, |joint| joint[1]), slope]
+        // At a breakpoint the value is known.
+        let breakpoint = self.breakpoints.iter().find(|breakpoint| breakpoint[0] == x);
+        [breakpoint.map_or(value, |breakpoint| breakpoint[1]), slope]
     }
 
     /// The slope on one side of x.
@@ -211,8 +211,8 @@ impl<T: Real, F: ClosedForm<T>> ClosedForm<T> for PolynomialMap<T, F> {
         self.slope_beside(x, false)
     }
 
-    fn joints(&self) -> Vec<T> {
-        self.joints.iter().map(|joint| joint[0]).collect()
+    fn breakpoints(&self) -> Vec<T> {
+        self.breakpoints.iter().map(|breakpoint| breakpoint[0]).collect()
     }
 
     /// Of the outermost limits.

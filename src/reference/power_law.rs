@@ -1,6 +1,6 @@
 //! A power of the distance.
 
-use super::special::{series, wallis};
+use crate::numerics::special_functions::{series, wallis};
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Interval, Real};
 
@@ -80,7 +80,7 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let integral = integral(n, x.abs() / l, limits.edge_root(x) / l);
+        let integral = integral(n, x.abs() / l, limits.chebyshev_weight(x) / l);
         n * self.load(kappa) / (T::pi() * l) * integral
     }
 
@@ -98,7 +98,7 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
         -self.slope(-x)
     }
 
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         vec![T::zero()]
     }
 }

@@ -95,14 +95,14 @@ impl<T: Real> ClosedForm<T> for Quartic<T> {
                     return T::zero();
                 }
                 let others = ((x / r + inner) * (x / r + outer)).sqrt();
-                two * (x / r) * (on.edge_root(x) / r) * others
+                two * (x / r) * (on.chebyshev_weight(x) / r) * others
             }
             On::One { half_width, beyond } => {
                 let on = centred(r * half_width);
                 if outside(on, x) {
                     return T::zero();
                 }
-                on.edge_root(x) / r * (beyond + two * (x / r).powi(2))
+                on.chebyshev_weight(x) / r * (beyond + two * (x / r).powi(2))
             }
         };
         two * kappa / T::pi() * (self.depth / r) * shape

@@ -1,7 +1,7 @@
 //! A flat with rounded edges.
 
-use super::angles::{HalfAngle, bend};
-use super::special::{convex_root, minus_atan, minus_sin};
+use super::angles::{Angle, bend};
+use crate::numerics::special_functions::{convex_root, minus_atan, minus_sin};
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Interval, Real};
 
@@ -17,7 +17,7 @@ pub struct RoundedPunch<T> {
     flat: T,
     radius: T,
     half_width: T,
-    end: HalfAngle<T>,
+    end: Angle<T>,
 }
 
 impl<T: Real> RoundedPunch<T> {
@@ -31,7 +31,7 @@ impl<T: Real> RoundedPunch<T> {
         positive("the half-width of the flat part", flat)?;
         positive("the radius", radius)?;
         check("the half-width", half_width, half_width > flat, "more than that of the flat part")?;
-        let end = HalfAngle::of(centred(half_width), flat);
+        let end = Angle::of(centred(half_width), flat);
         Ok(Self { flat, radius, half_width, end })
     }
 
@@ -59,7 +59,7 @@ impl<T: Real> RoundedPunch<T> {
         check("the load", load, half_width > flat, "enough to bring an edge into contact")?;
         // From τ, as L - d has fewer digits.
         let cos = ((one + secant) / (two * secant)).sqrt();
-        let end = HalfAngle { sin: tau / (two * secant * cos), cos };
+        let end = Angle { sin: tau / (two * secant * cos), cos };
         Ok(Self { flat, radius, half_width, end })
     }
 }
@@ -80,7 +80,7 @@ impl<T: Real> ClosedForm<T> for RoundedPunch<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let theta = HalfAngle::of(limits, x);
+        let theta = Angle::of(limits, x);
         let right = bend(theta, self.end, phi, (x - self.flat) / l);
         let left = bend(theta.mirrored(), self.end, phi, (-x - self.flat) / l);
         kappa / T::pi().powi(2) * (l / self.radius) * (right + left)
@@ -96,7 +96,7 @@ impl<T: Real> ClosedForm<T> for RoundedPunch<T> {
         if x < T::zero() { -beyond } else { beyond }
     }
 
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         vec![-self.flat, self.flat]
     }
 }

@@ -1,7 +1,7 @@
 //! A parabola with another radius on either side.
 
-use super::angles::{HalfAngle, bend};
-use super::special::{convex_root, minus_sin, sin_minus_cos};
+use super::angles::{Angle, bend};
+use crate::numerics::special_functions::{convex_root, minus_sin, sin_minus_cos};
 use super::{ClosedForm, ReferenceError, outside, positive};
 use crate::{Interval, Real};
 
@@ -21,7 +21,7 @@ pub struct UnequalRadii<T> {
     half_width: T,
     /// φ₁ and φ.
     angles: [T; 2],
-    tip: HalfAngle<T>,
+    tip: Angle<T>,
 }
 
 impl<T: Real> UnequalRadii<T> {
@@ -37,9 +37,9 @@ impl<T: Real> UnequalRadii<T> {
         let larger = T::pi() - smaller;
         let (sin, cos) = (T::of(0.5) * smaller).sin_cos();
         let (angles, tip) = if right < left {
-            ([larger, smaller], HalfAngle { sin, cos })
+            ([larger, smaller], Angle { sin, cos })
         } else {
-            ([smaller, larger], HalfAngle { sin: cos, cos: sin })
+            ([smaller, larger], Angle { sin: cos, cos: sin })
         };
         Ok(Self { left, right, half_width, angles, tip })
     }
@@ -85,7 +85,7 @@ impl<T: Real> ClosedForm<T> for UnequalRadii<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let theta = HalfAngle::of(limits, x);
+        let theta = Angle::of(limits, x);
         let right = bend(theta, self.tip, self.angles[1], x / l);
         let left = bend(theta.mirrored(), self.tip.mirrored(), self.angles[0], -x / l);
         kappa / T::pi().powi(2) * (right * (l / self.right) + left * (l / self.left))
@@ -99,7 +99,7 @@ impl<T: Real> ClosedForm<T> for UnequalRadii<T> {
         x / if x < T::zero() { self.left } else { self.right }
     }
 
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         vec![T::zero()]
     }
 }

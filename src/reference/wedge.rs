@@ -1,6 +1,6 @@
 //! Two straight flanks.
 
-use super::angles::{HalfAngle, jump};
+use super::angles::{Angle, jump};
 use super::{ClosedForm, ReferenceError, outside, positive};
 use crate::{Interval, Real};
 
@@ -20,7 +20,7 @@ pub struct Wedge<T> {
     left: T,
     right: T,
     half_width: T,
-    tip: HalfAngle<T>,
+    tip: Angle<T>,
 }
 
 impl<T: Real> Wedge<T> {
@@ -41,7 +41,7 @@ impl<T: Real> Wedge<T> {
         positive("the slope on the right", right)?;
         positive("the half-width", half_width)?;
         let share = |slope: T| (T::frac_pi_2() * (slope / (left + right))).sin();
-        let tip = HalfAngle { sin: share(left), cos: share(right) };
+        let tip = Angle { sin: share(left), cos: share(right) };
         Ok(Self { left, right, half_width, tip })
     }
 
@@ -72,7 +72,7 @@ impl<T: Real> ClosedForm<T> for Wedge<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        let log = jump(HalfAngle::of(limits, x), self.tip, x / self.half_width);
+        let log = jump(Angle::of(limits, x), self.tip, x / self.half_width);
         kappa * (self.left + self.right) / T::pi().powi(2) * log
     }
 
@@ -88,7 +88,7 @@ impl<T: Real> ClosedForm<T> for Wedge<T> {
         if x > T::zero() { self.right } else { -self.left }
     }
 
-    fn joints(&self) -> Vec<T> {
+    fn breakpoints(&self) -> Vec<T> {
         vec![T::zero()]
     }
 }

@@ -1,19 +1,19 @@
 //! Bisection.
 
-use super::tracker::Tracker;
-use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use super::bracket_state::BracketState;
+use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
 /// Halves the bracket: one bit of `x` for each evaluation, whatever the function.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bisection {
     /// When to stop.
-    pub tolerance: Tolerance,
+    pub tolerance: StoppingCriteria,
 }
 
 impl Bisection {
     /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
 }
 
 impl<T: Real> LimitSearch<T> for Bisection {
@@ -23,8 +23,8 @@ impl<T: Real> LimitSearch<T> for Bisection {
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>> {
         let mut f = |x| (f(x), None);
-        let mut tracker = Tracker::new(&mut f, bracket, self.tolerance)?;
-        while !tracker.done() && tracker.halve()? {}
-        Ok(tracker.root())
+        let mut state = BracketState::new(&mut f, bracket, self.tolerance)?;
+        while !state.done() && state.halve()? {}
+        Ok(state.root())
     }
 }

@@ -1,7 +1,7 @@
 //! Brent's method.
 
 use super::roots_adapter::{Method, run};
-use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
 /// Brent's method: inverse quadratic interpolation where it converges, halving where not.
@@ -11,12 +11,12 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Brent {
     /// When to stop.
-    pub tolerance: Tolerance,
+    pub tolerance: StoppingCriteria,
 }
 
 impl Brent {
     /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
 }
 
 impl<T: Real> LimitSearch<T> for Brent {

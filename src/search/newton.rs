@@ -1,7 +1,7 @@
 //! Newton's method, kept inside the bracket.
 
-use super::tracker::Tracker;
-use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use super::bracket_state::BracketState;
+use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
 /// Newton's method with the slope that comes with the value, kept inside the sign change.
@@ -20,7 +20,7 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Newton {
     /// When to stop.
-    pub tolerance: Tolerance,
+    pub tolerance: StoppingCriteria,
 }
 
 impl<T: Real> LimitSearch<T> for Newton {
@@ -49,77 +49,77 @@ impl<T: Real> LimitSearch<T> for Newton {
 
 impl Newton {
     /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
 
     fn run<T: Real>(
         &self,
         f: &mut dyn FnMut(T) -> (T, Option<T>),
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>> {
-        let mut tracker = Tracker::new(f, bracket, self.tolerance)?;
+        let mut state = BracketState::new(f, bracket, self.tolerance)?;
         // The last two steps since the last halving, and whether they shrank as they should.
         let (mut last, mut before_last, mut converging) = (None, None, false);
-        let mut at = tracker.last;
-        let mut chord = (tracker.hi.f - tracker.lo.f) / (tracker.hi.x - tracker.lo.x);
-        while !tracker.done() {
+        let mut at = state.last;
+        let mut chord = (state.hi.f - state.lo.f) / (state.hi.x - state.lo.x);
+        while !state.done() {
             let step = -at.f / at.slope.unwrap_or(chord);
             let next = at.x + step;
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
-            if usable && tracker.negligible(step, at.x) {
-                let confirmed = last.is_some() || at.f.abs() <= tracker.rounding;
+            if usable && state.negligible(step, at.x) {
+                let confirmed = last.is_some() || at.f.abs() <= state.rounding;
                 if at.slope.is_some() && confirmed {
                     break;
                 }
                 // A chord over a steep end makes any step small, and so does a slope that is
                 // steep only here, or wrong: then only a closed bracket is proof.
-                let before = tracker.half_width();
-                tracker.close_in()?;
-                if tracker.done() {
+                let before = state.half_width();
+                state.close_in()?;
+                if state.done() {
                     break;
                 }
-                if tracker.half_width() >= T::of(0.6) * before && !tracker.halve()? {
+                if state.half_width() >= T::of(0.6) * before && !state.halve()? {
                     break;
                 }
-                chord = (tracker.hi.f - tracker.lo.f) / (tracker.hi.x - tracker.lo.x);
-                (before_last, last, at) = (None, None, tracker.best());
+                chord = (state.hi.f - state.lo.f) / (state.hi.x - state.lo.x);
+                (before_last, last, at) = (None, None, state.best());
                 continue;
             }
             let halves = |before: T| step.abs() <= T::of(0.5) * before.abs();
             // Each step is a multiple of the square of the one before; so will be the next.
             let left = at.slope.and(last).map(|last| step * (step / last).powi(2));
-            if usable && left.is_some_and(|left| tracker.negligible(left, next)) && halves(at.x) {
-                tracker.visit(next)?;
+            if usable && left.is_some_and(|left| state.negligible(left, next)) && halves(at.x) {
+                state.visit(next)?;
                 break;
             }
             converging |= last.is_some_and(|last| step.abs() < T::of(0.01) * last.abs());
             let tiny = |last: T| {
-                last.abs() <= T::epsilon().sqrt() * at.x.abs() || at.f.abs() <= tracker.rounding
+                last.abs() <= T::epsilon().sqrt() * at.x.abs() || at.f.abs() <= state.rounding
             };
             let stalled = |last: T| tiny(last) && step.abs() >= T::of(0.25) * last.abs();
             if at.slope.is_some() && usable && converging && last.is_some_and(stalled) {
                 break;
             }
             let good = usable && before_last.is_none_or(halves);
-            let seen = if good { tracker.visit(next)? } else { None };
+            let seen = if good { state.visit(next)? } else { None };
             (before_last, last) = match seen {
                 Some(seen) => (last, Some(seen.x - at.x)),
-                None if tracker.halve()? => {
+                None if state.halve()? => {
                     converging = false;
                     (None, None)
                 }
                 None => break,
             };
-            let next = tracker.last;
+            let next = state.last;
             // The slope says that the value should have changed, but it has not.
             let due = at.slope.map_or(T::zero(), |slope| slope * (next.x - at.x)).abs();
-            let same = next.f == at.f && next.f.abs() <= tracker.rounding;
+            let same = next.f == at.f && next.f.abs() <= state.rounding;
             if same && due >= T::of(0.5) * next.f.abs() {
                 break;
             }
             chord = (next.f - at.f) / (next.x - at.x);
             at = next;
         }
-        Ok(tracker.root())
+        Ok(state.root())
     }
 }

@@ -3,13 +3,13 @@
 //! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for
 //! `x` and `f`, tests signs by a product that can underflow, cannot report NaN, returns
 //! errors that carry nothing, and its Brent lacks the least step of the textbook, so that it
-//! ends in some fifty halvings. So it only *proposes* points here. The [`Tracker`] evaluates
+//! ends in some fifty halvings. So it only *proposes* points here. The [`BracketState`] evaluates
 //! them (never twice, never outside the sign change), decides when the root is found, and
 //! ends a run that goes nowhere; then the bracket is halved and a new run begins. Where a run
 //! comes within the tolerance of a known point, steps outward from it supply the least step.
 
-use super::tracker::Tracker;
-use super::{Bracket, Root, SearchError, Tolerance};
+use super::bracket_state::BracketState;
+use super::{Bracket, Root, SearchError, StoppingCriteria};
 use crate::Real;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -35,22 +35,22 @@ pub(super) fn run<T: Real>(
     method: Method,
     f: &mut dyn FnMut(T) -> T,
     bracket: &Bracket<T>,
-    tolerance: Tolerance,
+    tolerance: StoppingCriteria,
 ) -> Result<Root<T>, SearchError<T>> {
     let mut f = |x| (f(x), None);
-    let mut tracker = Tracker::new(&mut f, bracket, tolerance)?;
-    while !tracker.done() {
-        let width = tracker.half_width();
-        if propose(method, &mut tracker)? == Ended::Close {
-            tracker.close_in()?;
+    let mut state = BracketState::new(&mut f, bracket, tolerance)?;
+    while !state.done() {
+        let width = state.half_width();
+        if propose(method, &mut state)? == Ended::Close {
+            state.close_in()?;
         }
         // Whatever a run did, the bracket is about halved before the next.
-        let halved = tracker.half_width() < T::of(0.6) * width;
-        if !tracker.done() && !halved && !tracker.halve()? {
+        let halved = state.half_width() < T::of(0.6) * width;
+        if !state.done() && !halved && !state.halve()? {
             break;
         }
     }
-    Ok(tracker.root())
+    Ok(state.root())
 }
 
 /// Why a run of the `roots` crate ended.
@@ -63,36 +63,36 @@ enum Ended {
 }
 
 /// Lets the `roots` crate propose points until the root is found or the run ends.
-fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ended, SearchError<T>> {
-    let (lo, hi) = (Number(tracker.lo.x), Number(tracker.hi.x));
+fn propose<T: Real>(method: Method, state: &mut BracketState<'_, T>) -> Result<Ended, SearchError<T>> {
+    let (lo, hi) = (Number(state.lo.x), Number(state.hi.x));
     // Scaled to 1 and kept off 0, no product of two values can underflow and lose its sign.
-    let unit = tracker.lo.f.abs().max(tracker.hi.f.abs());
+    let unit = state.lo.f.abs().max(state.hi.f.abs());
     let most = T::max_value().unwrap_or_else(|| T::epsilon().powi(-4));
     let least = T::of(4.0) / most.sqrt();
     let scaled = |f: T| Number((f / unit).abs().max(least).copysign(f));
 
-    let run = RefCell::new(Run { tracker, ended: None, fresh: false });
+    let run = RefCell::new(Run { state, ended: None, fresh: false });
     let f = |Number(x)| {
         let mut run = run.borrow_mut();
         if run.ended.is_some() {
             return scaled(T::zero());
         }
-        for known in [run.tracker.lo, run.tracker.hi, run.tracker.last] {
+        for known in [run.state.lo, run.state.hi, run.state.last] {
             if x == known.x {
                 return scaled(known.f);
             }
         }
-        if run.tracker.close(x, run.tracker.lo.x) || run.tracker.close(x, run.tracker.hi.x) {
+        if run.state.close(x, run.state.lo.x) || run.state.close(x, run.state.hi.x) {
             run.ended = Some(Ok(Ended::Close));
             return scaled(T::zero());
         }
-        let best = run.tracker.best().x;
-        match run.tracker.visit(x) {
+        let best = run.state.best().x;
+        match run.state.visit(x) {
             Ok(Some(seen)) => {
                 run.fresh = true;
                 // A step this short leaves nothing for interpolation to do but follow noise.
-                let short = T::of(1e-3) * (x - best).abs() <= Tolerance::FULL.width(x);
-                if short || run.tracker.done() {
+                let short = T::of(1e-3) * (x - best).abs() <= StoppingCriteria::FULL.width(x);
+                if short || run.state.done() {
                     run.ended = Some(Ok(Ended::Close));
                 }
                 scaled(seen.f)
@@ -108,7 +108,7 @@ fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ende
         }
     };
     let mut rule = Rule { run: &run, patience: method.patience() };
-    // What it returns is left aside: the tracker knows more.
+    // What it returns is left aside: the state knows more.
     let _ = match method {
         Method::Brent => roots::find_root_brent(lo, hi, f, &mut rule),
         Method::Secant => roots::find_root_secant(lo, hi, f, &mut rule),
@@ -118,7 +118,7 @@ fn propose<T: Real>(method: Method, tracker: &mut Tracker<'_, T>) -> Result<Ende
 }
 
 struct Run<'r, 'f, T: Real> {
-    tracker: &'r mut Tracker<'f, T>,
+    state: &'r mut BracketState<'f, T>,
     ended: Option<Result<Ended, SearchError<T>>>,
     /// Whether this iteration has evaluated anything.
     fresh: bool,

@@ -1,7 +1,7 @@
 //! The secant method.
 
 use super::roots_adapter::{Method, run};
-use super::{Bracket, LimitSearch, Root, SearchError, Tolerance};
+use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
 /// The secant method of the `roots` crate, kept inside the bracket: where it would step
@@ -9,12 +9,12 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Secant {
     /// When to stop.
-    pub tolerance: Tolerance,
+    pub tolerance: StoppingCriteria,
 }
 
 impl Secant {
     /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: Tolerance::FULL };
+    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
 }
 
 impl<T: Real> LimitSearch<T> for Secant {

@@ -42,11 +42,11 @@ impl<T: Real> ContactRegion<T> {
     /// Centre of pressure, `∫ x P dx/∫ P dx` over this contact.
     ///
     /// # Errors
-    /// [`ContactError::Load`] where the load is zero, as it may be with adhesion.
+    /// [`ContactError::InvalidLoad`] where the load is zero, as it may be with adhesion.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
         if load.is_zero() {
-            return Err(ContactError::Load { load });
+            return Err(ContactError::InvalidLoad { load });
         }
         Ok(self.interval.centre() + self.half_width() * (self.turning / load))
     }

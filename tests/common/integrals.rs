@@ -38,29 +38,30 @@ impl Angles {
         ((x - self.centre) / self.half_width).acos()
     }
 
-    fn over(&self, joints: &[f64], mut f: impl FnMut(f64) -> f64) -> f64 {
+    fn over(&self, breakpoints: &[f64], mut f: impl FnMut(f64) -> f64) -> f64 {
         let inside = |x: &&f64| (**x - self.centre).abs() < self.half_width;
-        let mut ends: Vec<f64> = joints.iter().filter(inside).map(|&x| self.angle(x)).collect();
+        let mut ends: Vec<f64> =
+            breakpoints.iter().filter(inside).map(|&x| self.angle(x)).collect();
         ends.extend([0.0, PI]);
         ends.sort_by(f64::total_cmp);
         ends.windows(2).map(|ends| tanh_sinh(ends[0], ends[1], &mut f)).sum()
     }
 
     /// `∫ P dx`.
-    pub fn load(&self, joints: &[f64], pressure: &dyn Fn(f64) -> f64) -> f64 {
-        self.over(joints, |theta| {
+    pub fn load(&self, breakpoints: &[f64], pressure: &dyn Fn(f64) -> f64) -> f64 {
+        self.over(breakpoints, |theta| {
             self.half_width * theta.sin() * pressure(self.centre + self.half_width * theta.cos())
         })
     }
 
     /// `PV∫ P(s)/(x - s) ds`.
-    pub fn principal(&self, joints: &[f64], x: f64, pressure: &dyn Fn(f64) -> f64) -> f64 {
+    pub fn principal(&self, breakpoints: &[f64], x: f64, pressure: &dyn Fn(f64) -> f64) -> f64 {
         let strength =
             |theta: f64| theta.sin() * pressure(self.centre + self.half_width * theta.cos());
         let phi = self.angle(x);
         let at_x = strength(phi);
         // PV∫ dθ/(cos φ - cos θ) is zero.
-        let with_x = [joints, &[x]].concat();
+        let with_x = [breakpoints, &[x]].concat();
         self.over(&with_x, |theta| {
             let distance = 2.0 * (0.5 * (theta + phi)).sin() * (0.5 * (theta - phi)).sin();
             if distance == 0.0 { 0.0 } else { (strength(theta) - at_x) / distance }

@@ -40,7 +40,7 @@ impl ParametricProfile<Dual64> for Bent<'_> {
     }
     fn at(&self, k: Dual64) -> CurvePoint<Dual64> {
         let ([from, to], one) = (self.ends, plain(1.0));
-        // From the nearer end: a joint may be at x = 0.
+        // From the nearer end: a breakpoint may be at x = 0.
         let bend = self.bend * k * (one - k);
         let x = if k.re < 0.5 {
             from + (to - from) * (k + bend)
@@ -55,7 +55,7 @@ impl ParametricProfile<Dual64> for Bent<'_> {
 
 fn bent(form: &dyn ClosedForm<Dual64>, reach: Dual64) -> Piecewise<Dual64, Bent<'_>> {
     let mut ends = vec![-reach];
-    ends.extend(form.joints().into_iter().filter(|x| x.re.abs() < reach.re));
+    ends.extend(form.breakpoints().into_iter().filter(|x| x.re.abs() < reach.re));
     ends.push(reach);
     let piece = |ends: &[Dual64]| Bent { form, ends: [ends[0], ends[1]], bend: seeded(0.3) };
     Piecewise::new(ends.windows(2).map(piece).collect()).unwrap()
@@ -89,7 +89,7 @@ fn pressure_off(
         let x = plain(want.at_angle(plain(PI * (f64::from(i) + 0.1) / 40.0)).re);
         let exact = form.pressure(x, kappa);
         let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
-        let sine = (want.edge_root(x) / want.half_width()).re;
+        let sine = (want.chebyshev_weight(x) / want.half_width()).re;
         let size = mean.max(0.1 * exact.re.abs());
         let off = [got.re - exact.re, (got.eps - exact.eps) * sine];
         largest = [0, 1].map(|i| worse(largest[i], off[i] / size));
@@ -142,7 +142,7 @@ fn every_way_to_the_limits() {
         let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).edges(left, right);
         let load = form.load(kappa);
         for (search_name, search) in searches {
-            let by_panels = contact.clone().search(search).inversion(search);
+            let by_panels = contact.clone().limit_search(search).inversion(search);
             let by_rule = by_panels.clone().quadrature(&Midpoint::DEFAULT);
             for (rule, contact) in [("panels", &by_panels), ("midpoint", &by_rule)] {
                 let name = format!("{name}, {search_name}, {rule}");
@@ -461,7 +461,7 @@ fn a_limit_given_on_the_right() {
     let load = kappa * half_width * (half_width * plain(1.5) - s);
     let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa);
     let held = contact.edges(Edge::Free, Edge::Fixed(s));
-    for contact in [held.clone().search(&brent), held] {
+    for contact in [held.clone().limit_search(&brent), held] {
         let solution = contact.solve(Control::Load(load)).unwrap();
         let (got, want) = (solution.b(), half_width + half_width - s);
         assert_relative_eq!(got.re, want.re, epsilon = 0.0, max_relative = 1e-14);
@@ -520,11 +520,11 @@ fn a_tilt_of_several_contacts_by_the_moment() {
     }
     for (load, edges) in [
         (1.0, [Edge::Free, Edge::Free]),
-        (1.0, [Edge::Free, Edge::UpTo(1.1)]),
-        (4.0, [Edge::Free, Edge::UpTo(1.1)]),
+        (1.0, [Edge::Free, Edge::FreeUntil(1.1)]),
+        (4.0, [Edge::Free, Edge::FreeUntil(1.1)]),
     ] {
         let dual = edges.map(|edge| match edge {
-            Edge::UpTo(x) => Edge::UpTo(plain(x)),
+            Edge::FreeUntil(x) => Edge::FreeUntil(plain(x)),
             _ => Edge::Free,
         });
         let at = -0.2;

@@ -76,7 +76,7 @@ fn a_scene_that_fails_fails_alone() {
         if radius == 0.0 {
             assert_eq!(result, Err(Fault::Radius));
         } else if load < 0.0 {
-            assert_eq!(result, Err(Fault::Contact(ContactError::Load { load })));
+            assert_eq!(result, Err(Fault::Contact(ContactError::InvalidLoad { load })));
         } else {
             // What is solved after others is what is solved alone.
             let arc = Curve::new([-1.5, 1.5], |k: f64| {
@@ -99,5 +99,5 @@ fn settings_that_cannot_be_used_are_an_error_of_each() {
         |solver: &mut Solver<f64>, load| solver.solve(&contact, Control::Load(load)).map(|_| ());
     let results: Vec<Result<(), ContactError<f64>>> =
         sweep(&[1.0, 2.0, 3.0], |solver, &load| solve(solver, load), |_| {});
-    assert_eq!(results, vec![Err(ContactError::Tolerance { tolerance: 2.0 }); 3]);
+    assert_eq!(results, vec![Err(ContactError::InvalidTolerance { tolerance: 2.0 }); 3]);
 }

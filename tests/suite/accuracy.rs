@@ -84,7 +84,7 @@ fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
             let pressure = solution.pressure().unwrap();
             let largest = known.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
             let mut worst = 0.0f64;
-            // At x = 0, a joint, see below.
+            // At x = 0, a breakpoint, see below.
             for &[x, exact] in known.points.iter().filter(|[x, _]| *x != 0.0) {
                 let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
                 worst = worst.nan_max((got - exact).abs() / largest);
@@ -122,8 +122,8 @@ fn the_cost_falls_with_each_looser_tolerance() {
 }
 
 #[test]
-fn a_joint_is_no_singularity_at_any_tolerance() {
-    // The slope of |x|²⁰/20 is continuous at its joint.
+fn a_breakpoint_is_no_singularity_at_any_tolerance() {
+    // The slope of |x|²⁰/20 is continuous at its breakpoint.
     let want = reference("power_n_20");
     let exact = want.points.iter().find(|[x, _]| *x == 0.0).expect("the middle")[1];
     let body = power(20.0);
@@ -232,7 +232,7 @@ fn many_at_once_are_the_same_as_one_by_one() {
 
 #[test]
 fn the_two_quadratures_agree() {
-    let rule = Midpoint { segments: 512, extrapolations: 4, exponents: Exponents::HalfOdd };
+    let rule = Midpoint { segments: 512, extrapolations: 4, exponents: Exponents::HalfInteger };
     for known in [circle(), {
         let example = paper::three();
         from_reference("paper_example_3_scale_one", example.lower, example.upper)

@@ -15,9 +15,9 @@ mod searches;
 
 use common::{Profile, power};
 use linecontact::profile::{Placed, Placement};
-use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
+use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::search::{
-    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, Tolerance,
+    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
 };
 use linecontact::stress::Stress;
 use linecontact::{
@@ -62,7 +62,7 @@ enum Wrong {
     Contact(ContactError<f64>),
     Search(SearchError<f64>),
     Profile(ProfileError<f64>),
-    Joint(PiecewiseError<f64>),
+    Breakpoint(PiecewiseError<f64>),
 }
 
 macro_rules! from {
@@ -75,7 +75,12 @@ macro_rules! from {
     )*};
 }
 
-from!(Contact(ContactError), Search(SearchError), Profile(ProfileError), Joint(PiecewiseError));
+from!(
+    Contact(ContactError),
+    Search(SearchError),
+    Profile(ProfileError),
+    Breakpoint(PiecewiseError)
+);
 
 type Outcome = Result<String, Wrong>;
 
@@ -134,7 +139,7 @@ fn message(wrong: &Wrong) -> String {
         Wrong::Contact(error) => error.to_string(),
         Wrong::Search(error) => error.to_string(),
         Wrong::Profile(error) => error.to_string(),
-        Wrong::Joint(error) => error.to_string(),
+        Wrong::Breakpoint(error) => error.to_string(),
     }
 }
 
@@ -155,7 +160,7 @@ fn solve(upper: &dyn ParametricProfile<f64>, load: Control<f64>) -> Result<(), W
     Ok(())
 }
 
-fn strategies(tolerance: Tolerance) -> [Box<dyn LimitSearch<f64>>; 4] {
+fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
     [
         Box::new(Bisection { tolerance }),
         Box::new(Secant { tolerance }),

@@ -8,7 +8,7 @@ use common::{Profile, graph, join, parabola};
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::body;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint, Place, Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Midpoint, Solver,
 };
 use std::f64::consts::PI;
 
@@ -119,7 +119,7 @@ fn tension_in_a_wave_on_both_sides_of_the_margin() {
         for off in [1e-1, 1e-3, 1e-6, 1e-8] {
             let below = wavy(at * (1.0 - off), w);
             let contact = Contact::new(&Flat, &*below).unwrap();
-            let contact = contact.edges(Edge::UpTo(-l), Edge::UpTo(l));
+            let contact = contact.edges(Edge::FreeUntil(-l), Edge::FreeUntil(l));
             let load = Control::Load(Wave::new(at * (1.0 - off), w, l).load() * (1.0 + 1e-13));
             let passed = contact.solve(load).and_then(|s| s.certify());
             let near = passed.unwrap_or_else(|e| panic!("w = {w}, -{off}: {e}")).pressure.unwrap();
@@ -129,7 +129,7 @@ fn tension_in_a_wave_on_both_sides_of_the_margin() {
             let eps = at * (1.0 + off);
             let above = wavy(eps, w);
             let contact = Contact::new(&Flat, &*above).unwrap().single_interval(true);
-            let contact = contact.edges(Edge::UpTo(-l), Edge::UpTo(l));
+            let contact = contact.edges(Edge::FreeUntil(-l), Edge::FreeUntil(l));
             let load = Control::Load(Wave::new(eps, w, l).load() * (1.0 + 1e-13));
             let error = contact.clone().certified(true).solve(load).unwrap_err();
             let ContactError::Tension { x, pressure, .. } = error else { panic!("{error}") };
@@ -229,7 +229,9 @@ fn a_narrow_asperity_far_away() {
             println!("at {at}, {off:e}: {found:?} for {place} {value:e}");
             let near = match found {
                 Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
-                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Place { x, value },
+                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => {
+                    Extremum { x, value }
+                }
                 other => panic!("{off}: {other:?}, for {place} {value:e}"),
             };
             assert!((near.value - value).abs() < 1e-2 * value.abs(), "{near:?} {value:e}");
@@ -264,7 +266,7 @@ fn an_asperity_on_both_sides_of_the_margin() {
         println!("A (1 + {off:e}): {found:?} for {place} {value:e}");
         let near = match found {
             Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
-            Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Place { x, value },
+            Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Extremum { x, value },
             other => panic!("{off}: {other:?}, for {place} {value:e}"),
         };
         assert!((near.value - value).abs() < 1e-3 * value.abs() + 1e-9, "{near:?} {value:e}");
@@ -318,7 +320,7 @@ fn an_asperity_that_touches() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let near = match contact.solve(Control::Load(1.5 / PI)).unwrap().certify() {
             Ok(certificate) => certificate.gap.unwrap(),
-            Err(ContactError::Overlap { x, gap: value, .. }) => Place { x, value },
+            Err(ContactError::Overlap { x, gap: value, .. }) => Extremum { x, value },
             Err(error) => panic!("{error}"),
         };
         assert!((near.x - 1.579_545_6).abs() < 1e-5 && near.value.abs() < 1e-10, "{off}: {near:?}");
@@ -383,12 +385,12 @@ fn corners_end_a_body() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let load = Control::Load(0.01);
     let error = contact.solve(load).map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::RunsOut { end: 2.0, .. }), "{error}");
+    assert!(matches!(error, ContactError::EndReached { end: 2.0, .. }), "{error}");
     let single = contact.clone().single_interval(true).certified(true);
     let error = single.solve(load).map(|_| ()).unwrap_err();
     assert!(matches!(error, ContactError::Overlap { x, .. } if x == 2.0), "{error}");
     for corner in [0.1, 0.5] {
-        let ends = contact.clone().edges(Edge::Free, Edge::UpTo(corner)).certified(true);
+        let ends = contact.clone().edges(Edge::Free, Edge::FreeUntil(corner)).certified(true);
         ends.solve(load).unwrap_or_else(|error| panic!("{corner}: {error}"));
     }
     let fixed = contact.edges(Edge::Free, Edge::Fixed(0.1)).certified(true);
@@ -534,7 +536,7 @@ fn what_the_panels_have_missed_is_not_certified() {
         let Ok(solution) = contact.solve(Control::Load(0.02)) else { continue };
         let unaware = (solution.a() - 0.2).abs() < 1e-12;
         match solution.certify() {
-            Err(ContactError::Missed { x, slope, assumed }) if unaware => {
+            Err(ContactError::FeatureMissed { x, slope, assumed }) if unaware => {
                 missed += 1;
                 assert!((x - at).abs() < wide / 2.0, "{x} {at}");
                 assert!(
@@ -642,7 +644,7 @@ fn a_body_that_has_changed_is_not_certified() {
         solution.certify().unwrap();
         half.store(true, std::sync::atomic::Ordering::Relaxed);
         match solution.certify() {
-            Err(ContactError::Missed { .. }) if !midpoint => {}
+            Err(ContactError::FeatureMissed { .. }) if !midpoint => {}
             // F/L - m₁ = (1 - 1/4) L/2, by π.
             Err(ContactError::Unbalanced { strength, allowed, .. }) if midpoint => {
                 assert!((strength * PI / 0.075 - 1.0).abs() < 1e-6, "{strength}");

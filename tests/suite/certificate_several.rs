@@ -8,7 +8,7 @@ use crate::common::{Profile, graph, intervals, join, several};
 use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Place};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -64,13 +64,14 @@ fn closed_forms_with_several_contacts_pass() {
         for on in form.contacts() {
             let places: Vec<f64> =
                 (0..400).map(|i| on.at_angle(PI * (f64::from(i) + 0.5) / 400.0)).collect();
-            let weighed = |&x: &f64| form.pressure(x, KAPPA) * on.edge_root(x);
+            let weighed = |&x: &f64| form.pressure(x, KAPPA) * on.chebyshev_weight(x);
             let load = PI / 400.0 * places.iter().map(weighed).sum::<f64>();
             let mean = load / (2.0 * on.half_width());
-            let ratio = |x: f64| form.pressure(x, KAPPA) * on.half_width() / on.edge_root(x) / mean;
+            let ratio =
+                |x: f64| form.pressure(x, KAPPA) * on.half_width() / on.chebyshev_weight(x) / mean;
             least = places.iter().fold(least, |least, &x| least.min(ratio(x)));
         }
-        let Place { x, value } = certificate.pressure.unwrap();
+        let Extremum { x, value } = certificate.pressure.unwrap();
         assert!((value / least - 1.0).abs() < 0.01, "{name}: {value} at {x}, for {least}");
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
@@ -179,7 +180,7 @@ fn contacts_of_the_files_pass() {
         let want = several(name).contacts;
         let mut contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
         if name.contains("corner") {
-            contact = contact.edges(Edge::UpTo(-1.0), Edge::UpTo(1.0));
+            contact = contact.edges(Edge::FreeUntil(-1.0), Edge::FreeUntil(1.0));
         }
         let solution = contact.solve(Control::Load(load)).unwrap();
         let got = intervals(&solution);
@@ -203,7 +204,7 @@ fn two_corners() {
     });
     for (body, load, count) in [(hollow, 0.01, 2), (wavy, 0.02, 3)] {
         let contact = Contact::new(&Flat, &*body).unwrap();
-        let contact = contact.edges(Edge::UpTo(-1.0), Edge::UpTo(1.0));
+        let contact = contact.edges(Edge::FreeUntil(-1.0), Edge::FreeUntil(1.0));
         let solution = contact.solve(Control::Load(load)).unwrap();
         assert_eq!(solution.intervals().len(), count, "{solution:?}");
         assert!(solution.a() == 1.0 && solution.b() == 1.0, "{solution:?}");
@@ -287,7 +288,9 @@ fn a_narrow_asperity_between_two_contacts_or_beside_them() {
             let due = -off * touching;
             let near = match solution.certify() {
                 Ok(certificate) if off < 0.0 => certificate.gap.expect("it comes near"),
-                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Place { x, value },
+                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => {
+                    Extremum { x, value }
+                }
                 // The solver has seen it.
                 Ok(_) if solution.intervals().len() > 2 => continue,
                 other => panic!("{at}, {off}: {other:?}"),
@@ -313,7 +316,7 @@ fn what_the_panels_of_one_contact_have_missed() {
         let Ok(solution) = contact.solve(Control::Load(Pair::LOAD)) else { continue };
         let unaware = solution.intervals().len() == 2 && (solution.a() - to).abs() < 1e-12;
         match solution.certify() {
-            Err(ContactError::Missed { x, slope, assumed }) if unaware => {
+            Err(ContactError::FeatureMissed { x, slope, assumed }) if unaware => {
                 missed += 1;
                 let smooth = 4.0 * x.powi(3) - 4.0 * x;
                 assert!((x - at).abs() < width / 2.0, "{x}, {at}");

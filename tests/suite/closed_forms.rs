@@ -16,7 +16,7 @@ use linecontact::reference::{
 use linecontact::{Edge, Interval};
 use std::f64::consts::PI;
 
-/// An integral over the contact in θ, from panels that end at the edges, the joints and the pole:
+/// An integral over the contact in θ, from panels that end at the edges, the breakpoints and the pole:
 /// by the rule of Takahasi and Mori (tanh-sinh) on each.
 pub fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
     let angle = |x: f64| 2.0 * (limits.right - x).sqrt().atan2((x - limits.left).sqrt());
@@ -56,22 +56,22 @@ pub fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> 
 /// The largest residuals of `PV∫ P(s)/(x - s) ds = κ g(x)`, in terms of the largest of either side,
 /// and of `∫ P ds = F`.
 fn residuals(form: &dyn ClosedForm<f64>) -> [f64; 2] {
-    // At x = 0, above the poles of a hyperbola, whether or not it is a joint.
-    let (limits, mut joints) = (form.limits(), form.joints());
-    if limits.contains(0.0) && !joints.contains(&0.0) {
-        joints.push(0.0);
+    // At x = 0, above the poles of a hyperbola, whether or not it is a breakpoint.
+    let (limits, mut breakpoints) = (form.limits(), form.breakpoints());
+    if limits.contains(0.0) && !breakpoints.contains(&0.0) {
+        breakpoints.push(0.0);
     }
     // P sin θ/L of the place as it is rounded.
     let strength =
         |s: f64| form.pressure(s, KAPPA) * (s - limits.left).sqrt() * (limits.right - s).sqrt();
-    let load = integral(limits, &joints, strength);
-    let size = integral(limits, &joints, |s| strength(s).abs());
+    let load = integral(limits, &breakpoints, strength);
+    let size = integral(limits, &breakpoints, |s| strength(s).abs());
     let mut worst = 0.0f64;
     let steepest = form.slope_left(limits.right).abs().max(form.slope(limits.left).abs());
     for i in 1..24 {
         let x = limits.at_angle(PI * (f64::from(i) + 0.2) / 24.6);
         let at_x = strength(x);
-        let mut ends = joints.clone();
+        let mut ends = breakpoints.clone();
         ends.push(x);
         // PV∫ ds/((x - s) w(s)) is zero.
         let left = integral(limits, &ends, |s| (strength(s) - at_x) / (x - s));
@@ -197,7 +197,7 @@ fn a_pressure_rises_from_the_edge_as_the_load_does_with_the_contact() {
         let stiffness = (8.0 * near - (load(2.0) - load(-2.0))) / (12.0 * step);
         for x in [l * (1.0 - 1e-12), l * (1e-12 - 1.0)] {
             let form = form(l);
-            let want = stiffness / (PI * l) * form.limits().edge_root(x);
+            let want = stiffness / (PI * l) * form.limits().chebyshev_weight(x);
             assert_relative_eq!(form.pressure(x, 1.0), want, epsilon = 0.0, max_relative = 1e-9);
         }
     }
@@ -264,7 +264,7 @@ fn a_row_of_contacts_is_what_it_is_unrolled() {
             let got = row.pressure(x, KAPPA);
             assert_relative_eq!(got, want, epsilon = 0.0, max_relative = tolerance);
         }
-        let strength = |x: f64| row.pressure(x, KAPPA) * limits.edge_root(x);
+        let strength = |x: f64| row.pressure(x, KAPPA) * limits.chebyshev_weight(x);
         let load = integral(limits, &[0.0], strength);
         assert_relative_eq!(row.load(KAPPA), load, epsilon = 0.0, max_relative = 1e-14);
         let again = Westergaard::under_load(0.3, 1.0, load, KAPPA).unwrap();
@@ -311,8 +311,8 @@ fn outside_and_at_the_edges() {
             };
             assert_eq!(form.pressure(x, KAPPA), want, "{name} at {x}");
         }
-        for joint in form.joints() {
-            assert!(form.pressure(joint, KAPPA) > 0.0, "{name}");
+        for breakpoint in form.breakpoints() {
+            assert!(form.pressure(breakpoint, KAPPA) > 0.0, "{name}");
         }
         assert!(form.pressure(f64::NAN, KAPPA).is_nan(), "{name}");
     }

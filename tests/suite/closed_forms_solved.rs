@@ -98,9 +98,10 @@ fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
     let form = Exponential::new(1.0, 1.0, 1.0).unwrap();
     let body = body(&form, -300.0, 300.0).unwrap();
     for strategy in [&Bisection::default() as &dyn LimitSearch<f64>, &Secant::default()] {
-        let contact = Contact::new(&Flat, &body).unwrap().search(strategy);
+        let contact = Contact::new(&Flat, &body).unwrap().limit_search(strategy);
         let refused = contact.solve(Control::Load(1e10));
-        let Err(ContactError::TooShort { end: -300.0, carried, half_width, .. }) = refused else {
+        let Err(ContactError::DomainTooShort { end: -300.0, carried, half_width, .. }) = refused
+        else {
             panic!("{refused:?}")
         };
         // c₀ = 0 and F by e^{c} I_0(L) = 1, L e^{c} I_1(L) = F, with I_1/I_0 = 1 - 1/(2 L) - 1/(8 L²) - ...
@@ -117,7 +118,7 @@ fn a_wedge_and_its_mirror_image_are_as_exact() {
         let form = Wedge::unequal(left, right, 1.0).unwrap();
         let body = body(&form, -10.0, 10.0).unwrap();
         let (new, secant) = (|| Contact::new(&Flat, &body).unwrap(), Secant::default());
-        for (contact, short_error) in [(new(), 1e-5), (new().search(&secant), 1e-14)] {
+        for (contact, short_error) in [(new(), 1e-5), (new().limit_search(&secant), 1e-14)] {
             let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
             assert!(off(solution.hull(), &form) < 1e-14, "{left} {right}: {solution:?}");
             // The search for one limit at a time keeps the digits of the short side, too.

@@ -18,7 +18,7 @@ fn key(contact: Contact<f64>, load: Control<f64>) -> [f64; 4] {
 #[test]
 fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
     // The parabola reaches x = 0.3 under F = 0.3²/2 = 0.045.
-    let (corner, free) = (Edge::UpTo(0.3), Edge::Free);
+    let (corner, free) = (Edge::FreeUntil(0.3), Edge::Free);
     let body = parabola(2.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for load in [1e-8, 1e-3, 0.03, 0.0449, 0.0451, 0.06, 0.3, 0.9] {
@@ -30,7 +30,7 @@ fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
         };
         let load = Control::Load(load);
         for ([left, right], [known_left, known_right]) in
-            [([free, corner], known), ([Edge::UpTo(-0.3), free], mirror)]
+            [([free, corner], known), ([Edge::FreeUntil(-0.3), free], mirror)]
         {
             let got = key(contact.clone().edges(left, right), load);
             let known = key(contact.clone().edges(known_left, known_right), load);
@@ -44,7 +44,7 @@ fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
         let right = if load > 0.045 { Edge::Fixed(0.3) } else { free };
         let left = if load > critical { Edge::Fixed(-0.5) } else { free };
         let load = Control::Load(load);
-        let got = key(contact.clone().edges(Edge::UpTo(-0.5), corner), load);
+        let got = key(contact.clone().edges(Edge::FreeUntil(-0.5), corner), load);
         let known = key(contact.clone().edges(left, right), load);
         assert_relative_eq!(got[..], known[..], epsilon = 0.0, max_relative = 4e-15);
     }
@@ -56,7 +56,7 @@ fn a_corner_may_be_the_end_of_the_body() {
     let endless = parabola(2.0);
     let corner = |body, load| {
         let contact = Contact::new(&Flat, body).unwrap();
-        key(contact.edges(Edge::Free, Edge::UpTo(0.3)), Control::Load(load))
+        key(contact.edges(Edge::Free, Edge::FreeUntil(0.3)), Control::Load(load))
     };
     for load in [1e-3, 0.0449, 0.0451, 0.2] {
         let (got, known) = (corner(&*ends_at_corner, load), corner(&*endless, load));
@@ -70,7 +70,7 @@ fn a_corner_far_away_does_not_matter() {
     let body = graph(-0.25, 1.0, |x| [x * x / 2.0, x]);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let load = Control::Load(0.005);
-    let got = key(contact.clone().edges(Edge::Free, Edge::UpTo(0.9)), load);
+    let got = key(contact.clone().edges(Edge::Free, Edge::FreeUntil(0.9)), load);
     assert_relative_eq!(got[0], 0.1, epsilon = 0.0, max_relative = 4e-15);
     assert_relative_eq!(got[1], 0.1, epsilon = 0.0, max_relative = 4e-15);
 }
@@ -78,7 +78,7 @@ fn a_corner_far_away_does_not_matter() {
 #[test]
 fn a_corner_serves_every_control() {
     let body = parabola(2.0);
-    let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::UpTo(0.3));
+    let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::FreeUntil(0.3));
     // Hertz below the corner.
     for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI), Control::Load(0.02)] {
         let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
@@ -98,7 +98,8 @@ fn a_corner_serves_every_control() {
 #[test]
 fn corners_on_both_sides_serve_every_control() {
     let body = parabola(2.0);
-    let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::UpTo(-0.3), Edge::UpTo(0.3));
+    let contact =
+        Contact::new(&Flat, &*body).unwrap().edges(Edge::FreeUntil(-0.3), Edge::FreeUntil(0.3));
     for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI)] {
         let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
         assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
@@ -110,7 +111,7 @@ fn corners_on_both_sides_serve_every_control() {
 fn a_corner_is_let_go_under_adhesion_too() {
     // At no load, and under a pull, as under the least one that presses.
     let body = parabola(1.0);
-    let (corner, glued) = (Edge::UpTo(-0.1), Edge::Adhesive(1e-3));
+    let (corner, glued) = (Edge::FreeUntil(-0.1), Edge::Adhesive(1e-3));
     for load in [1e-9, 0.0, -1e-9, -1e-3] {
         let held = Contact::new(&Flat, &*body).unwrap().edges(corner, glued);
         let free = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, glued);

@@ -1,10 +1,12 @@
-//! What is doubtful must look doubtful: sloppy searches, wrong derivatives, coarse rules, joints.
+//! What is doubtful must look doubtful: sloppy searches, wrong derivatives, coarse rules, breakpoints.
 #![allow(missing_docs)]
 
 use crate::common;
 
 use common::{graph, join, parabola, power};
-use linecontact::search::{Bracket, Brent, LimitSearch, Newton, Root, SearchError, Tolerance};
+use linecontact::search::{
+    Bracket, Brent, LimitSearch, Newton, Root, SearchError, StoppingCriteria,
+};
 use linecontact::{
     Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, EdgePressure, Exponents, Flat,
     Interval, Midpoint, ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
@@ -17,8 +19,8 @@ fn a_sloppy_search_for_the_limits_shows() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let exact = contact.solve(Control::Load(0.03)).unwrap().a();
     for relative in [0.1, 1e-2, 1e-4, 1e-8] {
-        let sloppy = Brent { tolerance: Tolerance::relative(relative) };
-        let contact = contact.clone().search(&sloppy);
+        let sloppy = Brent { tolerance: StoppingCriteria::relative(relative) };
+        let contact = contact.clone().limit_search(&sloppy);
         let solution = contact.solve(Control::Load(0.03)).unwrap();
         let error = (solution.a() - exact).abs() / solution.hull().half_width();
         assert!(error <= 2.0 * solution.limits_error().unwrap(), "{relative}: {error:e}");
@@ -60,7 +62,10 @@ fn a_sloppy_inversion_shows() {
         let contact = contact.clone().inversion(&astray);
         let error = contact.solve(Control::Load(0.02)).unwrap_err();
         assert!(
-            matches!(error, ContactError::Inversion { source: SearchError::Astray { .. }, .. }),
+            matches!(
+                error,
+                ContactError::Inversion { source: SearchError::LeftBracket { .. }, .. }
+            ),
             "{error}"
         );
     }
@@ -106,7 +111,7 @@ fn a_steep_body_by_every_chord() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let wanted = contact.solve(Control::Load(1e-17)).unwrap().a();
     let newton = Newton::default();
-    let started = contact.start(Interval { left: -0.3, right: 0.3 }).search(&newton);
+    let started = contact.start(Interval { left: -0.3, right: 0.3 }).limit_search(&newton);
     let solution = started.solve(Control::Load(1e-17)).unwrap();
     assert!((solution.a() / wanted - 1.0).abs() < 1e-14, "{solution:?} for {wanted}");
 }
@@ -129,7 +134,7 @@ fn starts_inside_a_wave() {
 
 #[test]
 fn pressure_next_to_a_jump_of_the_slope() {
-    // The wedge m|x|: P = (2 m/π²) arcosh(L/|x|), infinite at the joint.
+    // The wedge m|x|: P = (2 m/π²) arcosh(L/|x|), infinite at the breakpoint.
     let m = 0.25;
     let wedge =
         join(vec![graph(-1.0, 0.0, move |x| [-m * x, -m]), graph(0.0, 1.0, move |x| [m * x, m])]);
@@ -236,7 +241,7 @@ fn slopes_that_are_a_third_off() {
 }
 
 #[test]
-fn tolerances_of_joints() {
+fn tolerances_of_breakpoints() {
     let far = || -> Vec<Box<dyn ParametricProfile<f64>>> {
         vec![graph(-1.0, -0.5, |x| [x, 1.0]), graph(0.5, 1.0, |x| [x + 7.0, 1.0])]
     };

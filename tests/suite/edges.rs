@@ -61,7 +61,7 @@ pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
     match edge {
         Edge::Free => Some(0.0),
         Edge::Adhesive(work) => Some(-2.0 * (KAPPA * work / half_width).sqrt() / PI),
-        Edge::Fixed(_) | Edge::UpTo(_) => None,
+        Edge::Fixed(_) | Edge::FreeUntil(_) => None,
     }
 }
 
@@ -342,14 +342,14 @@ fn edges_that_make_no_sense() {
             [(Edge::Adhesive(work), Edge::Free), (Edge::Fixed(0.0), Edge::Adhesive(work))]
         {
             let error = error(left, right, load);
-            assert!(matches!(error, ContactError::Adhesion { .. }), "{work}: {error}");
+            assert!(matches!(error, ContactError::InvalidAdhesion { .. }), "{work}: {error}");
         }
     }
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for edge in [Edge::Fixed(x), Edge::UpTo(x)] {
+        for edge in [Edge::Fixed(x), Edge::FreeUntil(x)] {
             for (left, right) in [(edge, Edge::Free), (Edge::Adhesive(1.0), edge)] {
                 let error = error(left, right, load);
-                assert!(matches!(error, ContactError::Limits { .. }), "{x}: {error}");
+                assert!(matches!(error, ContactError::InvalidLimits { .. }), "{x}: {error}");
             }
         }
     }
@@ -358,7 +358,7 @@ fn edges_that_make_no_sense() {
         (Edge::Fixed(-1.5), Edge::Free, -1.5),
         (Edge::Fixed(-1.5), Edge::Fixed(0.5), -1.5),
         (Edge::Fixed(1.5), Edge::Adhesive(0.1), 1.5),
-        (Edge::Free, Edge::UpTo(1.5), 1.5),
+        (Edge::Free, Edge::FreeUntil(1.5), 1.5),
     ] {
         let range = [-1.0, 1.0];
         assert_eq!(error(left, right, load), ContactError::OutsideBodies { x, range });
@@ -366,13 +366,13 @@ fn edges_that_make_no_sense() {
         let error = by_rule.solve(load).unwrap_err();
         assert_eq!(error, ContactError::OutsideBodies { x, range });
     }
-    let peak = error(Edge::Free, Edge::UpTo(1.5), Control::PeakPressure(0.1));
+    let peak = error(Edge::Free, Edge::FreeUntil(1.5), Control::PeakPressure(0.1));
     assert_eq!(peak, ContactError::OutsideBodies { x: 1.5, range: [-1.0, 1.0] });
     let [left, right] = [0.4, -0.4];
     let reversed = error(Edge::Fixed(left), Edge::Fixed(right), load);
-    assert_eq!(reversed, ContactError::Limits { interval: Interval { left, right } });
+    assert_eq!(reversed, ContactError::InvalidLimits { interval: Interval { left, right } });
     for load in [Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
         let error = error(Edge::Fixed(-0.4), Edge::Fixed(0.4), load);
-        assert!(matches!(error, ContactError::Control { .. }), "{error}");
+        assert!(matches!(error, ContactError::BothLimitsGiven { .. }), "{error}");
     }
 }

@@ -4,7 +4,7 @@
 use crate::common;
 
 use common::{graph, parabola};
-use linecontact::search::{Brent, SearchError, Tolerance};
+use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
     Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, Interval,
     Midpoint, ParametricProfile, ProfileError,
@@ -26,7 +26,7 @@ fn error(
 fn loads_that_are_none() {
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = error(&Flat, &*parabola(1.0), load);
-        assert!(matches!(error, ContactError::Load { .. }), "{load}: {error}");
+        assert!(matches!(error, ContactError::InvalidLoad { .. }), "{load}: {error}");
     }
     // With known limits any finite load makes sense.
     let body = parabola(1.0);
@@ -36,7 +36,7 @@ fn loads_that_are_none() {
         assert!(contact.solve(Control::Load(load)).is_ok());
     }
     let error = contact.solve(Control::Load(f64::NAN)).unwrap_err();
-    assert!(matches!(error, ContactError::Load { .. }));
+    assert!(matches!(error, ContactError::InvalidLoad { .. }));
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn scales_that_are_none() {
     for kappa in [0.0, -2.0, f64::NAN, f64::INFINITY] {
         let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(kappa);
         let error = contact.solve(Control::Load(0.1)).unwrap_err();
-        assert!(matches!(error, ContactError::Scale { .. }), "{kappa}: {error}");
+        assert!(matches!(error, ContactError::InvalidKappa { .. }), "{kappa}: {error}");
     }
 }
 
@@ -53,7 +53,7 @@ fn scales_that_are_none() {
 fn a_load_too_large_for_the_domain() {
     // A parabola that reaches to x = ±1 carries F = 1/2 at most.
     for load in [0.51, 2.0, 1e10, 1e300] {
-        let ContactError::TooShort { end, carried, load: asked, .. } =
+        let ContactError::DomainTooShort { end, carried, load: asked, .. } =
             error(&Flat, &*parabola(1.0), load)
         else {
             panic!("load {load}")
@@ -64,7 +64,7 @@ fn a_load_too_large_for_the_domain() {
     // Short on one side only: the contact reaches that side first.
     let short = |left, right| graph(left, right, |x| [x * x / 2.0, x]);
     for (left, right, end) in [(-0.3, 5.0, -0.3), (-5.0, 0.2, 0.2)] {
-        let ContactError::TooShort { end: reached, carried, .. } =
+        let ContactError::DomainTooShort { end: reached, carried, .. } =
             error(&Flat, &*short(left, right), 0.32)
         else {
             panic!("[{left}, {right}]")
@@ -81,7 +81,9 @@ fn a_load_too_large_for_the_domain() {
     {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(2.0));
-        let Err(ContactError::TooShort { end, carried, .. }) = error else { panic!("{error:?}") };
+        let Err(ContactError::DomainTooShort { end, carried, .. }) = error else {
+            panic!("{error:?}")
+        };
         let l = 0.5 * (1.0 - x0);
         assert_eq!(end, if x0 < 0.0 { 1.0 } else { -1.0 });
         assert!((carried / (l * (1.5 * l + x0)) - 1.0).abs() < 1e-13, "{carried}");
@@ -113,7 +115,7 @@ fn a_load_too_large_on_the_gentle_side() {
         for times in [1.01, 1.5, 3.0, 10.0, 100.0] {
             for (body, wanted) in [(&right, 1.0), (&left, -1.0)] {
                 let error = error(&Flat, &**body, times * most);
-                let ContactError::TooShort { end, carried, .. } = error else {
+                let ContactError::DomainTooShort { end, carried, .. } = error else {
                     panic!("{s} {times}: {error}")
                 };
                 assert_eq!(end, wanted, "{s} {times}");
@@ -138,7 +140,7 @@ fn bodies_that_do_not_meet() {
     assert!(matches!(beyond, ContactError::NoFirstContact { .. }), "{beyond}");
     // Side by side.
     let beside = error(&*parabola_at(-2.0, -1.0), &*parabola_at(0.0, 1.0), 0.1);
-    assert_eq!(beside, ContactError::Apart { lower: [-2.0, -1.0], upper: [0.0, 1.0] });
+    assert_eq!(beside, ContactError::NoCommonRange { lower: [-2.0, -1.0], upper: [0.0, 1.0] });
 }
 
 #[test]
@@ -215,10 +217,10 @@ fn limits_out_of_order_or_off_the_bodies() {
     for (left, right) in [(0.3, -0.2), (0.1, 0.1), (f64::NAN, 1.0), (-1.0, f64::INFINITY)] {
         let fixed = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
         let error = fixed.solve(Control::Load(0.1)).unwrap_err();
-        assert!(matches!(error, ContactError::Limits { .. }), "{error}");
+        assert!(matches!(error, ContactError::InvalidLimits { .. }), "{error}");
         let started = contact.clone().start(Interval { left, right });
         let error = started.solve(Control::Load(0.1)).unwrap_err();
-        assert!(matches!(error, ContactError::Limits { .. }), "{error}");
+        assert!(matches!(error, ContactError::InvalidLimits { .. }), "{error}");
     }
     let wide = contact.edges(Edge::Fixed(-1.5), Edge::Fixed(0.5));
     let error = wide.solve(Control::Load(0.1)).unwrap_err();
@@ -239,7 +241,7 @@ fn unusable_edge_pressures() {
     for edges in bad {
         let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges);
         let error = contact.solve(Control::Load(0.1)).unwrap_err();
-        assert!(matches!(error, ContactError::EdgePressure { .. }), "{error}");
+        assert!(matches!(error, ContactError::InvalidEdgePressure { .. }), "{error}");
     }
     // A distance wider than the contact can ever be.
     let far = EdgePressure::zero(3.0, 1e-6);
@@ -261,8 +263,9 @@ fn unusable_edge_pressures() {
 #[test]
 fn a_spent_budget_carries_the_best_limits() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]);
-    let hasty = Brent { tolerance: Tolerance { max_evaluations: 2, ..Tolerance::FULL } };
-    let contact = Contact::new(&Flat, &*body).unwrap().search(&hasty);
+    let hasty =
+        Brent { tolerance: StoppingCriteria { max_evaluations: 2, ..StoppingCriteria::FULL } };
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&hasty);
     let error = contact.solve(Control::Load(0.03)).unwrap_err();
     let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
         panic!("{error}")
@@ -273,7 +276,8 @@ fn a_spent_budget_carries_the_best_limits() {
 #[test]
 fn an_inversion_that_gives_up() {
     let body = common::paper::three();
-    let hasty = Brent { tolerance: Tolerance { max_evaluations: 2, ..Tolerance::FULL } };
+    let hasty =
+        Brent { tolerance: StoppingCriteria { max_evaluations: 2, ..StoppingCriteria::FULL } };
     let rule = Midpoint::default();
     let contact = Contact::new(&*body.lower, &*body.upper).unwrap();
     let contact = contact.inversion(&hasty).quadrature(&rule);
@@ -336,7 +340,7 @@ proptest! {
             }
             Err(error) => {
                 prop_assert!(exact > reach * (1.0 - 1e-12), "{} at {}", error, exact);
-                let too_short = matches!(error, ContactError::TooShort { .. });
+                let too_short = matches!(error, ContactError::DomainTooShort { .. });
                 prop_assert!(too_short, "{}", error);
             }
         }
@@ -369,7 +373,7 @@ fn a_profile_that_fails_where_the_bodies_touch_first_is_named() {
         [y, if (x - 0.07).abs() < 1e-3 { f64::NAN } else { x - 0.07 }]
     });
     let brent = Brent::default();
-    let contact = Contact::new(&Flat, &*failing).unwrap().search(&brent);
+    let contact = Contact::new(&Flat, &*failing).unwrap().limit_search(&brent);
     for start in [[-0.5, 0.9], [-0.8, 0.3], [-0.2, 0.9]] {
         let contact = contact.clone().start(Interval { left: start[0], right: start[1] });
         let error = contact.solve(Control::Load(0.1)).unwrap_err();
@@ -452,8 +456,9 @@ fn a_spent_budget_of_a_peak_carries_the_best_limits() {
     let body = common::power(3.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let exact = contact.solve(Control::PeakPressure(0.1)).unwrap().a();
-    let hasty = Brent { tolerance: Tolerance { max_evaluations: 1, ..Tolerance::FULL } };
-    let error = contact.search(&hasty).solve(Control::PeakPressure(0.1)).unwrap_err();
+    let hasty =
+        Brent { tolerance: StoppingCriteria { max_evaluations: 1, ..StoppingCriteria::FULL } };
+    let error = contact.limit_search(&hasty).solve(Control::PeakPressure(0.1)).unwrap_err();
     let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
         panic!("{error}")
     };
@@ -469,7 +474,7 @@ fn distances_and_loads_that_numbers_cannot_hold() {
         for contact in [contact.clone(), contact.clone().quadrature(&Midpoint::DEFAULT)] {
             let contact = contact.edge_pressure(EdgePressure::zero(distance, 1e-6));
             let error = contact.solve(Control::Load(0.01)).map(|_| ()).unwrap_err();
-            assert_eq!(error, ContactError::EdgePressure { name: "ε_a", value: distance });
+            assert_eq!(error, ContactError::InvalidEdgePressure { name: "ε_a", value: distance });
         }
     }
     let held = contact.edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));

@@ -135,7 +135,7 @@ fn there_are_no_spikes_in_single_precision() {
 }
 
 #[test]
-fn a_cusp_of_the_pressure_at_a_joint() {
+fn a_cusp_of_the_pressure_at_a_breakpoint() {
     // |x|^(3/2)/(3/2), P by the reference.
     let (body, want) = (power(1.5), reference("power_n_3_over_2"));
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
@@ -180,7 +180,7 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
 #[test]
 fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
     // Hertz, from limits that are only nearly right. P = κ sqrt(L² - x²)/(π R).
-    use linecontact::search::{Brent, Tolerance};
+    use linecontact::search::{Brent, StoppingCriteria};
     for (length, kappa) in [(1.0, 1.0), (1e-4, 1e-3), (1e3, 1e4)] {
         let body = Curve::new([-2.0 * length, 2.0 * length], move |x: f64| CurvePoint {
             x,
@@ -190,8 +190,8 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
         });
         let (l, scale) = (0.4 * length, kappa * 0.4 / PI);
         for relative in [1e-2, 1e-4, 1e-6] {
-            let sloppy = Brent { tolerance: Tolerance::relative(relative) };
-            let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).search(&sloppy);
+            let sloppy = Brent { tolerance: StoppingCriteria::relative(relative) };
+            let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).limit_search(&sloppy);
             let solution = contact.solve(Control::Load(kappa * 0.08 * length)).unwrap();
             let pressure = solution.pressure().unwrap();
             for z in [-0.999, -0.9, -0.3, 0.0, 0.5, 0.95, 0.99] {
@@ -216,7 +216,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
     let (body, brent) = (parabola(2.0), Brent::default());
     let scene = Contact::new(&Flat, &*body).unwrap().single_interval(true);
     for contact in
-        [scene.clone().search(&brent), scene.clone().quadrature(&Midpoint::DEFAULT), scene]
+        [scene.clone().limit_search(&brent), scene.clone().quadrature(&Midpoint::DEFAULT), scene]
     {
         for work in [5e-324, 1e-320, 1e-300, 1e-100, 1e-3] {
             for load in [0.0, 1e-320, 1e-250, 1e-30] {
@@ -252,8 +252,8 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
     }
 }
 
-/// The pressure at a joint, and the error that is said of it.
-fn at_joint(left: common::Profile, right: common::Profile, load: f64, x: f64) -> [f64; 3] {
+/// The pressure at a breakpoint, and the error that is said of it.
+fn at_breakpoint(left: common::Profile, right: common::Profile, load: f64, x: f64) -> [f64; 3] {
     let body = common::join(vec![left, right]);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let solution = contact.solve(Control::Load(load / PI)).unwrap();
@@ -263,12 +263,12 @@ fn at_joint(left: common::Profile, right: common::Profile, load: f64, x: f64) ->
 }
 
 #[test]
-fn the_estimate_covers_the_error_at_a_joint() {
+fn the_estimate_covers_the_error_at_a_breakpoint() {
     // A root on one side, of which the last 1e-16 before x = 1/4 are lost in rounding. The pressure
     // by tanh-sinh quadrature of the slope's derivative, with 56 digits.
     let root = graph(-9.0, 0.25, |x| [(0.25 - x).powf(1.5), -1.5 * (0.25 - x).sqrt()]);
     let bowl = graph(0.25, 9.0, |x| [(x - 0.25).powi(2), 2.0 * (x - 0.25)]);
-    let [value, error, _] = at_joint(root, bowl, 1.0, 0.25);
+    let [value, error, _] = at_breakpoint(root, bowl, 1.0, 0.25);
     let missed = (value - 0.467_876_579_739_101_6).abs();
     assert!(missed <= error && error <= 1e-7, "{missed:e} {error:e}");
 
@@ -276,7 +276,7 @@ fn the_estimate_covers_the_error_at_a_joint() {
     let kink = 1e-9;
     let left = graph(-9.0, 0.25, |x| [x * x / 2.0, x]);
     let right = graph(0.25, 9.0, move |x| [x * x / 2.0 + kink * (x - 0.25), x + kink]);
-    let [value, error, beside] = at_joint(left, right, 2.0, 0.25);
+    let [value, error, beside] = at_breakpoint(left, right, 2.0, 0.25);
     let peak = beside - value;
     assert!(peak > 0.0 && peak <= error && error <= 100.0 * kink, "{peak:e} {error:e}");
 }

@@ -93,7 +93,9 @@ fn a_wave_on_both_bodies_is_no_wrong_derivative() {
     let lower = graph(-4.188255260300484, 4.614434906737044, wave);
     let contact = Contact::new(&*lower, &*upper).unwrap();
     let (brent, coarse) = (Brent::default(), Panels { tolerance: 1e-3 });
-    for contact in [contact.clone(), contact.clone().search(&brent), contact.quadrature(&coarse)] {
+    for contact in
+        [contact.clone(), contact.clone().limit_search(&brent), contact.quadrature(&coarse)]
+    {
         for (left, right) in [(-0.611, -0.6105), (2.0, 2.001), (-3.0, 3.0), (-4.0, -3.9)] {
             let contact = contact.clone().start(Interval { left, right });
             let solution = contact.solve(Control::HalfWidth(0.8)).unwrap();
@@ -125,7 +127,7 @@ fn a_steep_line_before_a_series() {
     }
 }
 
-/// m₀ and m₁ of a slope without joints, by the midpoint rule in θ: to rounding, if it is smooth on
+/// m₀ and m₁ of a slope without breakpoints, by the midpoint rule in θ: to rounding, if it is smooth on
 /// the scale of the contact.
 fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
     const N: usize = 4000;
@@ -167,7 +169,7 @@ fn a_step_of_a_millionth_of_the_bodies() {
         });
         let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Fixed(left), Edge::Free);
         let brent = Brent::default();
-        for contact in [contact.clone(), contact.search(&brent)] {
+        for contact in [contact.clone(), contact.limit_search(&brent)] {
             let solution = contact.solve(Control::Load(l * first)).unwrap();
             let off = (solution.a() - on.right).abs() / l;
             let estimate = solution.limits_error().unwrap();
@@ -213,7 +215,7 @@ fn a_kink_beside_a_corner() {
     let (left, l) = (-0.4, 0.7);
     for share in [1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 0.02] {
         for (jump, kink) in [(0.3, 0.0), (0.0, 2.0), (0.1, 100.0)] {
-            // Beyond the joint, at cos θ₀, the slope is larger by j + k (x - x₁).
+            // Beyond the breakpoint, at cos θ₀, the slope is larger by j + k (x - x₁).
             let (x1, cos) = (left + share * l, share - 1.0);
             let (theta, sin) = (f64::acos(cos), (1.0 - cos * cos).sqrt());
             let m0 = (jump * theta + kink * l * (sin - theta * cos)) / PI;
@@ -245,7 +247,7 @@ fn a_kink_beside_a_corner() {
 /// midpoint rule no less than by panels.
 #[test]
 fn pressures_of_a_given_width_by_the_midpoint_rule() {
-    let rule = Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfOdd };
+    let rule = Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfInteger };
     for (c, w, x0, l) in [(8.15, 0.051, 0.742, 1.2394), (6.35, 0.0175, 0.292, 0.5184)] {
         let step = tanh(c, w, x0);
         let rise = move |x: f64| x + step(x)[1];
@@ -323,7 +325,7 @@ fn a_search_spends_no_more_than_its_budget() {
     let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);
     assert!(taken < (1 << 20) + 4096, "{taken}");
-    let ContactError::Evaluations { evaluations, budget, last } = error else { panic!("{error}") };
+    let ContactError::BudgetSpent { evaluations, budget, last } = error else { panic!("{error}") };
     assert_eq!(budget, (1 << 20) + 2048);
     assert!(evaluations > budget && evaluations < budget + 256, "{evaluations}");
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
@@ -404,11 +406,11 @@ fn limits_beside_a_jump_that_is_not_declared() {
     }
 }
 
-/// Seed 1537: an edge a little beyond a joint, a loose tolerance and a given width. The pressure is worked out on
-/// panels that end at the joint, the load is that of the panels before.
+/// Seed 1537: an edge a little beyond a breakpoint, a loose tolerance and a given width. The pressure is worked out on
+/// panels that end at the breakpoint, the load is that of the panels before.
 #[test]
 fn pressures_on_better_panels_than_the_load() {
-    let (stiff, joint, left, l) =
+    let (stiff, breakpoint, left, l) =
         (524288.0, -0.47497372326566323, -0.43943851960966, 1.0089767759354913);
     let (c, k, x0) = (1.3136823574014551, 2.329986997957129, 0.419674834852655);
     let bend = move |x: f64| {
@@ -421,14 +423,14 @@ fn pressures_on_better_panels_than_the_load() {
         [y, slope]
     };
     let on = Interval { left, right: left + 2.0 * l };
-    let rise = move |x: f64| bend(x)[1] + stiff * (x - joint);
+    let rise = move |x: f64| bend(x)[1] + stiff * (x - breakpoint);
     let [mean, _] = edge_integrals(on, rise);
     let tilted = move |x: f64, t: f64| {
         let [y, dy] = bend(x);
         [y - mean * x + stiff * t * t / 2.0, dy - mean + stiff * t]
     };
-    let beyond = graph(joint, 4.5, move |x| tilted(x, x - joint));
-    let body = join(vec![graph(-4.5, joint, move |x| tilted(x, 0.0)), beyond]);
+    let beyond = graph(breakpoint, 4.5, move |x| tilted(x, x - breakpoint));
+    let body = join(vec![graph(-4.5, breakpoint, move |x| tilted(x, 0.0)), beyond]);
     for tolerance in [4.7e-7, 1e-6, 1e-5] {
         let rule = Panels { tolerance };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);

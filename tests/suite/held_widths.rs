@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 fn a_width_beside_a_fixed_edge() {
     let (body, brent) = (parabola(1.0), Brent::default());
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let others = [contact.clone().search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
+    let others =
+        [contact.clone().limit_search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
     for contact in [contact].into_iter().chain(others) {
         for (held, half_width) in [(0.5, 0.5), (0.5, 0.7), (0.1, 0.5), (0.7, 0.85)] {
             let far = held - 2.0 * half_width;
@@ -37,7 +38,7 @@ fn a_width_beside_a_fixed_edge() {
 }
 
 /// Nothing is sought where one limit and the width are given: the limits are what they are, even at a
-/// joint, and the load is F = L (m₁ + m₀), by Gauss-Chebyshev sums. (A wedge up to its tip: m₁ = 0.)
+/// breakpoint, and the load is F = L (m₁ + m₀), by Gauss-Chebyshev sums. (A wedge up to its tip: m₁ = 0.)
 #[test]
 fn a_width_beside_a_fixed_edge_is_exact() {
     let tip = wedge([-0.25, 1.75], 1.0).unwrap();
@@ -72,7 +73,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
 fn a_corner_is_not_passed() {
     let hollow = graph(-1.0, 1.0, |x| [-x * x / 2.0, -x]);
     let contact = Contact::new(&Flat, &*hollow).unwrap();
-    let contact = contact.edges(Edge::UpTo(-0.1), Edge::Adhesive(0.0));
+    let contact = contact.edges(Edge::FreeUntil(-0.1), Edge::Adhesive(0.0));
     assert!(contact.solve(Control::HalfWidth(0.3)).is_err());
 }
 
@@ -112,7 +113,8 @@ fn a_doubtful_peak_is_a_doubtful_width() {
 fn a_width_pulled_at_one_edge() {
     let (body, brent) = (parabola(2.0), Brent::default());
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let others = [contact.clone().search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
+    let others =
+        [contact.clone().limit_search(&brent), contact.clone().quadrature(&Midpoint::DEFAULT)];
     for contact in [contact].into_iter().chain(others) {
         for (half_width, leaning) in
             [(0.3f64, 0.2), (0.3, 1.0), (0.3, 1.5), (0.1, 1.9), (0.01, 1.2)]
@@ -146,14 +148,17 @@ fn a_width_pulled_at_one_edge() {
 #[test]
 fn a_width_pulled_far_away_ends() {
     let (body, brent) = (parabola(2.0), Brent::default());
-    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent);
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent);
     for (edges, work) in
         [([Edge::Free, Edge::Adhesive(1e-2)], 1e-2), ([Edge::Adhesive(1.0), Edge::Free], 1.0)]
     {
         let contact = contact.clone().edges(edges[0], edges[1]);
         let error = contact.solve(Control::HalfWidth(1e-9)).map(|_| ()).unwrap_err();
         assert!(
-            matches!(error, ContactError::NoBalance { .. } | ContactError::OutsideBodies { .. }),
+            matches!(
+                error,
+                ContactError::NoEquilibrium { .. } | ContactError::OutsideBodies { .. }
+            ),
             "{work}: {error}"
         );
     }
@@ -165,7 +170,8 @@ fn a_width_pulled_far_away_ends() {
 fn a_width_after_one_held_by_a_corner() {
     let evaluations = |steep: f64, corner: f64, half_widths: [f64; 2]| {
         let body = graph(-2.5, 2.5, move |x| [x * x / 2.0 - steep * x, x - steep]);
-        let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::UpTo(corner));
+        let contact =
+            Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::FreeUntil(corner));
         let mut solver = Solver::new();
         let mut last = 0;
         for half_width in half_widths {

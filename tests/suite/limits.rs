@@ -84,7 +84,9 @@ fn every_strategy_serves_for_either_search() {
     for scene in scenes() {
         let want = reference(scene.name);
         for strategy in strategies {
-            for contact in [scene.contact().search(strategy), scene.contact().inversion(strategy)] {
+            for contact in
+                [scene.contact().limit_search(strategy), scene.contact().inversion(strategy)]
+            {
                 // Bisection of a curve with its zero at k = 0 goes on to the smallest number.
                 let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
                 close(solution.a(), want.a, scene.accuracy, scene.name);
@@ -215,13 +217,13 @@ fn edge_pressures_of_the_exact_solution_give_its_limits() {
         tolerance_a: 1e-7,
         tolerance_b: 1e-7,
     };
-    let rule = Midpoint { segments: 512, extrapolations: 4, exponents: Exponents::HalfOdd };
+    let rule = Midpoint { segments: 512, extrapolations: 4, exponents: Exponents::HalfInteger };
     let strategies: [&dyn LimitSearch<f64>; 4] =
         [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
     let starts = [(0.6, 1.0), (6.0, 10.0), (0.06, 0.1), (-0.5, 3.0)];
     for (strategy, (b, a)) in strategies.into_iter().zip(starts) {
         let contact = Contact::new(&*example.lower, &*example.upper).unwrap().kappa(PI / 2.0);
-        let contact = contact.edge_pressure(wanted).quadrature(&rule).search(strategy);
+        let contact = contact.edge_pressure(wanted).quadrature(&rule).limit_search(strategy);
         let contact = contact.start(Interval { left: -b, right: a });
         let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
         assert_relative_eq!(solution.a(), 1.0, epsilon = 0.0, max_relative = 1e-7);
@@ -302,7 +304,8 @@ fn single_precision() {
     let strategies: [&dyn LimitSearch<f32>; 4] =
         [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
     for strategy in strategies {
-        let contact = Contact::new(&Flat, &body).unwrap().search(strategy).inversion(strategy);
+        let contact =
+            Contact::new(&Flat, &body).unwrap().limit_search(strategy).inversion(strategy);
         let solution = contact.solve(Control::Load(0.25)).unwrap();
         assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 1e-6);
         assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 1e-6);
@@ -315,7 +318,7 @@ fn single_precision() {
 
 #[test]
 fn a_curvature_that_jumps_by_two_to_the_27th() {
-    // Mirrored, from any start, and by the paper's engine, which shares no code with the panels.
+    // Mirrored, from any start, and by the paper's integrator, which shares no code with the panels.
     let steep = f64::from(1 << 27);
     let bent = |bend: f64| move |x: f64| [bend * x * x / 2.0, bend * x];
     let body = |left, right| {
@@ -347,7 +350,7 @@ fn a_point_of_first_contact_between_the_ends_of_the_start() {
     // F = L²/2 - 75 L⁴/2.
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 - 25.0 * x.powi(4), x - 100.0 * x.powi(3)]);
     let brent = Brent::default();
-    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent).single_interval(true);
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent).single_interval(true);
     for l in [0.005, 0.02] {
         let load = l * l / 2.0 - 37.5 * f64::powi(l, 4);
         for start in [Interval { left: -0.31, right: 0.3 }, Interval { left: -0.2, right: 0.9 }] {

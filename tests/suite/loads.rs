@@ -153,7 +153,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
 #[test]
 fn a_width_by_a_search_takes_the_load_of_its_edges() {
     let body = parabola(1.0);
-    let contact = Contact::new(&Flat, &*body).unwrap().search(&SEARCH);
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&SEARCH);
     let l: f64 = 0.3;
     let (round, pull) = (l * l / 2.0, 2.0 * (0.01 * l).sqrt());
     // With the left edge at -b and no strength at a: F = κ L (m₁ + m₀), m₀ = c, m₁ = L/2.
@@ -184,7 +184,7 @@ fn values_that_are_none() {
             for way in ways {
                 let load = way(value);
                 let error = contact.solve(load).unwrap_err();
-                assert!(matches!(error, ContactError::Load { .. }), "{load:?}: {error}");
+                assert!(matches!(error, ContactError::InvalidLoad { .. }), "{load:?}: {error}");
             }
         }
     }
@@ -208,7 +208,7 @@ fn the_error_says_that_the_bodies_are_too_short() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     for value in [1.01, 2.0, 1e6, 1e300] {
         let error = contact.solve(Control::HalfWidth(value)).unwrap_err();
-        let ContactError::TooWide { wanted, half_width, end, load, peak } = error else {
+        let ContactError::HalfWidthTooLarge { wanted, half_width, end, load, peak } = error else {
             panic!("{value}: {error}")
         };
         assert_eq!((wanted, half_width, end.abs()), (value, 1.0, 1.0));
@@ -218,7 +218,9 @@ fn the_error_says_that_the_bodies_are_too_short() {
         // Where the contact reaches the shorter side, or a corner.
         let short = graph(-3.0, 0.7, |x| [x * x / 2.0, x]);
         too_high(&Contact::new(&Flat, &*short).unwrap(), value / PI, 0.7, 0.7 / PI);
-        for edges in [[Edge::UpTo(-0.3), Edge::Free], [Edge::UpTo(-0.8), Edge::UpTo(0.3)]] {
+        for edges in
+            [[Edge::FreeUntil(-0.3), Edge::Free], [Edge::FreeUntil(-0.8), Edge::FreeUntil(0.3)]]
+        {
             let contact = contact.clone().edges(edges[0], edges[1]);
             too_high(&contact, value / PI, 0.3, 0.3 / PI);
         }
@@ -281,7 +283,7 @@ fn a_contact_may_fill_the_bodies() {
         let l = 0.3 + 0.017 * f64::from(i);
         let body = parabola(l);
         let contact = Contact::new(&Flat, &*body).unwrap();
-        for contact in [contact.clone().search(&brent), contact] {
+        for contact in [contact.clone().limit_search(&brent), contact] {
             let solution =
                 contact.solve(Control::HalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
             assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 1e-14);
@@ -291,7 +293,7 @@ fn a_contact_may_fill_the_bodies() {
         let body =
             Curve::new([-l, l], |k: f32| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
         let contact = Contact::new(&Flat, &body).unwrap();
-        for contact in [contact.clone().search(&brent), contact] {
+        for contact in [contact.clone().limit_search(&brent), contact] {
             let solution =
                 contact.solve(Control::HalfWidth(l)).unwrap_or_else(|e| panic!("{l}: {e}"));
             assert_relative_eq!(solution.load(), l * l / 2.0, epsilon = 0.0, max_relative = 2e-6);
@@ -327,7 +329,7 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
         };
         let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
         let refused = contact.solve(Control::HalfWidth(2.6e-40));
-        let Err(ContactError::Limits { interval }) = refused else { panic!("{refused:?}") };
+        let Err(ContactError::InvalidLimits { interval }) = refused else { panic!("{refused:?}") };
         assert_eq!([interval.left, interval.right], [fixed; 2]);
     }
 }

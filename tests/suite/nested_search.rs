@@ -7,7 +7,7 @@ use crate::{common, kept::counts_agree};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::graph;
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, Tolerance};
+use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, StoppingCriteria};
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
 };
@@ -15,7 +15,7 @@ use linecontact::{
 /// First contact is at x = 0.2707, on bodies that reach farther to the right.
 const BENT: Quadratic = Quadratic([-0.3, 1.0, 0.4]);
 
-fn strategies(tolerance: Tolerance) -> [Box<dyn LimitSearch<f64>>; 4] {
+fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
     [
         Box::new(Bisection { tolerance }),
         Box::new(Secant { tolerance }),
@@ -34,7 +34,8 @@ fn first_contact(Quadratic([g0, g1, g2]): Quadratic) -> f64 {
 }
 
 /// With it every contact tried takes evaluations of its own.
-const RULE: Midpoint = Midpoint { segments: 32, extrapolations: 2, exponents: Exponents::HalfOdd };
+const RULE: Midpoint =
+    Midpoint { segments: 32, extrapolations: 2, exponents: Exponents::HalfInteger };
 
 /// Evaluations are those kept, in a table of lines for bisection, secant, Brent and Newton.
 fn check<const N: usize>(kept: &[[usize; 4]; N], found: &[[usize; 4]; N]) {
@@ -71,9 +72,10 @@ fn every_pair_of_edges() {
     ];
     let mut found = [[0; 4]; 8];
     for (pair, counts) in pairs.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
+        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
-            let contact = contact.edges(pair[0], pair[1]).search(&**strategy).single_interval(true);
+            let contact =
+                contact.edges(pair[0], pair[1]).limit_search(&**strategy).single_interval(true);
             let started = contact.clone().start(Interval { left: -0.2, right: 0.5 });
             for (contact, load) in [
                 (&contact, Control::Load(0.2)),
@@ -124,8 +126,9 @@ fn far_from_the_origin() {
             let (u, Quadratic([g0, g1, g2])) = (x - place, BENT);
             [u * (g0 + u * (g1 / 2.0 + u * g2 / 3.0)), g0 + u * (g1 + u * g2)]
         });
-        for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
-            let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).search(&**strategy);
+        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
+            let contact =
+                Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).limit_search(&**strategy);
             let solution = contact.solve(Control::Load(0.2)).unwrap();
             let Interval { left, right } = solution.hull();
             let on = Interval { left: left - place, right: right - place };
@@ -163,10 +166,11 @@ fn up_to_the_most_that_a_gap_bears() {
     let mut found = [[0; 4]; 6];
     let loads = [1e-6, 1e-3, 5e-3, 0.01, 0.0106, 0.02];
     for (load, counts) in loads.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
+        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
             for half_width in [0.25, 1e-3, 0.15] {
                 let start = Interval { left: place - 1.01 * half_width, right: place + half_width };
-                let contact = Contact::new(&Flat, &*body).unwrap().search(&**strategy).start(start);
+                let contact =
+                    Contact::new(&Flat, &*body).unwrap().limit_search(&**strategy).start(start);
                 let contact = contact.single_interval(true);
                 let by_rule = contact.clone().quadrature(&RULE);
                 let other = by_rule.solve(Control::Load(load));
@@ -177,7 +181,7 @@ fn up_to_the_most_that_a_gap_bears() {
                         assert_relative_eq!(carried, load, epsilon = 0.0, max_relative = 1e-13);
                         *count += other.unwrap().cost().evaluations;
                     }
-                    Err(ContactError::NoBalance { half_width, near }) => {
+                    Err(ContactError::NoEquilibrium { half_width, near }) => {
                         assert!(load > 0.0107, "{load}");
                         assert_relative_eq!(near, place, epsilon = 0.0, max_relative = 1e-12);
                         assert!((0.9 / 18f64.sqrt()..1.0).contains(&half_width), "{half_width}");
@@ -196,10 +200,11 @@ fn a_width_beyond_the_bodies_names_the_end() {
         let (body, origin) = (bent.body(reach[0], reach[1]), first_contact(bent));
         let contact = Contact::new(&Flat, &*body).unwrap();
         for half_width in [0.79, 0.81, 5.0] {
-            for strategy in strategies(Tolerance::FULL) {
-                let contact = contact.clone().search(&*strategy);
+            for strategy in strategies(StoppingCriteria::FULL) {
+                let contact = contact.clone().limit_search(&*strategy);
                 let error = contact.solve(Control::HalfWidth(half_width)).unwrap_err();
-                let ContactError::TooWide { wanted, half_width: room, end, .. } = error else {
+                let ContactError::HalfWidthTooLarge { wanted, half_width: room, end, .. } = error
+                else {
                     panic!("{error}")
                 };
                 assert_eq!(wanted, half_width);
@@ -239,13 +244,13 @@ fn bodies_that_are_too_short_carry_so_much() {
             let body = bent.body(-0.5, 0.5);
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
             let contact = contact.edges(edges[0], edges[1]);
-            let searches = strategies(Tolerance::FULL);
+            let searches = strategies(StoppingCriteria::FULL);
             let mut scenes: Vec<_> =
-                searches.iter().map(|search| contact.clone().search(&**search)).collect();
+                searches.iter().map(|search| contact.clone().limit_search(&**search)).collect();
             scenes.push(contact);
             for contact in scenes {
                 let error = contact.solve(Control::Load(load)).unwrap_err();
-                let ContactError::TooShort { end, carried, load: asked, .. } = error else {
+                let ContactError::DomainTooShort { end, carried, load: asked, .. } = error else {
                     panic!("{error}")
                 };
                 assert_eq!([end, asked], [side * reach, load], "{edges:?}");
@@ -262,8 +267,8 @@ fn a_sloppy_search_for_the_place_shows() {
     let l = 0.3;
     let exact = contact.solve(Control::HalfWidth(l)).unwrap().hull().centre();
     for relative in [0.3, 0.1, 1e-2, 1e-4, 1e-8] {
-        for strategy in strategies(Tolerance::relative(relative)) {
-            let contact = contact.clone().search(&*strategy);
+        for strategy in strategies(StoppingCriteria::relative(relative)) {
+            let contact = contact.clone().limit_search(&*strategy);
             let solution = contact.solve(Control::HalfWidth(l)).unwrap();
             let error = (solution.hull().centre() - exact).abs() / l;
             let estimate = solution.limits_error().unwrap();
@@ -296,9 +301,9 @@ fn pressures_wanted_at_a_distance() {
     let starts = [None, Some([0.29, 0.31]), Some([-0.5, 1.3]), Some([0.4, 0.6])];
     let mut found = [[0; 4]; 4];
     for (start, counts) in starts.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(Tolerance::FULL).iter().zip(counts) {
+        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).quadrature(&RULE);
-            let mut contact = contact.edge_pressure(edge_pressure).search(&**strategy);
+            let mut contact = contact.edge_pressure(edge_pressure).limit_search(&**strategy);
             if let Some([left, right]) = start {
                 contact = contact.start(Interval { left, right });
             }
@@ -330,10 +335,10 @@ fn pressures_missed_are_those_of_the_best_contact() {
         tolerance_a: 1e-7,
         tolerance_b: 1e-7,
     };
-    let sloppy = Brent { tolerance: Tolerance::relative(0.02) };
+    let sloppy = Brent { tolerance: StoppingCriteria::relative(0.02) };
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).quadrature(&RULE);
     let missed = |wanted| {
-        let contact = contact.clone().search(&sloppy).edge_pressure(wanted);
+        let contact = contact.clone().limit_search(&sloppy).edge_pressure(wanted);
         match contact.solve(Control::Load(load)) {
             Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => (best, [at_a, at_b]),
             other => panic!("{other:?}"),
@@ -368,8 +373,8 @@ fn edges_take_the_place_of_edge_pressures() {
 #[test]
 fn forces_beyond_any_number_are_an_overflow() {
     let body = graph(-1.0, 1.0, |x| [1e200 * x * x / 2.0, 1e200 * x]);
-    for strategy in strategies(Tolerance::FULL) {
-        let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).search(&*strategy);
+    for strategy in strategies(StoppingCriteria::FULL) {
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).limit_search(&*strategy);
         for load in [1e-3, 1e300] {
             let error = contact.solve(Control::Load(load)).unwrap_err();
             let ContactError::Overflow { interval } = error else { panic!("{error}") };

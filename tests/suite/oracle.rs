@@ -32,10 +32,10 @@ fn errors(form: &dyn ClosedForm<f64>, oracle: &Oracle) -> [f64; 3] {
         for i in 1..60 {
             let x = want.at_angle(PI * f64::from(i) / 60.3);
             let cell = 3.0 * oracle.cell(x);
-            let kink = |&joint: &f64| (joint - x).abs() < cell;
+            let kink = |&breakpoint: &f64| (breakpoint - x).abs() < cell;
             let exact = form.pressure(x, KAPPA);
             let corner = form.edges().iter().any(|edge| !matches!(edge, linecontact::Edge::Free));
-            if form.joints().iter().any(kink) || corner && !(4..57).contains(&i) {
+            if form.breakpoints().iter().any(kink) || corner && !(4..57).contains(&i) {
                 continue;
             }
             peak = peak.max(exact);
@@ -69,7 +69,7 @@ fn it_agrees_with_closed_forms() {
     for (name, reach, form) in forms {
         let load = form.load(KAPPA);
         let started = std::time::Instant::now();
-        let oracle = solve(&|x| form.height(x), KAPPA, load, [-reach, reach], &form.joints());
+        let oracle = solve(&|x| form.height(x), KAPPA, load, [-reach, reach], &form.breakpoints());
         let oracle = oracle.expect(name);
         let [admitted, wide, pressure] = errors(&*form, &oracle);
         println!(

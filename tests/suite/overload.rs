@@ -106,10 +106,10 @@ fn scenes() -> Vec<Scene> {
 /// Control, half-width, peak and end by the errors for more than that.
 fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
     match contact.solve(load).map(|solution| (solution.hull(), solution.limits_error())) {
-        Err(ContactError::TooShort { carried, half_width, peak, end, .. }) => {
+        Err(ContactError::DomainTooShort { carried, half_width, peak, end, .. }) => {
             [carried, half_width, peak, end]
         }
-        Err(ContactError::TooWide { load, half_width, peak, end, .. }) => {
+        Err(ContactError::HalfWidthTooLarge { load, half_width, peak, end, .. }) => {
             [load, half_width, peak, end]
         }
         Err(ContactError::PeakTooHigh { load, half_width, found, end, .. }) => {
@@ -194,7 +194,9 @@ fn no_load_beyond_what_is_borne_has_a_contact() {
         for i in 0..100 {
             let load = most * (1.002 + 1e-3 * (1e8f64.powf(f64::from(i) / 100.0) - 1.0));
             let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
-            let ContactError::TooShort { carried, .. } = error else { panic!("{load}: {error}") };
+            let ContactError::DomainTooShort { carried, .. } = error else {
+                panic!("{load}: {error}")
+            };
             assert!((carried / most - 1.0).abs() < 1e-12, "{carried} {most}");
         }
         let fits = contact.solve(Control::Load(0.999 * most)).unwrap();
@@ -220,7 +222,7 @@ fn a_punch_in_a_groove_bears_nothing_in_one_place() {
     assert!(matches!(error, ContactError::Overlap { .. }), "{error}");
     for load in [1.0, 1e3] {
         let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::NoBalance { .. }), "{load}: {error}");
+        assert!(matches!(error, ContactError::NoEquilibrium { .. }), "{load}: {error}");
     }
 }
 

@@ -16,7 +16,7 @@ fn quartic(from: f64, to: f64) -> Profile {
 /// Load, half-width, peak and end by the error for more than that.
 fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {
     match contact.solve(Control::Load(load)).map(|solution| solution.intervals().to_vec()) {
-        Err(ContactError::TooShort { carried, half_width, peak, end, load: asked }) => {
+        Err(ContactError::DomainTooShort { carried, half_width, peak, end, load: asked }) => {
             assert_eq!(asked, load);
             [carried, half_width, peak, end]
         }
@@ -77,13 +77,13 @@ fn scenes() -> Vec<Scene> {
         Scene {
             name: "corner",
             body: quartic(-1.1, 1.3),
-            edges: [Edge::UpTo(-1.1), Edge::Free],
+            edges: [Edge::FreeUntil(-1.1), Edge::Free],
             contacts: 2,
         },
         Scene {
             name: "merged",
             body: quartic(-1.1, 1.6),
-            edges: [Edge::UpTo(-1.1), Edge::Free],
+            edges: [Edge::FreeUntil(-1.1), Edge::Free],
             contacts: 1,
         },
     ]
@@ -149,16 +149,16 @@ fn random_waves_bear_what_the_error_says() {
         let contact = Contact::new(&Flat, &body).unwrap();
         let asked = 10f64.powf(random(0.5, 4.0));
         match contact.solve(Control::Load(asked)).map(|_| ()).unwrap_err() {
-            ContactError::TooShort { carried, end, .. } => {
+            ContactError::DomainTooShort { carried, end, .. } => {
                 let under = contact.solve(Control::Load(carried * (1.0 - 1e-7))).unwrap();
                 assert!(end == from || end == to);
                 let error = contact.solve(Control::Load(carried * 1.001)).map(|_| ()).unwrap_err();
                 match error {
-                    ContactError::TooShort { carried: again, .. } => {
+                    ContactError::DomainTooShort { carried: again, .. } => {
                         assert!((again / carried - 1.0).abs() < 1e-9, "{i}: {again} {carried}");
                     }
                     // So little more is refused, but may not be known to be too much.
-                    ContactError::RunsOut { .. } => close += 1,
+                    ContactError::EndReached { .. } => close += 1,
                     error => panic!("{i}: {error}"),
                 }
                 several += usize::from(under.intervals().len() > 1);
@@ -166,7 +166,7 @@ fn random_waves_bear_what_the_error_says() {
             // An end that is touched before any limit comes there.
             error => {
                 unknown += 1;
-                assert!(matches!(error, ContactError::RunsOut { .. }), "{i}: {error}");
+                assert!(matches!(error, ContactError::EndReached { .. }), "{i}: {error}");
                 // Where they touch at an end first nothing is borne.
                 let refused = body.1.swap(0, Ordering::Relaxed);
                 let mut load = asked;

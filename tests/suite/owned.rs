@@ -62,7 +62,7 @@ fn settings_outlive_the_function_that_sets_them() {
         let contact = Contact::owned(Arc::new(Flat), Arc::new(arc(1.0)))?;
         Ok(contact
             .inversion(&Newton::DEFAULT)
-            .search(&Brent::DEFAULT)
+            .limit_search(&Brent::DEFAULT)
             .quadrature(&Midpoint::DEFAULT))
     };
     let plain = Contact::owned(Arc::new(Flat), Arc::new(arc(1.0))).unwrap();

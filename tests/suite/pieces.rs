@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 type Profile = Box<dyn ParametricProfile<f64>>;
 
-/// Joints from -1 to 1, unevenly.
-fn joints(pieces: u32) -> Vec<f64> {
+/// Breakpoints from -1 to 1, unevenly.
+fn breakpoints(pieces: u32) -> Vec<f64> {
     let place = |i: u32| {
         let z = 2.0 * f64::from(i) / f64::from(pieces) - 1.0;
         z - 0.15 * (PI * z).sin()
@@ -18,23 +18,23 @@ fn joints(pieces: u32) -> Vec<f64> {
     (0..=pieces).map(place).collect()
 }
 
-/// Points from 1e-9 half-widths from an edge to the middle, and beside joints.
-fn points(half_width: f64, joints: &[f64]) -> Vec<f64> {
+/// Points from 1e-9 half-widths from an edge to the middle, and beside breakpoints.
+fn points(half_width: f64, breakpoints: &[f64]) -> Vec<f64> {
     let mut points = Vec::new();
     for i in 1..60 {
         let inward = 10f64.powf(-9.0 * f64::from(i) / 60.0);
         points.extend([(inward - 1.0) * half_width, (1.0 - inward) * half_width]);
     }
-    let inside = joints.iter().filter(|joint| joint.abs() < 0.99 * half_width);
-    points.extend(inside.step_by(31).flat_map(|joint| [joint - 1e-7, joint + 3e-5]));
+    let inside = breakpoints.iter().filter(|breakpoint| breakpoint.abs() < 0.99 * half_width);
+    points.extend(inside.step_by(31).flat_map(|breakpoint| [breakpoint - 1e-7, breakpoint + 3e-5]));
     points
 }
 
-/// The closed form of a circle knows of no joints.
+/// The closed form of a circle knows of no breakpoints.
 #[test]
 fn a_circle_in_thousands_of_arcs() {
     let (form, shift) = (Ellipse::circle(1.0, 0.3).unwrap(), 2.0);
-    let joints: Vec<f64> = joints(3000).iter().map(|z| 1.2 * z).collect();
+    let breakpoints: Vec<f64> = breakpoints(3000).iter().map(|z| 1.2 * z).collect();
     let arc = |ends: &[f64]| {
         Curve::new([ends[0], ends[1]], move |k: f64| {
             let (sin, cos) = k.sin_cos();
@@ -42,12 +42,12 @@ fn a_circle_in_thousands_of_arcs() {
             CurvePoint { x: shift + sin, y, dx: cos, dy: sin }
         })
     };
-    let body = Piecewise::new(joints.windows(2).map(arc).collect()).unwrap();
+    let body = Piecewise::new(breakpoints.windows(2).map(arc).collect()).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
     let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
     assert_relative_eq!(solution.a() - shift, 0.3, epsilon = 0.0, max_relative = 1e-14);
     let pressure = solution.pressure().unwrap();
-    let sines: Vec<f64> = joints.iter().map(|k| k.sin()).collect();
+    let sines: Vec<f64> = breakpoints.iter().map(|k| k.sin()).collect();
     for x in points(0.3, &sines) {
         // The rounding of x counts by its distance from the edge.
         let rounding = 1e-12 + 1e-15 / (0.3 - x.abs());
@@ -69,7 +69,7 @@ fn a_certified_wave_in_thousands_of_pieces() {
         })
     };
     let least = [1, 9000].map(|pieces| {
-        let body = Piecewise::new(joints(pieces).windows(2).map(wave).collect()).unwrap();
+        let body = Piecewise::new(breakpoints(pieces).windows(2).map(wave).collect()).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
         let solution = contact.solve(Control::HalfWidth(0.6)).unwrap();
         solution.certify().unwrap().pressure.unwrap()
@@ -78,15 +78,15 @@ fn a_certified_wave_in_thousands_of_pieces() {
     assert!((least[0].x.abs() - least[1].x.abs()).abs() < 1e-3, "{least:?}");
 }
 
-/// A polygon has a jump of the slope at each joint, with a logarithm each:
+/// A polygon has a jump of the slope at each breakpoint, with a logarithm each:
 /// `P = (κ/π²) Σ Δ_j 2 artanh(min(m, n)/max(m, n))`.
 #[test]
 fn a_polygon_of_a_thousand_sides() {
-    let joints = joints(1000);
-    let slope = |i: usize| 0.5 * (joints[i] + joints[i + 1]);
+    let breakpoints = breakpoints(1000);
+    let slope = |i: usize| 0.5 * (breakpoints[i] + breakpoints[i + 1]);
     let mut sides: Vec<Profile> = Vec::new();
     let mut height = 0.0;
-    for (i, ends) in joints.windows(2).enumerate() {
+    for (i, ends) in breakpoints.windows(2).enumerate() {
         let ([from, to], slope, start) = ([ends[0], ends[1]], slope(i), height);
         sides.push(Box::new(Curve::new([from, to], move |x: f64| CurvePoint {
             x,
@@ -100,8 +100,8 @@ fn a_polygon_of_a_thousand_sides() {
     // Where the two ends of the contact are free and -b is given, a is where ∫ g dθ vanishes.
     let left = -0.612_345;
     let jumps: Vec<[f64; 2]> =
-        (1..joints.len() - 1).map(|i| [joints[i], slope(i) - slope(i - 1)]).collect();
-    let first = (0..).find(|&i| joints[i + 1] > left).unwrap();
+        (1..breakpoints.len() - 1).map(|i| [breakpoints[i], slope(i) - slope(i - 1)]).collect();
+    let first = (0..).find(|&i| breakpoints[i + 1] > left).unwrap();
     let angle = |x: f64, right: f64| {
         2.0 * ((right - x) / (right - left)).sqrt().atan2(((x - left) / (right - left)).sqrt())
     };
@@ -127,7 +127,7 @@ fn a_polygon_of_a_thousand_sides() {
     assert_relative_eq!(solution.a(), right, epsilon = 0.0, max_relative = 1e-12);
     assert_relative_eq!(solution.b(), -left, epsilon = 0.0, max_relative = 1e-12);
     let pressure = solution.pressure().unwrap();
-    for z in points(0.5 * (right - left), &joints) {
+    for z in points(0.5 * (right - left), &breakpoints) {
         let x = 0.5 * (left + right) + z;
         let term = |[t, jump]: [f64; 2]| {
             let m = ((right - t) * (x - left)).sqrt();

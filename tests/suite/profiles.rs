@@ -88,14 +88,14 @@ fn a_known_slope_inverts_nothing() {
 #[test]
 fn pieces_have_parameters_of_their_own() {
     // x²/2 in three pieces: by k = x; by k = -3 x, falling; by k³ + k = x.
-    let joint = (0..20).fold(0.1, |k: f64, _| k - (k * k * k + k - 0.1) / (3.0 * k * k + 1.0));
+    let breakpoint = (0..20).fold(0.1, |k: f64, _| k - (k * k * k + k - 0.1) / (3.0 * k * k + 1.0));
     let pieces: Vec<Profile> = vec![
         graph(-2.0, -0.1, |x| [x * x / 2.0, x]),
         Box::new(Curve::new([-0.3, 0.3], |k: f64| {
             let x = -k / 3.0;
             CurvePoint { x, y: x * x / 2.0, dx: -1.0 / 3.0, dy: -x / 3.0 }
         })),
-        Box::new(Curve::new([joint, 1.0], |k: f64| {
+        Box::new(Curve::new([breakpoint, 1.0], |k: f64| {
             let (x, dx) = (k * k * k + k, 3.0 * k * k + 1.0);
             CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
         })),
@@ -142,33 +142,33 @@ fn line(from: f64, to: f64, shift: f64, up: f64) -> Profile {
 }
 
 #[test]
-fn joints_are_checked() {
+fn breakpoints_are_checked() {
     let join = |pieces| Piecewise::new(pieces).map(|_: Piecewise<f64, Profile>| ()).unwrap_err();
     let first = || line(-1.0, 0.0, 0.0, 0.0);
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]),
-        PiecewiseError::Gap { joint: 0, left: 0.0, right: 1e-6 }
+        PiecewiseError::Gap { breakpoint: 0, left: 0.0, right: 1e-6 }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 0.0, 0.0), line(1.0, 2.0, -0.25, 0.0)]),
-        PiecewiseError::Overlap { joint: 1, left: 1.0, right: 0.75 }
+        PiecewiseError::Overlap { breakpoint: 1, left: 1.0, right: 0.75 }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 0.0, 1e-13)]),
-        PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 1e-13 }
+        PiecewiseError::Jump { breakpoint: 0, x: 0.0, left: 0.0, right: 1e-13 }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 1e-13, 0.0)]),
-        PiecewiseError::Gap { joint: 0, left: 0.0, right: 1e-13 }
+        PiecewiseError::Gap { breakpoint: 0, left: 0.0, right: 1e-13 }
     );
     // The wrong order is an overlap.
     assert!(matches!(
         join(vec![line(0.0, 1.0, 0.0, 0.0), first()]),
-        PiecewiseError::Overlap { joint: 0, left: 1.0, right: -1.0 }
+        PiecewiseError::Overlap { breakpoint: 0, left: 1.0, right: -1.0 }
     ));
     assert_eq!(join(vec![]), PiecewiseError::NoPieces);
     let message = join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]).to_string();
-    assert!(message.contains("gap of 1e-6 at joint 0"), "{message}");
+    assert!(message.contains("gap of 1e-6 at breakpoint 0"), "{message}");
 
     // Rounding is no gap, and measured pieces may be met with a tolerance.
     let off = |by| vec![first(), line(0.0, 1.0, by, 0.0)];

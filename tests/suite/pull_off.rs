@@ -117,7 +117,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
         }
         for wanted in [0.0, 0.5 * load(1.0), load(1.001)] {
             let error: ContactError<f64> = solve(wanted).unwrap_err();
-            let ContactError::TooShort { carried, load: asked, end, .. } = error else {
+            let ContactError::DomainTooShort { carried, load: asked, end, .. } = error else {
                 panic!("{error}")
             };
             assert_eq!((asked, end.abs()), (wanted, 1.0));
@@ -134,7 +134,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
     let glued = contact.edges(Edge::Adhesive(2.0 * KAPPA), Edge::Adhesive(2.0 * KAPPA));
     for load in [-1.0, -2.0, -10.0] {
         let error = glued.solve(Control::Load(load)).unwrap_err();
-        assert!(matches!(error, ContactError::TooShort { .. }), "{error}");
+        assert!(matches!(error, ContactError::DomainTooShort { .. }), "{error}");
     }
 }
 

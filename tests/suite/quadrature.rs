@@ -7,7 +7,7 @@ use crate::common::NanSafe;
 use approx::assert_relative_eq;
 use common::{example_1_exact, example_2_exact, graph, order, paper, reference, scenes};
 use linecontact::gap::Sampler;
-use linecontact::quadrature::{Engine, Moments, Pressing, Quadrature};
+use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Midpoint,
     Solution,
@@ -16,7 +16,7 @@ use linecontact::{Cost, Estimate, Gap, Panels};
 use std::f64::consts::PI;
 
 const EVEN: Exponents = Exponents::Even;
-const HALF_ODD: Exponents = Exponents::HalfOdd;
+const HALF_ODD: Exponents = Exponents::HalfInteger;
 
 fn rule(segments: usize, extrapolations: u32, exponents: Exponents) -> Midpoint {
     Midpoint { segments, extrapolations, exponents }
@@ -206,7 +206,7 @@ fn the_pressure_satisfies_the_equation() {
 
 #[test]
 fn pressures_agree_with_the_references() {
-    // Away from the edges, where the rule is meant to hold; a joint inside breaks its expansion.
+    // Away from the edges, where the rule is meant to hold; a breakpoint inside breaks its expansion.
     for scene in scenes() {
         let tolerance = match scene.name {
             "paper_example_2" | "hertz_tiny" | "hertz_huge" | "k3eps_hertz" => 1e-9,
@@ -263,7 +263,7 @@ fn a_pressure_carries_its_doubt() {
 }
 
 #[test]
-fn a_joint_shows_in_the_estimate() {
+fn a_breakpoint_shows_in_the_estimate() {
     for (name, scene) in
         [("paper_example_4_scale_one", paper::four()), ("paper_example_5_scale_one", paper::five())]
     {
@@ -334,7 +334,7 @@ fn segments_that_cannot_be_used() {
         let rule = rule(segments, extrapolations, EVEN);
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
         let error = contact.solve(Control::Load(0.02)).unwrap_err();
-        assert_eq!(error, ContactError::Segments { segments, extrapolations });
+        assert_eq!(error, ContactError::InvalidSegments { segments, extrapolations });
     }
     let one = rule(1, 1, EVEN);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&one);
@@ -346,26 +346,31 @@ fn segments_that_cannot_be_used() {
     assert!(estimate.value.is_finite() && estimate.error.is_infinite());
 }
 
-/// The panels, without what an engine need not know; and what it is asked wrongly.
-struct Reticent(Box<dyn Engine<f64>>);
+/// The panels, without what an integrator need not know; and what it is asked wrongly.
+struct Reticent(Box<dyn Integrator<f64>>);
 
 struct ReticentPanels;
 
 impl Quadrature<f64> for ReticentPanels {
-    fn engine(&self) -> Result<Box<dyn Engine<f64>>, ContactError<f64>> {
-        Ok(Box::new(Reticent(Panels::FULL.engine()?)))
+    fn integrator(&self) -> Result<Box<dyn Integrator<f64>>, ContactError<f64>> {
+        Ok(Box::new(Reticent(Panels::FULL.integrator()?)))
     }
 }
 
-impl Engine<f64> for Reticent {
-    fn fork(&self) -> Box<dyn Engine<f64>> {
+impl Integrator<f64> for Reticent {
+    fn fork(&self) -> Box<dyn Integrator<f64>> {
         Box::new(Self(self.0.fork()))
     }
     fn reset(&mut self, same_bodies: bool) {
         self.0.reset(same_bodies);
     }
-    fn cover(&mut self, gap: &Gap<f64>, on: Interval<f64>, rough: bool) -> Asked<Option<f64>> {
-        self.0.cover(gap, on, rough)
+    fn sample_over(
+        &mut self,
+        gap: &Gap<f64>,
+        on: Interval<f64>,
+        rough: bool,
+    ) -> Asked<Option<f64>> {
+        self.0.sample_over(gap, on, rough)
     }
     fn moments(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<Moments<f64>> {
         let range = gap.range();
@@ -375,10 +380,10 @@ impl Engine<f64> for Reticent {
             let beyond = self.0.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
             assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
         }
-        // An engine that was not prepared knows nothing.
-        let pressing = Pressing { kappa: 1.0, load: 1.0, free: [true; 2] };
-        let unprepared = Midpoint::DEFAULT.engine()?;
-        let estimate = unprepared.estimate(gap, &pressing, on.centre(), &mut Cost::default())?;
+        // An integrator that was not prepared knows nothing.
+        let load_case = LoadCase { kappa: 1.0, load: 1.0, free: [true; 2] };
+        let unprepared = Midpoint::DEFAULT.integrator()?;
+        let estimate = unprepared.estimate(gap, &load_case, on.centre(), &mut Cost::default())?;
         assert_eq!(estimate.error, f64::INFINITY);
         self.0.moments(gap, on)
     }
@@ -388,11 +393,11 @@ impl Engine<f64> for Reticent {
     fn estimate(
         &self,
         gap: &Gap<f64>,
-        pressing: &Pressing<f64>,
+        load_case: &LoadCase<f64>,
         x: f64,
         cost: &mut Cost,
     ) -> Asked<Estimate<f64>> {
-        self.0.estimate(gap, pressing, x, cost)
+        self.0.estimate(gap, load_case, x, cost)
     }
     fn cost(&self) -> Cost {
         self.0.cost()
@@ -402,7 +407,7 @@ impl Engine<f64> for Reticent {
 type Asked<R> = Result<R, ContactError<f64>>;
 
 #[test]
-fn an_engine_need_not_keep_samples_or_tell_slopes() {
+fn an_integrator_need_not_keep_samples_or_tell_slopes() {
     // F = L²/2, p₀ = L/π.
     let body = crate::common::parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&ReticentPanels);

@@ -13,11 +13,11 @@ use linecontact::reference::{
 use linecontact::{Contact, ContactError, Control, Edge, EdgePressure, Flat, Midpoint};
 use std::f64::consts::PI;
 
-/// `∫ x P dx` of a form by the trapezoidal rule in t, θ = π/(1 + e^(-sinh t)), between joints.
+/// `∫ x P dx` of a form by the trapezoidal rule in t, θ = π/(1 + e^(-sinh t)), between breakpoints.
 fn moment(form: &dyn ClosedForm<f64>) -> f64 {
     let on = form.limits();
     let mut ends = vec![on.right];
-    ends.extend(form.joints().into_iter().rev().filter(|&x| on.contains(x)));
+    ends.extend(form.breakpoints().into_iter().rev().filter(|&x| on.contains(x)));
     ends.push(on.left);
     let mut total = 0.0;
     for ends in ends.windows(2) {
@@ -30,7 +30,7 @@ fn moment(form: &dyn ClosedForm<f64>) -> f64 {
             let weight = PI * t.cosh() * grow * share * share * step * (to - from);
             let x = on.at_angle(from + (to - from) * share);
             let x = x.clamp(on.left.next_up(), on.right.next_down());
-            let term = weight * x * form.pressure(x, KAPPA) * on.edge_root(x);
+            let term = weight * x * form.pressure(x, KAPPA) * on.chebyshev_weight(x);
             if term.is_finite() {
                 total += term;
             }
@@ -165,7 +165,7 @@ fn rates_are_those_of_solves() {
     assert!((rates.b * KAPPA * 0.3 - 1.0).abs() < 1e-14);
     assert_eq!(rates.pressure(0.5).unwrap(), 0.0);
     assert!(matches!(rates.pressure(solution.a()), Err(ContactError::Singular { .. })));
-    assert!(matches!(rates.pressure(f64::NAN), Err(ContactError::Misplaced { .. })));
+    assert!(matches!(rates.pressure(f64::NAN), Err(ContactError::InvalidPosition { .. })));
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn rates_that_are_not_known() {
     let parabola = || Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
     let refused = |contact: &Contact<'_, f64>, load: f64| {
         let rates = contact.solve(Control::Load(load)).unwrap().load_rates();
-        assert!(matches!(rates, Err(ContactError::NoRate { .. })), "{rates:?}");
+        assert!(matches!(rates, Err(ContactError::NoLoadDerivative { .. })), "{rates:?}");
     };
     refused(&parabola().edges(left, right), form.load(KAPPA));
     let midpoint = Midpoint::default();
@@ -210,10 +210,10 @@ fn the_gap_of_hertz() {
         assert_eq!(solution.gap_at(edge).unwrap(), 0.0);
         assert_eq!(solution.gap_slope(edge).unwrap(), 0.0);
     }
-    assert!(matches!(solution.gap_at(0.1), Err(ContactError::Misplaced { .. })));
+    assert!(matches!(solution.gap_at(0.1), Err(ContactError::InvalidPosition { .. })));
     let told = [solution.gap_at(0.1), solution.residual(0.4)].map(|e| e.unwrap_err().to_string());
     assert!(told[0].contains("outside the contact") && told[1].contains("inside the contact"));
-    assert!(matches!(solution.gap_slope(0.1), Err(ContactError::Misplaced { .. })));
+    assert!(matches!(solution.gap_slope(0.1), Err(ContactError::InvalidPosition { .. })));
     for x in [3.1, f64::NAN] {
         assert!(matches!(solution.gap_at(x), Err(ContactError::OutsideBodies { .. })));
         assert!(matches!(solution.gap_slope(x), Err(ContactError::OutsideBodies { .. })));
@@ -288,7 +288,7 @@ fn the_equation_is_met() {
         let rounding = 16.0 * f64::EPSILON * on.left.abs() / on.half_width();
         assert!(worst < 3e-10f64.max(rounding), "{}: {worst}", scene.name);
         for x in [on.left, on.right, f64::NAN] {
-            assert!(matches!(solution.residual(x), Err(ContactError::Misplaced { .. })));
+            assert!(matches!(solution.residual(x), Err(ContactError::InvalidPosition { .. })));
         }
     }
 }

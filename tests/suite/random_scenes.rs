@@ -253,13 +253,13 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let edge = |i: usize| match cornered {
         // Two fixed edges are two given limits.
         true if scene.fixed && reached[i] && !reached[1 - i] => Edge::Fixed(scene.range[i]),
-        true => Edge::UpTo(scene.range[i]),
+        true => Edge::FreeUntil(scene.range[i]),
         false => Edge::Free,
     };
     let contact = contact.edges(edge(0), edge(1));
     let too_short = !cornered && reached != [false; 2];
     match contact.solve(Control::Load(scene.load)) {
-        Err(ContactError::TooShort { .. } | ContactError::RunsOut { .. }) if too_short => {
+        Err(ContactError::DomainTooShort { .. } | ContactError::EndReached { .. }) if too_short => {
             Outcome::Solved
         }
         Err(error) => Outcome::Refused(error.to_string()),
@@ -420,7 +420,7 @@ fn the_load_where_it_acts() {
         let scene = scene(number);
         let bodies = scene.bodies();
         let contact = Contact::new(&*bodies[0], &*bodies[1]).unwrap().kappa(scene.kappa);
-        let edge = |x| if scene.kind == Kind::Cornered { Edge::UpTo(x) } else { Edge::Free };
+        let edge = |x| if scene.kind == Kind::Cornered { Edge::FreeUntil(x) } else { Edge::Free };
         let contact = contact.edges(edge(scene.range[0]), edge(scene.range[1]));
         let Ok(known) = contact.solve(Control::Load(scene.load)) else { continue };
         let at = known.centre_of_pressure().unwrap();

@@ -212,7 +212,7 @@ fn contacts_in_single_precision() {
 }
 
 #[test]
-#[ignore = "bug: P 3e-5 of the largest off, 1e-16 L beside the joint, where the slope ends like a root"]
+#[ignore = "bug: P 3e-5 of the largest off, 1e-16 L beside the breakpoint, where the slope ends like a root"]
 fn contacts_in_single_precision_that_fail_as_yet() {
     assert_eq!(check(|name| FAILING.contains(&name)), FAILING.len());
 }

@@ -4,7 +4,7 @@
 #![allow(missing_docs)]
 
 use linecontact::search::{
-    Bisection, Bracket, Brent, LimitSearch, Newton, Root, Secant, Tolerance,
+    Bisection, Bracket, Brent, LimitSearch, Newton, Root, Secant, StoppingCriteria,
 };
 
 /// A function with its slope, a bracket, the root, and by how much rounding hides it.
@@ -113,13 +113,13 @@ const COUNTS: [[[usize; 5]; 3]; 11] = [
     [[53, 10, 10, 10, 32], [23, 8, 8, 10, 13], [13, 7, 7, 7, 7]],
 ];
 
-const TOLERANCES: [Tolerance; 3] = [
-    Tolerance::FULL,
-    Tolerance::relative(1e-6),
-    Tolerance { absolute: 1e-3, residual: 1e-9, ..Tolerance::FULL },
+const TOLERANCES: [StoppingCriteria; 3] = [
+    StoppingCriteria::FULL,
+    StoppingCriteria::relative(1e-6),
+    StoppingCriteria { absolute: 1e-3, residual: 1e-9, ..StoppingCriteria::FULL },
 ];
 
-fn ways(tolerance: Tolerance, case: &Case) -> [Root<f64>; 5] {
+fn ways(tolerance: StoppingCriteria, case: &Case) -> [Root<f64>; 5] {
     let [lo, hi] = case.bracket;
     let bracket = Bracket::new(lo, hi);
     let chords: [&dyn LimitSearch<f64>; 4] = [
@@ -140,7 +140,7 @@ fn evaluations_are_those_kept() {
         let mut found = [[0; 5]; 3];
         for (i, tolerance) in TOLERANCES.into_iter().enumerate() {
             for (j, root) in ways(tolerance, &case).into_iter().enumerate() {
-                let Tolerance { absolute, relative, .. } = tolerance;
+                let StoppingCriteria { absolute, relative, .. } = tolerance;
                 // At a triple root, and by a poor slope, a step is a part of the error only.
                 let partly = ["triple, noise", "a poor slope"].contains(&case.name);
                 let times = if partly { 4.0 } else { 1.0 };

@@ -56,21 +56,21 @@ fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>)> {
 struct Sums<'f> {
     form: &'f dyn ClosedForm<f64>,
     contacts: Vec<Interval<f64>>,
-    joints: Vec<f64>,
+    breakpoints: Vec<f64>,
     /// The pressures of sharp edges, which are infinite, are not asked for as close as tanh-sinh does.
     sharp: bool,
 }
 
 impl<'f> Sums<'f> {
     fn new(form: &'f dyn ClosedForm<f64>, name: &str) -> Self {
-        let (contacts, joints) = (form.contacts(), form.joints());
-        Self { form, contacts, joints, sharp: name.starts_with("sharp") }
+        let (contacts, breakpoints) = (form.contacts(), form.breakpoints());
+        Self { form, contacts, breakpoints, sharp: name.starts_with("sharp") }
     }
 
     /// `∫ f P ds`; `f` of the place and of what P is to be less there, times the root of both distances.
     fn sum(&self, pole: Option<f64>, f: impl Fn(f64, f64) -> f64) -> f64 {
         let over = |&on: &Interval<f64>| {
-            let inside = self.joints.iter().copied().chain(pole).filter(|&x| on.contains(x));
+            let inside = self.breakpoints.iter().copied().chain(pole).filter(|&x| on.contains(x));
             let strength = |s: f64| {
                 self.form.pressure(s, KAPPA) * (s - on.left).sqrt() * (on.right - s).sqrt()
             };
@@ -186,7 +186,7 @@ fn outside_and_at_the_limits() {
     }
 }
 
-/// The slope is that of the height, on both sides of every joint.
+/// The slope is that of the height, on both sides of every breakpoint.
 #[test]
 fn the_bodies_are_what_they_say() {
     for (name, form) in forms::<f64>() {
@@ -194,14 +194,14 @@ fn the_bodies_are_what_they_say() {
         let (from, to) = (on.left - 0.05, on.right + 0.05);
         body(&*form, from, to).unwrap_or_else(|error| panic!("{name}: {error}"));
         let steep = form.slope(from).abs().max(form.slope_left(to).abs()).max(1e-3);
-        let joints = form.joints();
+        let breakpoints = form.breakpoints();
         let mut places: Vec<f64> =
             (0..200).map(|i| from + (to - from) * f64::from(i) / 199.0).collect();
-        places.extend(&joints);
+        places.extend(&breakpoints);
         for x in places {
             let h = 1e-6;
-            let near = |joint: &f64| (joint - x).abs() < 4.0 * h && *joint != x;
-            if joints.iter().any(near) {
+            let near = |breakpoint: &f64| (breakpoint - x).abs() < 4.0 * h && *breakpoint != x;
+            if breakpoints.iter().any(near) {
                 continue;
             }
             for (slope, side) in [(form.slope(x), h), (form.slope_left(x), -h)] {

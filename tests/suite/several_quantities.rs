@@ -113,7 +113,7 @@ fn sum(solution: &Solution<f64>, on: Interval<f64>, f: impl Fn(f64) -> f64) -> f
     let terms = (0..count).map(|i| {
         let x = on.at_angle(PI * (f64::from(i) + 0.5) / f64::from(count));
         let p = pressure.estimate(x, &mut Cost::default()).unwrap().value;
-        p * on.edge_root(x) * f(x)
+        p * on.chebyshev_weight(x) * f(x)
     });
     PI / f64::from(count) * terms.sum::<f64>()
 }
@@ -210,7 +210,7 @@ fn the_singularity_of_a_corner() {
     let (on, pressure) = (first.interval, solution.pressure().unwrap());
     let at = |share: f64| {
         let x = on.left + share * on.half_width();
-        let sine = on.edge_root(x) / on.half_width();
+        let sine = on.chebyshev_weight(x) / on.half_width();
         (sine * pressure.at(x).unwrap(), sine)
     };
     // P sin θ is strength + c sin²θ.
@@ -310,7 +310,7 @@ fn rates_of_all_limits() {
                 let x = on.at_angle(PI * (f64::from(i) + 0.5) / 200.0);
                 let rate = rates.pressure(x).unwrap();
                 assert!(rate > 0.0, "{name}: ∂P/∂F at {x} is {rate}");
-                rate * on.edge_root(x)
+                rate * on.chebyshev_weight(x)
             });
             total += PI / 200.0 * terms.sum::<f64>();
             for x in [on.left, on.right] {
@@ -325,7 +325,7 @@ fn rates_of_all_limits() {
         }
         assert_eq!(rates.pressure(-9.0), Ok(0.0));
         assert_eq!(rates.pressure(9.0), Ok(0.0));
-        assert!(matches!(rates.pressure(f64::NAN), Err(ContactError::Misplaced { .. })));
+        assert!(matches!(rates.pressure(f64::NAN), Err(ContactError::InvalidPosition { .. })));
     }
 }
 
@@ -347,7 +347,7 @@ fn rates_in_closed_form() {
         for i in 1..20 {
             let on = Interval { left: inner, right: outer };
             let x = on.at_angle(PI * f64::from(i) / 20.0);
-            let root = on.edge_root(x) * ((x + inner) * (x + outer)).sqrt();
+            let root = on.chebyshev_weight(x) * ((x + inner) * (x + outer)).sqrt();
             let error = rates.pressure(-x).unwrap() * PI * root / x - 1.0;
             assert!(error.abs() < 1e-10, "F = {load}, x = {x}: {error:e}");
         }
@@ -407,7 +407,7 @@ fn the_gap_between_contacts_and_beside_them() {
                 assert_eq!(solution.gap_slope(x), Ok(0.0));
             }
             let x = on.centre();
-            let inside = ContactError::Misplaced { x, inside: false, interval: *on };
+            let inside = ContactError::InvalidPosition { x, inside: false, interval: *on };
             assert_eq!(solution.gap_at(x), Err(inside.clone()));
             assert_eq!(solution.gap_slope(x), Err(inside));
         }
@@ -437,7 +437,7 @@ fn the_equation_is_met_in_each_contact() {
             for x in [pair[0].right, 0.5 * (pair[0].right + pair[1].left), pair[1].left] {
                 let refused = matches!(
                     solution.residual(x),
-                    Err(ContactError::Misplaced { inside: true, .. })
+                    Err(ContactError::InvalidPosition { inside: true, .. })
                 );
                 assert!(refused, "{}: {x}", scene.name);
             }

@@ -238,7 +238,7 @@ fn heights_that_do_not_go_with_the_slopes() {
             graph(-2.0, 2.0, move |x| [share * x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
         let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
         let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
-        let ContactError::Heights { by_heights, by_slopes, .. } = error else {
+        let ContactError::InconsistentHeights { by_heights, by_slopes, .. } = error else {
             panic!("{share}: {error}")
         };
         assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-9, "{by_heights} {by_slopes}");

@@ -236,7 +236,7 @@ fn a_mirrored_or_exchanged_scene_has_the_same_solution() {
 }
 
 #[test]
-fn placing_keeps_joints_and_known_slopes() {
+fn placing_keeps_breakpoints_and_known_slopes() {
     let (_, wedge) = crooked();
     let moved = wedge.placed(Placement::default().mirrored().shifted(2.0, 1.0)).unwrap();
     assert_eq!(moved.pieces(), 2);

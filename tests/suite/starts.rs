@@ -117,7 +117,7 @@ fn the_contact_found_grows_with_its_load() {
         let newton = Contact::new(&Flat, &*body).unwrap().edges(left, right).single_interval(true);
         for (centre, reach) in centres.iter().flat_map(|&c| half_widths.map(|l| (c, l))) {
             let start = Interval { left: centre - reach, right: centre + reach };
-            for contact in [newton.clone(), newton.clone().search(&brent)] {
+            for contact in [newton.clone(), newton.clone().limit_search(&brent)] {
                 let contact = contact.start(start);
                 let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
                 let found = solution.hull().half_width();
@@ -142,7 +142,7 @@ fn first_contact_between_the_ends_of_the_start() {
         [u * u / 2.0 - u.powi(4), u - 4.0 * u.powi(3)]
     });
     let brent = Brent::default();
-    let contact = Contact::new(&Flat, &*body).unwrap().search(&brent).single_interval(true);
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent).single_interval(true);
     for (left, right) in [(-0.6, 0.6), (-0.55, 0.7), (-0.8, 0.55), (-0.51, 0.9)] {
         let contact = contact.clone().start(Interval { left: place + left, right: place + right });
         let solution = contact.solve(Control::Load(5e-3)).unwrap();

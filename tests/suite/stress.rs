@@ -412,8 +412,8 @@ fn invariants() {
     let mises = (squares / 2.0 + 3.0 * t * t).sqrt();
     assert!((stress.von_mises(0.3).unwrap() / mises - 1.0).abs() < 1e-15);
     for ratio in [-0.1, 0.51, f64::NAN] {
-        assert!(matches!(stress.von_mises(ratio), Err(ContactError::PoissonRatio { .. })));
-        assert!(matches!(stress.sigma_z(ratio), Err(ContactError::PoissonRatio { .. })));
+        assert!(matches!(stress.von_mises(ratio), Err(ContactError::InvalidPoissonRatio { .. })));
+        assert!(matches!(stress.sigma_z(ratio), Err(ContactError::InvalidPoissonRatio { .. })));
     }
 }
 
@@ -430,9 +430,9 @@ fn refusals() {
     }
     for mu in [f64::NAN, f64::INFINITY] {
         let refused = solution.subsurface().unwrap().friction(mu);
-        assert!(matches!(refused, Err(ContactError::Friction { .. })), "{refused:?}");
+        assert!(matches!(refused, Err(ContactError::InvalidFriction { .. })), "{refused:?}");
     }
-    assert!(matches!(field.max_von_mises(0.6), Err(ContactError::PoissonRatio { .. })));
+    assert!(matches!(field.max_von_mises(0.6), Err(ContactError::InvalidPoissonRatio { .. })));
     // Far away nothing overflows.
     assert!(field.at(1e200, 1e-200).unwrap().max_shear() >= 0.0);
     assert!(field.at(0.0, 1e-200).unwrap().max_shear() < 1e-12);
@@ -466,9 +466,9 @@ fn at_either_end_of_the_numbers() {
     }
 }
 
-/// Next to a joint of a body far from x = 0 the places themselves are rounded.
+/// Next to a breakpoint of a body far from x = 0 the places themselves are rounded.
 #[test]
-fn beside_a_joint_anywhere() {
+fn beside_a_breakpoint_anywhere() {
     for shift in [0.0f64, 0.37, -20.0, 1e6] {
         let tip = |k: f64| 0.1 * (k - shift).abs();
         let side = |from: f64, to: f64, slope: f64| {
@@ -500,7 +500,7 @@ fn beside_a_joint_anywhere() {
             let rounding = 4.0 * f64::EPSILON * shift.abs() / (0.2 * y.hypot(x));
             worst = worst.nan_max(error / (2e-11 + rounding));
         }
-        println!("joint at {shift}: {worst:.2} of what rounding allows");
+        println!("breakpoint at {shift}: {worst:.2} of what rounding allows");
         assert!(worst < 1.0, "{shift}: {worst}");
     }
 }

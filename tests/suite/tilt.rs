@@ -147,9 +147,9 @@ fn a_parabola_held_by_one_corner() {
         let tilt = half_width / 2.0 - load / half_width - (corner - half_width);
         for (edges, sign) in [
             ([Edge::Free, Edge::Fixed(corner)], 1.0),
-            ([Edge::Free, Edge::UpTo(corner)], 1.0),
+            ([Edge::Free, Edge::FreeUntil(corner)], 1.0),
             ([Edge::Fixed(-corner), Edge::Free], -1.0),
-            ([Edge::UpTo(-corner), Edge::Free], -1.0),
+            ([Edge::FreeUntil(-corner), Edge::Free], -1.0),
         ] {
             let contact = contact.clone().edges(edges[0], edges[1]);
             let control = Control::CentreOfPressure { load, at: sign * (corner - arm) };
@@ -169,7 +169,7 @@ fn a_parabola_held_by_one_corner() {
 fn corners_hold_as_the_load_moves() {
     let body = parabola(3.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
-    let contact = contact.edges(Edge::UpTo(-0.5), Edge::UpTo(0.3));
+    let contact = contact.edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.3));
     let mut solver = Solver::new();
     let mut held = [0; 4];
     for load in [0.01, 0.05, 0.2] {
@@ -185,7 +185,7 @@ fn corners_hold_as_the_load_moves() {
             let slope = solution.tilt();
             let turned = graph(-3.0, 3.0, move |x| [x * x / 2.0 + slope * x, x + slope]);
             let known = Contact::new(&Flat, &*turned).unwrap();
-            let known = known.edges(Edge::UpTo(-0.5), Edge::UpTo(0.3));
+            let known = known.edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.3));
             assert_same(&solution, &known.solve(Control::Load(load)).unwrap(), 1e-12);
         }
     }
@@ -334,7 +334,7 @@ fn what_cannot_be() {
     let given = |load, at| Control::CentreOfPressure { load, at };
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for control in [given(load, 0.1), moment(load, 0.1)] {
-            assert!(matches!(error(&contact, control), ContactError::Load { .. }));
+            assert!(matches!(error(&contact, control), ContactError::InvalidLoad { .. }));
         }
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -343,14 +343,14 @@ fn what_cannot_be() {
             moment(0.1, bad),
             Control::Moment { load: 0.1, moment: 0.1, about: bad },
         ] {
-            assert!(matches!(error(&contact, control), ContactError::Moment { .. }));
+            assert!(matches!(error(&contact, control), ContactError::InvalidMoment { .. }));
         }
     }
     // Beyond the body, and so close to its end that the contact has no room.
     assert!(matches!(error(&contact, given(0.1, 1.1)), ContactError::OutsideBodies { .. }));
     for (load, at) in [(0.1, 0.9), (0.02, -0.95), (0.4, 0.5)] {
         match error(&contact, given(load, at)) {
-            ContactError::TooTilted { load: asked, at: place, reached, tilt, ends } => {
+            ContactError::TiltNotFound { load: asked, at: place, reached, tilt, ends } => {
                 assert_eq!((asked, place, ends), (load, at, [-1.0, 1.0]));
                 // The contact of half-width L = sqrt(2 F) can be moved up to the end.
                 let most = 1.0 - (2.0 * load).sqrt();
@@ -361,12 +361,12 @@ fn what_cannot_be() {
         }
     }
     // More than the bodies bear at any tilt.
-    assert!(matches!(error(&contact, given(2.0, 0.0)), ContactError::TooShort { .. }));
+    assert!(matches!(error(&contact, given(2.0, 0.0)), ContactError::DomainTooShort { .. }));
     let no_tilt = |contact: Contact<f64>| {
-        assert!(matches!(error(&contact, given(0.1, 0.1)), ContactError::NoTilt { .. }));
+        assert!(matches!(error(&contact, given(0.1, 0.1)), ContactError::TiltNotSupported { .. }));
     };
     no_tilt(contact.clone().edges(Edge::Adhesive(0.1), Edge::Free));
-    no_tilt(contact.clone().search(&Brent::DEFAULT));
+    no_tilt(contact.clone().limit_search(&Brent::DEFAULT));
     no_tilt(contact.clone().quadrature(&Midpoint::DEFAULT));
     let wanted = linecontact::EdgePressure {
         distance_a: 0.01,

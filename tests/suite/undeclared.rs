@@ -360,9 +360,9 @@ fn a_shape_common_to_both_bodies() {
 }
 
 #[test]
-fn a_tip_far_narrower_than_a_panel_beside_a_joint() {
+fn a_tip_far_narrower_than_a_panel_beside_a_breakpoint() {
     // The slope x + A (1 - exp(-x/ε)) on the right, x - A on the left. With θ₀ the angle of the
-    // joint, cos θ₀ = -c/L, the balance π m₀ = 0 is that of a wedge on a parabola, less the integral
+    // breakpoint, cos θ₀ = -c/L, the balance π m₀ = 0 is that of a wedge on a parabola, less the integral
     // of A exp(-x/ε)/sqrt((x + b)(a - x)).
     let steep = 0.3;
     for tip in [1e-3, 1e-5, 1e-7] {
@@ -433,7 +433,7 @@ fn waves_far_shorter_than_a_panel() {
 }
 
 /// With |x|ⁿ and F = c Lⁿ, P(0) = (1/π) ∫ F'(l)/l dl = n F/((n - 1) π L). The slope is hardly
-/// continuous at the joint, where what no integral sees counts.
+/// continuous at the breakpoint, where what no integral sees counts.
 #[test]
 fn the_pressure_at_the_tip_of_powers_close_to_one() {
     for n in [1.1, 1.2, 1.25, 1.5, 1.75] {
@@ -496,29 +496,34 @@ fn pieces_that_meet_where_their_derivatives_vanish() {
 }
 
 /// Beside a root of high order at such an end the curve is sampled so close to the end that rounding
-/// puts a parameter on it, where Y'/X' is 0/0. The gap is even about the joint, and so is the contact.
+/// puts a parameter on it, where Y'/X' is 0/0. The gap is even about the breakpoint, and so is the contact.
 #[test]
 fn a_root_beside_an_end_where_the_derivatives_vanish() {
-    let joint: f64 = -0.002783964073710917;
+    let breakpoint: f64 = -0.002783964073710917;
     let shape = move |x: f64| {
-        let (u, power) = (x - joint, 0.0026600581838);
+        let (u, power) = (x - breakpoint, 0.0026600581838);
         let root = 0.25 * u.abs().powf(power);
         (0.5 * u * u + root * u.abs() / (1.0 + power), u + root * u.signum())
     };
     let left = Curve::new([0.0, 1.0], move |k: f64| {
-        let width = 2.94 + joint;
-        let x = if k == 1.0 { joint } else { joint - width + width * k * k * (3.0 - 2.0 * k) };
+        let width = 2.94 + breakpoint;
+        let x = if k == 1.0 {
+            breakpoint
+        } else {
+            breakpoint - width + width * k * k * (3.0 - 2.0 * k)
+        };
         let ((y, slope), dx) = (shape(x), width * 6.0 * k * (1.0 - k));
         CurvePoint { x, y, dx, dy: slope * dx }
     });
-    let right = graph(joint, joint + 2.9, move |x| [shape(x).0, shape(x).1]);
+    let right = graph(breakpoint, breakpoint + 2.9, move |x| [shape(x).0, shape(x).1]);
     let body = Piecewise::new(vec![Box::new(left), right]).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
     for [before, after] in [[1.2e-4, 1.7e-4], [3e-4, 3e-4], [1e-4, 7e-4]] {
-        let contact =
-            contact.clone().start(Interval { left: joint - before, right: joint + after });
+        let contact = contact
+            .clone()
+            .start(Interval { left: breakpoint - before, right: breakpoint + after });
         let solution = contact.solve(Control::HalfWidth(1e-4)).unwrap();
-        let [left, right] = [joint - solution.hull().left, solution.hull().right - joint];
+        let [left, right] = [breakpoint - solution.hull().left, solution.hull().right - breakpoint];
         assert_relative_eq!(left, 1e-4, epsilon = 0.0, max_relative = 1e-10);
         assert_relative_eq!(right, 1e-4, epsilon = 0.0, max_relative = 1e-10);
     }

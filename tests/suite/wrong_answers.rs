@@ -94,13 +94,13 @@ fn corners_that_the_load_does_not_reach() {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
         assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
-        assert!(error.to_string().contains("UpTo"), "{error}");
+        assert!(error.to_string().contains("FreeUntil"), "{error}");
     }
     // Between two limits that are given it is the solution of the equation, and said not to be checked.
     let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
     let solution = given.solve(Control::Load(0.01)).unwrap();
     assert!(!solution.report().is_checked() && solution.edge_singularities()[0] < 0.0);
-    let up_to = contact.clone().edges(Edge::UpTo(-0.5), Edge::UpTo(0.5));
+    let up_to = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
     let solution = up_to.solve(Control::Load(0.01)).unwrap();
     assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
 }
@@ -170,7 +170,7 @@ fn a_bump_of_the_slope_that_the_panels_miss() {
         let panels = Panels { tolerance };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels).certified(true);
         match contact.solve(Control::Load(0.02)) {
-            Err(ContactError::Missed { x, .. }) => {
+            Err(ContactError::FeatureMissed { x, .. }) => {
                 assert!((x - x0).abs() < 4.0 * w, "missed at {x}, but the bump is at {x0}");
             }
             Err(error) => panic!("{error}"),
@@ -227,7 +227,7 @@ fn one_sided_most(p: f64, m: f64, mu: f64) -> [f64; 2] {
 /// Asserts that more than the bodies bear is an error that says what they bear.
 fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, end: f64, rel: f64) {
     match contact.solve(Control::Load(load)) {
-        Err(ContactError::TooShort { end: at, carried, .. }) => {
+        Err(ContactError::DomainTooShort { end: at, carried, .. }) => {
             let off = carried / most - 1.0;
             assert!(
                 off.abs() < rel,
@@ -335,7 +335,7 @@ fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
         let mut carried: Vec<f64> = Vec::new();
         for load in [1e-4, 1e-2, 1.0, 100.0, 1e3] {
             match contact.solve(Control::Load(load)) {
-                Err(ContactError::TooShort { carried: most, end, .. }) => {
+                Err(ContactError::DomainTooShort { carried: most, end, .. }) => {
                     let first = -25.0 * origin * origin;
                     assert!((end / first - 1.0).abs() < 1e-3, "{origin}, {load}: {end}, {first}");
                     carried.push(most);

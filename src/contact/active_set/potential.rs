@@ -29,13 +29,13 @@ const GAUSS: [(f64, f64); 3] = [
 
 /// A cell, in shares of a length that no two cells are further apart than.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<T> {
+pub(super) struct CellPlace<T> {
     pub centre: T,
     pub width: T,
 }
 
 /// The mean of `-ln|x - s|` for x in one cell and s in the other.
-pub(super) fn mean_log<T: Real>(one: Place<T>, other: Place<T>) -> T {
+pub(super) fn mean_log<T: Real>(one: CellPlace<T>, other: CellPlace<T>) -> T {
     let distance = (one.centre - other.centre).abs();
     let (v, w) = (one.width, other.width);
     if distance > T::of(1.9) * v.max(w) {
@@ -60,16 +60,16 @@ pub(super) fn mean_log<T: Real>(one: Place<T>, other: Place<T>) -> T {
 
 /// The potential of forces on given cells.
 pub(super) struct Potential<T> {
-    cells: Vec<Place<T>>,
+    cells: Vec<CellPlace<T>>,
     /// What a unit force on a cell does to each; empty until it is asked for.
     columns: Vec<Vec<T>>,
     /// Where there are many cells.
-    groups: Vec<Group<T>>,
+    groups: Vec<CellGroup<T>>,
     blocks: Vec<Block<T>>,
 }
 
 /// Cells in a row, and the powers of their places about the middle of the group.
-struct Group<T> {
+struct CellGroup<T> {
     cells: [usize; 2],
     centre: T,
     radius: T,
@@ -98,7 +98,7 @@ impl<T: Real> Potential<T> {
     /// Turns to other cells, some of which had a number before. The columns of those that are wanted are kept.
     pub fn set(
         &mut self,
-        cells: Vec<Place<T>>,
+        cells: Vec<CellPlace<T>>,
         before: &[Option<usize>],
         wanted: impl Fn(usize) -> bool,
     ) {
@@ -191,10 +191,10 @@ impl<T: Real> Potential<T> {
 
 /// Adds a group and all those within it; its number.
 fn group<T: Real>(
-    cells: &[Place<T>],
+    cells: &[CellPlace<T>],
     [from, to]: [usize; 2],
     block: usize,
-    groups: &mut Vec<Group<T>>,
+    groups: &mut Vec<CellGroup<T>>,
 ) -> usize {
     let half = T::of(0.5);
     let halves = (to - from > block).then(|| {
@@ -217,11 +217,11 @@ fn group<T: Real>(
         mean
     });
     let powers = powers.collect();
-    groups.push(Group { cells: [from, to], centre, radius, powers, halves });
+    groups.push(CellGroup { cells: [from, to], centre, radius, powers, halves });
     groups.len() - 1
 }
 
-impl<T: Real> Group<T> {
+impl<T: Real> CellGroup<T> {
     fn moments(&self, forces: &[T]) -> [T; MOMENTS] {
         let mut moments = [T::zero(); MOMENTS];
         let [from, to] = self.cells;
@@ -250,7 +250,7 @@ impl<T: Real> Group<T> {
 }
 
 impl<T: Real> Block<T> {
-    fn new(cells: &[Place<T>], groups: &[Group<T>], target: &Group<T>, root: usize) -> Self {
+    fn new(cells: &[CellPlace<T>], groups: &[CellGroup<T>], target: &CellGroup<T>, root: usize) -> Self {
         let [from, to] = target.cells;
         let places = AT_PLACES.map(|at| T::of(at[1]));
         let (mut near, mut far) = (Vec::new(), Vec::new());
@@ -321,14 +321,14 @@ mod tests {
     use super::*;
 
     /// Cells of very different widths, side by side.
-    fn graded(n: usize) -> Vec<Place<f64>> {
+    fn graded(n: usize) -> Vec<CellPlace<f64>> {
         let width = |i: usize| 1.0 + 80.0 * (0.5 + 0.5 * (i as f64 * 0.04).sin()).powi(6);
         let total: f64 = (0..n).map(width).sum();
         let mut left = 0.0;
         let mut cell = |i| {
             let width = width(i) / total;
             left += width;
-            Place { centre: left - width / 2.0, width }
+            CellPlace { centre: left - width / 2.0, width }
         };
         (0..n).map(&mut cell).collect()
     }
@@ -337,19 +337,19 @@ mod tests {
     fn the_mean_logarithm_is_its_double_integral() {
         let (points, weights) = gauss(40);
         for (distance, v, w) in [(0.9f64, 0.3, 0.2), (0.35, 0.3, 0.4), (0.2, 0.1, 0.05)] {
-            let one = Place { centre: distance, width: v };
+            let one = CellPlace { centre: distance, width: v };
             let mut sum = 0.0;
             for (t, a) in points.iter().zip(&weights) {
                 for (u, b) in points.iter().zip(&weights) {
                     sum -= a * b * (distance + 0.5 * v * t - 0.5 * w * u).abs().ln() / 4.0;
                 }
             }
-            let found = mean_log(one, Place { centre: 0.0, width: w });
+            let found = mean_log(one, CellPlace { centre: 0.0, width: w });
             // The formula for cells far from each other leaves out the sixth power.
             assert!((found / sum - 1.0).abs() < 2e-4, "{distance}: {found} {sum}");
         }
         // A cell on itself: 3/2 - ln w.
-        let cell = Place { centre: 0.4f64, width: 0.01 };
+        let cell = CellPlace { centre: 0.4f64, width: 0.01 };
         assert!((mean_log(cell, cell) - (1.5 - 0.01f64.ln())).abs() < 1e-13);
     }
 

@@ -6,7 +6,7 @@
 
 use crate::contact::equations::Equations;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::Engine;
+use crate::quadrature::Integrator;
 use crate::{ContactError, Interval, Real};
 
 /// Steps taken; each gains three to five digits.
@@ -19,16 +19,16 @@ const SHARE: f64 = 1e-5;
 pub(super) fn differentiate<T: Real>(
     equations: &Equations<T>,
     gap: &Gap<'_, T>,
-    engine: &mut dyn Engine<T>,
+    integrator: &mut dyn Integrator<T>,
     found: Interval<T>,
     half_width: Option<T>,
     cost: &mut Cost,
 ) -> Result<Interval<T>, ContactError<T>> {
-    if T::MORE_STEPS == 0 {
+    if T::DERIVATIVE_ORDER == 0 {
         return Ok(found);
     }
     let (zero, half) = (T::zero(), T::of(0.5));
-    let size = found.half_width().part(0);
+    let size = found.half_width().component(0);
     let [left_given, right_given] = equations.limits();
     let start = found.plain();
     let start = match half_width {
@@ -54,7 +54,7 @@ pub(super) fn differentiate<T: Real>(
     };
     let both = ways[1] != [zero; 2];
     let mut missed = |on: Interval<T>| -> Result<[T; 2], ContactError<T>> {
-        let residual = equations.residual(gap, on, engine, cost)?;
+        let residual = equations.residual(gap, on, integrator, cost)?;
         let (at_a, at_b) = (residual.at_a, residual.at_b);
         Ok(match (both, half_width) {
             (true, _) => [at_b, at_a],
@@ -64,7 +64,7 @@ pub(super) fn differentiate<T: Real>(
     };
     let share = T::of(SHARE);
     let at_start = missed(start)?;
-    let rate = |there: [T; 2]| [0, 1].map(|i| ((there[i] - at_start[i]) / share).part(0));
+    let rate = |there: [T; 2]| [0, 1].map(|i| ((there[i] - at_start[i]) / share).component(0));
     let by_one = rate(missed(moved(start, [share, zero]))?);
     let by_other = if both { rate(missed(moved(start, [zero, share]))?) } else { [zero, T::one()] };
     let determinant = by_one[0] * by_other[1] - by_other[0] * by_one[1];
@@ -80,6 +80,6 @@ pub(super) fn differentiate<T: Real>(
     if shift <= T::of(0.25) * size {
         Ok(on)
     } else {
-        Err(ContactError::NoBalance { half_width: size, near: found.centre() })
+        Err(ContactError::NoEquilibrium { half_width: size, near: found.centre() })
     }
 }

@@ -1,7 +1,7 @@
 //! The outer search: how wide the contact is.
 
-use super::place::Placed;
-use super::{Search, Trial, nearer};
+use super::centre::Centred;
+use super::{NestedSearch, TrialContact, nearer};
 use crate::contact::equations::{Equations, Residual};
 use crate::search::Bracket;
 use crate::{ContactError, Interval, Real};
@@ -13,9 +13,9 @@ const MOST_WIDTHS: usize = 2200;
 /// The largest power of the width that a load is taken to go with.
 const STEEPEST: f64 = 40.0;
 
-impl<T: Real> Search<'_, T> {
+impl<T: Real> NestedSearch<'_, T> {
     /// Finds the half-width at which the spread vanishes, starting from a guess.
-    pub fn widen(&mut self, guess: T) -> Result<Trial<T>, ContactError<T>> {
+    pub fn widen(&mut self, guess: T) -> Result<TrialContact<T>, ContactError<T>> {
         let [narrow, wide] = self.enclose(guess)?;
         if narrow.residual.spread() == T::zero() {
             return Ok(narrow);
@@ -24,22 +24,22 @@ impl<T: Real> Search<'_, T> {
             .values(narrow.residual.deficit(), wide.residual.deficit());
         let mut best = nearer(narrow, wide, Residual::deficit);
         self.run(&ends, &mut best, Residual::deficit, |search, half_width| {
-            match search.place(half_width)? {
-                Placed::At(trial) => Ok(trial),
-                Placed::Beyond(_) | Placed::Adrift(_) => Err(search.no_balance(half_width)),
+            match search.centre(half_width)? {
+                Centred::At(trial) => Ok(trial),
+                Centred::Beyond(_) | Centred::Adrift(_) => Err(search.no_balance(half_width)),
             }
         })
     }
 
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
-    fn enclose(&mut self, guess: T) -> Result<[Trial<T>; 2], ContactError<T>> {
+    fn enclose(&mut self, guess: T) -> Result<[TrialContact<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
         let given = self.equations.limits().iter().any(Option::is_some);
         // Closer to a given limit the other is the same number.
         let resolution = if given { self.resolution() } else { zero };
         let least = (half * self.equations.least_width()).max(resolution);
         let most = half * (self.range[1] - self.range[0]);
-        let (mut narrow, mut wide): (Option<Trial<T>>, Option<Trial<T>>) = (None, None);
+        let (mut narrow, mut wide): (Option<TrialContact<T>>, Option<TrialContact<T>>) = (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
         let mut next_width = NextWidth::new();
         // The least width known to have no balance.
@@ -50,9 +50,9 @@ impl<T: Real> Search<'_, T> {
             if tries > MOST_WIDTHS {
                 return Err(self.no_balance(half_width));
             }
-            let trial = match (self.place(half_width)?, narrow) {
-                (Placed::At(trial), _) => trial,
-                (Placed::Adrift(_), _) => {
+            let trial = match (self.centre(half_width)?, narrow) {
+                (Centred::At(trial), _) => trial,
+                (Centred::Adrift(_), _) => {
                     adrift = Some(half_width);
                     let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
                     half_width = half * from + half * half_width;
@@ -61,18 +61,18 @@ impl<T: Real> Search<'_, T> {
                     }
                     continue;
                 }
-                (Placed::Beyond(end), Some(narrow)) => {
+                (Centred::Beyond(end), Some(narrow)) => {
                     let trial = self.pin(end, narrow.on)?;
                     if trial.residual.spread() > zero {
                         return Err(self.too_short(trial.on));
                     }
                     trial
                 }
-                (Placed::Beyond(_), None) if half_width * half > least => {
+                (Centred::Beyond(_), None) if half_width * half > least => {
                     half_width *= half;
                     continue;
                 }
-                (Placed::Beyond(_), None) => return Err(self.no_balance(half_width)),
+                (Centred::Beyond(_), None) => return Err(self.no_balance(half_width)),
             };
             let (last, spread) = (trial.on.half_width(), trial.residual.spread());
             if spread == zero {
@@ -119,7 +119,7 @@ impl<T: Real> Search<'_, T> {
     }
 
     /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
-    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<Trial<T>, ContactError<T>> {
+    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
         let (origin, range, room) = (self.origin, self.range, self.room());
         let on = |other: T| match end {
             0 => Interval { left: range[0], right: origin + other },

@@ -14,7 +14,7 @@
 
 use super::SplineError;
 use crate::Real;
-use crate::search::{Bracket, Brent, LimitSearch, SearchError, Tolerance};
+use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
 
 /// A row of the equations: the height and the slope at two neighbouring knots, and the right side.
 type Row<T> = [T; 5];
@@ -55,7 +55,7 @@ pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>
     let near = off(least, &mut knots);
     if near < T::zero() {
         let bracket = Bracket::new(least.ln(), most.ln()).values(near, line_off.ln());
-        let search = Brent { tolerance: Tolerance { residual: 1e-4, ..Tolerance::FULL } };
+        let search = Brent { tolerance: StoppingCriteria { residual: 1e-4, ..StoppingCriteria::FULL } };
         let found = search.find(&mut |reach: T| off(reach.exp(), &mut knots), &bracket);
         let reach = found.map_err(|source| SplineError::Smoothing { source })?.x.exp();
         off(reach, &mut knots);

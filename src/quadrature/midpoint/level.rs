@@ -46,7 +46,7 @@ impl<'g, T: Real> Pole<'g, T> {
 
     /// sqrt(1 - z²)
     fn root(&self) -> T {
-        self.on.edge_root(self.x) / self.on.half_width()
+        self.on.chebyshev_weight(self.x) / self.on.half_width()
     }
 }
 

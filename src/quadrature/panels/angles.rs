@@ -1,20 +1,20 @@
 //! The angle θ of `x = c + L cos θ` without a trigonometric function.
 //!
 //! The half-angle of a point is known from its distances to the two edges: `cos θ/2 = sqrt((x +
-//! b)/2L)`, `sin θ/2 = sqrt((a - x)/2L)`. On a stretch with the middle θ_m let `σ = tan((θ -
+//! b)/2L)`, `sin θ/2 = sqrt((a - x)/2L)`. On a span with the middle θ_m let `σ = tan((θ -
 //! θ_m)/2)`. Then
 //!
 //! ```text
 //! x - x_m = -2 L σ (σ cos θ_m + sin θ_m)/(1 + σ²)          dθ = 2 dσ/(1 + σ²)
 //! ```
 //!
-//! which keeps all digits of a distance within the stretch however short it is, and the integrand
+//! which keeps all digits of a distance within the span however short it is, and the integrand
 //! is smooth: its only poles are at σ = ±i, and |σ| < 1.
 //!
 //! Where digits of short distances are not needed, a polynomial is summed up as a cosine series
-//! instead, whose integrals over a stretch are differences of `sin kθ/k`.
+//! instead, whose integrals over a span are differences of `sin kθ/k`.
 
-use super::chebyshev::MOST;
+use crate::numerics::chebyshev::MOST;
 use crate::{Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -47,7 +47,7 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// The integrals of `cos kφ` over a stretch of φ; or over that from 0 to θ, which are `sin kθ/k`.
+/// The integrals of `cos kφ` over a span of φ; or over that from 0 to θ, which are `sin kθ/k`.
 pub(super) type Sines<T> = [T; MOST + 2];
 
 impl<T: Real> HalfAngle<T> {
@@ -88,7 +88,7 @@ const SHARES: [f64; MOST + 1] = {
     shares
 };
 
-/// A stretch of a contact, by the angles of its ends.
+/// A span of a contact, by the angles of its ends.
 pub(super) struct Arc<T> {
     /// cos θ_m and sin θ_m.
     pub cos: T,
@@ -140,7 +140,7 @@ static RULES: LazyLock<[Gauss; 7]> =
     LazyLock::new(|| [8, 16, 24, 32, 40, 48, MOST_NODES].map(Gauss::new));
 
 impl Gauss {
-    /// The rule for a polynomial of n coefficients on a stretch with this tangent. The integrand has
+    /// The rule for a polynomial of n coefficients on a span with this tangent. The integrand has
     /// its poles at ±i/tangent, of an order that grows with n; that many nodes leave an error of
     /// 1e-15 (found by trial).
     pub fn suited<T: Real>(n: usize, tangent: T) -> &'static Self {

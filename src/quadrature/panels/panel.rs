@@ -1,10 +1,10 @@
 //! One polynomial piece of the slope, and whether it is good enough.
 
-use super::chebyshev::{MOST, Row, SIZES, Table, expand_to, size_for, value_at};
+use crate::numerics::chebyshev::{MOST, Row, SIZES, Table, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
-/// The slope of the gap over an interval without joints, as a Chebyshev series.
+/// The slope of the gap over an interval without breakpoints, as a Chebyshev series.
 #[derive(Clone, Copy)]
 pub(crate) struct Panel<T> {
     /// Its two ends.
@@ -31,16 +31,16 @@ impl<T: Real> Panel<T> {
     pub fn count(&mut self, n: usize) {
         let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
         self.n = n;
-        self.counting = counting(&self.series[..n], 0..T::PARTS, rounding);
+        self.counting = significant_length(&self.series[..n], 0..T::COMPONENTS, rounding);
     }
 
     /// Leaves out the coefficients that are no more than noise of this level: they say nothing of the
     /// slope, and add up at the ends of the panel.
     pub fn drop_noise(&mut self, level: T) {
-        let by_value = counting(self.coefficients(), 0..1, |_| T::of(4.0) * level);
+        let by_value = significant_length(self.coefficients(), 0..1, |_| T::of(4.0) * level);
         // In derivatives the noise is another.
         let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
-        self.counting = counting(self.coefficients(), 1..T::PARTS, rounding).max(by_value);
+        self.counting = significant_length(self.coefficients(), 1..T::COMPONENTS, rounding).max(by_value);
     }
 
     /// Takes a straight line from the first to the last node in place of the series, which overshoots where the
@@ -111,14 +111,14 @@ pub(super) type Series<T> = (Row<T>, usize);
 
 /// How many coefficients there are, two at least, up to the last that is more than nothing in any of
 /// these parts, given what is nothing beside the largest.
-fn counting<T: Real>(
+fn significant_length<T: Real>(
     series: &[T],
     parts: std::ops::Range<usize>,
     nothing: impl Fn(T) -> T,
 ) -> usize {
     let mut counting = 2;
     for part in parts {
-        let size = |a: &T| a.part(part).abs();
+        let size = |a: &T| a.component(part).abs();
         let nothing = nothing(series.iter().fold(T::zero(), |max, a| max.max(size(a))));
         let last = series.iter().rposition(|a| size(a) > nothing);
         counting = last.map_or(2, |last| last + 1).max(counting);
@@ -135,7 +135,7 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
 }
 
 /// What the coefficients say of a series.
-pub(super) enum Verdict<T> {
+pub(super) enum Resolution<T> {
     /// Good enough, with an estimate of its largest error.
     Good(T),
     /// The coefficients have sunk into the noise of the samples, of this size.
@@ -150,7 +150,7 @@ pub(super) enum Verdict<T> {
 ///
 /// Errors up to `allowed` are good enough. `rounded` is what a unit of rounding makes of the bodies'
 /// slopes on this panel.
-pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Verdict<T> {
+pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Resolution<T> {
     let pairs = n / 2;
     let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
@@ -164,7 +164,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         fall = fall.max(fell);
     }
     if last <= T::of(8.0) * rounded && pairs >= 4 {
-        return Verdict::Good(last.max(rounded));
+        return Resolution::Good(last.max(rounded));
     }
     let error = if levels {
         last + last
@@ -180,7 +180,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     if error * doubt <= allowed && enough {
         // Nor do they fall on for ever as they have: a large constant may stand before a series.
         let seen = if pairs < 4 { T::of(0.25) * last } else { rounded };
-        return Verdict::Good(error.max(rounded).max(seen));
+        return Resolution::Good(error.max(rounded).max(seen));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
     // one third of them to the next.
@@ -191,10 +191,10 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let plateau = third(2);
     let faint = plateau <= rounded / T::epsilon().cbrt();
     if n >= 12 && faint && plateau >= T::of(0.42) * third(1) {
-        return Verdict::Noise(plateau);
+        return Resolution::Noise(plateau);
     }
     if faint && n < 24 {
-        return Verdict::Take(if n < 8 { 8 } else { 24 }, last);
+        return Resolution::Take(if n < 8 { 8 } else { 24 }, last);
     }
     let mut expected = error * doubt;
     let mut have = n;
@@ -203,8 +203,8 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
             (expected, have) = (expected * fall, have + 2);
         }
         if expected <= allowed {
-            return Verdict::Take(more, last);
+            return Resolution::Take(more, last);
         }
     }
-    Verdict::Split(last)
+    Resolution::Split(last)
 }

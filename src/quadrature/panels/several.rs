@@ -28,23 +28,23 @@
 //!
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
-mod apart;
-mod beside;
-mod part;
-mod punch;
+mod distant_contacts;
+mod exterior;
+mod one_of_several;
+mod load_response;
 mod weight;
 
-use super::conjugate::LANES;
-use super::cover::Cover;
+use super::hilbert_transform::LANES;
+use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Interval, Real};
-use apart::Apart;
-use part::{Part, gauss};
-pub(crate) use punch::Punch;
+use distant_contacts::DistantContacts;
+use one_of_several::{OneOfSeveral, gauss};
+pub(crate) use load_response::LoadResponse;
 use std::ops::Range;
 use weight::Weight;
 
-/// The longest stretch of the way through a gap that one Gauss rule takes, in the variable t of
+/// The longest span of the way through a gap that one Gauss rule takes, in the variable t of
 /// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
 const STRETCH: f64 = 2.0;
 
@@ -54,7 +54,7 @@ const MOST_STRETCHES: usize = 1000;
 /// Several contacts on their panels.
 #[derive(Clone)]
 pub(crate) struct Several<T> {
-    parts: Vec<Part<T>>,
+    parts: Vec<OneOfSeveral<T>>,
     /// How many of the parts are in use.
     count: usize,
     weight: Weight<T>,
@@ -141,7 +141,7 @@ impl<T: Real> Several<T> {
             self.count = on.len();
         }
         while self.parts.len() < self.count {
-            self.parts.push(Part::new(self.tolerance));
+            self.parts.push(OneOfSeveral::new(self.tolerance));
         }
         let half = T::of(0.5);
         for (i, part) in self.parts[..self.count].iter_mut().enumerate() {
@@ -151,9 +151,9 @@ impl<T: Real> Several<T> {
             part.sample(gap, on[i], [from, to])?;
             let (near, weight) = (self.weight.next_to(i), &self.weight);
             let far = |x| weight.far(i, near.clone(), x);
-            let apart = Apart::new(near.clone(), self.count, on[i], self.tolerance, far);
+            let apart = DistantContacts::new(near.clone(), self.count, on[i], self.tolerance, far);
             part.set(|x| weight.near(i, apart.near.clone(), x) * apart.far(x, T::one()));
-            (part.weight, part.value) = (apart, Apart::near(self.count));
+            (part.weight, part.value) = (apart, DistantContacts::near(self.count));
         }
         Ok(())
     }
@@ -177,7 +177,7 @@ impl<T: Real> Several<T> {
         !(i == 0 && corners[0] || i + 1 == 2 * self.count && corners[1])
     }
 
-    fn parts(&self) -> &[Part<T>] {
+    fn parts(&self) -> &[OneOfSeveral<T>] {
         &self.parts[..self.count]
     }
 
@@ -197,10 +197,10 @@ impl<T: Real> Several<T> {
     }
 
     /// What all contacts make of V over an interval, next to which are these.
-    fn apart(&self, near: Range<usize>, on: Interval<T>) -> Apart<T> {
+    fn apart(&self, near: Range<usize>, on: Interval<T>) -> DistantContacts<T> {
         let far = || (0..near.start).chain(near.end..self.count);
         let value = |x| self.outside(far(), x, None);
-        Apart::new(near.clone(), self.count, on, self.tolerance, value)
+        DistantContacts::new(near.clone(), self.count, on, self.tolerance, value)
     }
 
     /// The conditions for a load, that is F/κ.
@@ -241,25 +241,25 @@ impl<T: Real> Several<T> {
             open.push(error);
             jacobian.extend((0..2 * n).filter(|&i| is_free(i)).map(by));
         };
-        let error = |share: &dyn Fn(&Part<T>) -> T| {
+        let error = |share: &dyn Fn(&OneOfSeveral<T>) -> T| {
             self.parts()
                 .iter()
                 .fold(zero, |sum, part| sum + T::pi() * part.moments.error * share(part))
         };
         for (&x, &value) in self.weight.zeros().iter().zip(&*at_zeros) {
             let away =
-                |part: &Part<T>| one / (x - part.on.right).abs().min((x - part.on.left).abs());
+                |part: &OneOfSeveral<T>| one / (x - part.on.right).abs().min((x - part.on.left).abs());
             row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
         }
         *load_row = at_zeros.len() + usize::from(corners == [false; 2]);
         let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.mean);
         if corners == [false; 2] {
             row(total, error(&|_| one), &mut |i| half * at_ends[i]);
-            let borne = self.parts().iter().fold(zero, |sum, Part { on, moments, .. }| {
+            let borne = self.parts().iter().fold(zero, |sum, OneOfSeveral { on, moments, .. }| {
                 sum + (on.centre() - centre) * moments.mean + on.half_width() * moments.first
             });
             let reach =
-                |part: &Part<T>| (part.on.left - centre).abs().max((part.on.right - centre).abs());
+                |part: &OneOfSeveral<T>| (part.on.left - centre).abs().max((part.on.right - centre).abs());
             row(borne - load, error(&reach) / T::pi(), &mut |i| {
                 half * ((end(i) - centre) * at_ends[i] + total) / T::pi()
             });
@@ -341,7 +341,7 @@ impl<T: Real> Several<T> {
     fn powers(&self, about: T) -> [T; 3] {
         let (half, two) = (T::of(0.5), T::of(2.0));
         let mut powers = [T::zero(); 3];
-        for Part { on, moments, .. } in self.parts() {
+        for OneOfSeveral { on, moments, .. } in self.parts() {
             let (away, half_width) = (on.centre() - about, on.half_width());
             let arm = half_width * moments.first;
             let second = moments.second.unwrap_or(T::zero());
@@ -353,7 +353,7 @@ impl<T: Real> Several<T> {
         powers
     }
 
-    /// Far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from
+    /// NearFarSum from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from
     /// x₀: the two numbers.
     fn afar(&self, about: T) -> [T; 2] {
         let half = T::of(0.5);
@@ -450,7 +450,7 @@ impl<T: Real> Several<T> {
     }
 
     /// The slope of the gap around a contact.
-    pub fn cover(&self, contact: usize) -> &Cover<T> {
+    pub fn sample_over(&self, contact: usize) -> &PanelSet<T> {
         &self.parts[contact].cover
     }
 
@@ -507,7 +507,7 @@ impl<T: Real> Several<T> {
             let away = (other.on.left - x).max(x - other.on.right);
             sum + other.moments.error / away
         });
-        let root = part.on.edge_root(x);
+        let root = part.on.chebyshev_weight(x);
         let of_edges = sixth * T::pi() * part.on.half_width() * part.moments.error / root;
         let scale = T::pi() * T::pi() * self.weight.on_contact(i, x).abs();
         (part.error(x) + of_edges + T::pi() * root * by_others) / scale

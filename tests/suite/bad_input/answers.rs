@@ -57,7 +57,7 @@ fn what_is_asked_of_a_solution() {
     let (middle, beside) = (0.5 * (on.left + on.right), on.right + 0.1);
     for x in [NAN, INF, -INF, 1.3, -1.3, f64::MAX] {
         let outside = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::OutsideBodies { x: at, range: [-1.2, 1.2] }) if same(*at, x));
-        let misplaced = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Misplaced { x: at, inside: true, interval }) if same(*at, x) && *interval == on);
+        let misplaced = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: true, interval }) if same(*at, x) && *interval == on);
         let above = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::AboveSurface { x: at, depth: 0.1 }) if same(*at, x));
         table.row(&format!("pressure at {x}"), 0, || Ok(pressure.at(x)?), outside);
         table.row(
@@ -81,7 +81,7 @@ fn what_is_asked_of_a_solution() {
         if !x.is_finite() {
             table.row(&format!("stress at {x}"), 0, || Ok(below().at(x, 0.1)?), above);
             table.row(&format!("friction {x}"), 0, || Ok(below().friction(x).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Friction { coefficient }) if same(*coefficient, x))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidFriction { coefficient }) if same(*coefficient, x))
             });
         }
     }
@@ -93,13 +93,13 @@ fn what_is_asked_of_a_solution() {
             |wrong| matches!(wrong, Wrong::Contact(ContactError::Singular { x: at }) if *at == x),
         );
         table.row("residual at an edge", 0, || Ok(solution.residual(x)?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Misplaced { x: at, inside: true, .. }) if *at == x)
+            matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: true, .. }) if *at == x)
         });
     }
     for x in [middle, on.right.next_down(), on.left.next_up()] {
         for asked in [solution.gap_at(x), solution.gap_slope(x)] {
             table.row("gap inside", 0, || Ok(asked?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Misplaced { x: at, inside: false, .. }) if *at == x)
+                matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: false, .. }) if *at == x)
             });
         }
     }
@@ -132,7 +132,7 @@ fn what_is_asked_of_a_solution() {
     }
     let stress = Stress { sigma_x: -1.0, sigma_y: -2.0, tau_xy: 0.5 };
     for poisson in [NAN, INF, -INF, -TINY, -0.1, 0.5f64.next_up(), 1.0] {
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::PoissonRatio { ratio }) if same(*ratio, poisson));
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidPoissonRatio { ratio }) if same(*ratio, poisson));
         table.row(&format!("σ_z with ν = {poisson}"), 0, || Ok(stress.sigma_z(poisson)?), is_it);
         table.row(
             &format!("von Mises with ν = {poisson}"),
@@ -150,7 +150,7 @@ fn what_is_asked_of_a_solution() {
     for (x, places) in [(vec![], 1), (vec![middle], 0), (vec![middle; 3], 2), (vec![NAN; 40], 41)] {
         let (given, mut out) = (x.len(), vec![0.0; places]);
         table.row(&format!("{given} x, {places} places"), 0, || Ok(pressure.at_many(&x, &mut out)?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Lengths { x, pressures }) if (*x, *pressures) == (given, places))
+            matches!(wrong, Wrong::Contact(ContactError::LengthMismatch { x, pressures }) if (*x, *pressures) == (given, places))
         });
     }
     // Where the pressure is infinite, or the load is none.
@@ -175,7 +175,7 @@ fn what_is_asked_of_a_solution() {
         "centre of no load",
         0,
         || Ok(idle.centre_of_pressure()?),
-        contact_error!(ContactError::Load { load: 0.0 }),
+        contact_error!(ContactError::InvalidLoad { load: 0.0 }),
     );
     let sticky = contact.clone().edges(Edge::Adhesive(1e-3), Edge::Free);
     let sticky = sticky.solve(Control::Load(0.05)).unwrap();
@@ -183,7 +183,7 @@ fn what_is_asked_of_a_solution() {
         "rates with adhesion",
         0,
         || Ok(sticky.load_rates()?),
-        contact_error!(ContactError::NoRate { .. }),
+        contact_error!(ContactError::NoLoadDerivative { .. }),
     );
     let holey = curve([-1.0, 1.0], |k| CurvePoint {
         y: if k > 0.5 { NAN } else { point(k).y },

@@ -103,7 +103,7 @@ fn everywhere(form: &dyn ClosedForm<f64>) {
     for kappa in EXTREMES {
         let _ = (form.load(kappa), form.pressure(0.5 * right, kappa));
     }
-    let _ = (form.joints(), form.edges());
+    let _ = (form.breakpoints(), form.edges());
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn ranges_of_bodies() {
     let form = Hertz::new(1.0, 0.3).unwrap();
     for (from, to) in [(NAN, 1.0), (-1.0, NAN), (-INF, 1.0), (-1.0, INF), (1.0, -1.0), (0.2, 0.2)] {
         table.row(&format!("{from} to {to}"), 0, || Ok(body_of(&form, from, to).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Joint(PiecewiseError::InPiece { piece: 0, source: ProfileError::Domain { from: f, to: t } })
+            matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 0, source: ProfileError::Domain { from: f, to: t } })
                 if same(*f, from) && same(*t, to))
         });
     }

@@ -11,7 +11,8 @@ fn budgets_of_searches() {
     let inverted = body();
     let rule = Midpoint::default();
     for max_evaluations in [0, 1, 2] {
-        let [one, two, three, four] = strategies(Tolerance { max_evaluations, ..Tolerance::FULL });
+        let [one, two, three, four] =
+            strategies(StoppingCriteria { max_evaluations, ..StoppingCriteria::FULL });
         for (i, strategy) in [&one, &two, &three, &four].into_iter().enumerate() {
             let contact =
                 Contact::new(&Flat, &*inverted).unwrap().inversion(&**strategy).quadrature(&rule);
@@ -20,7 +21,7 @@ fn budgets_of_searches() {
                 matches!(wrong, Wrong::Contact(ContactError::Inversion { body: Body::Upper, x, source: SearchError::Budget { best } })
                     if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
             });
-            let contact = Contact::new(&Flat, &*upper).unwrap().search(&**strategy);
+            let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&**strategy);
             let contact = contact.single_interval(true);
             table.outcome(
                 &format!("search {i}, {max_evaluations}"),
@@ -127,9 +128,9 @@ fn strategies_that_lie() {
         for (how, contact, most) in [
             ("inversion", contact.clone().inversion(liar).quadrature(&rule), 40_000),
             ("inversion, panels", contact.clone().inversion(liar), 40_000),
-            ("search", contact.clone().search(liar), 4_000),
-            ("search, half-width", contact.clone().search(liar), 4_000),
-            ("search, peak", contact.clone().search(liar), 40_000),
+            ("search", contact.clone().limit_search(liar), 4_000),
+            ("search, half-width", contact.clone().limit_search(liar), 4_000),
+            ("search, peak", contact.clone().limit_search(liar), 40_000),
             ("inversion of a flat spot, panels", flat.clone().inversion(liar), 40_000),
         ] {
             let load = if how.contains("width") {
@@ -177,13 +178,13 @@ fn strategies_that_lie() {
 struct Same(f64);
 
 impl Quadrature<f64> for Same {
-    fn engine(&self) -> Result<Box<dyn Engine<f64>>, ContactError<f64>> {
+    fn integrator(&self) -> Result<Box<dyn Integrator<f64>>, ContactError<f64>> {
         Ok(Box::new(Self(self.0)))
     }
 }
 
-impl Engine<f64> for Same {
-    fn fork(&self) -> Box<dyn Engine<f64>> {
+impl Integrator<f64> for Same {
+    fn fork(&self) -> Box<dyn Integrator<f64>> {
         Box::new(Self(self.0))
     }
     fn reset(&mut self, _: bool) {}
@@ -209,7 +210,7 @@ impl Engine<f64> for Same {
     fn estimate(
         &self,
         _: &Gap<f64>,
-        _: &Pressing<f64>,
+        _: &LoadCase<f64>,
         _: f64,
         _: &mut Cost,
     ) -> Result<Estimate<f64>, ContactError<f64>> {
@@ -228,8 +229,8 @@ fn quadratures_that_lie() {
         let lie = Same(value);
         let contact = Contact::new(&Flat, &*upper).unwrap().quadrature(&lie);
         let fixed = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.2));
-        let corner = contact.clone().edges(Edge::UpTo(-0.1), Edge::UpTo(0.2));
-        let by_brent = contact.clone().search(&Brent::DEFAULT);
+        let corner = contact.clone().edges(Edge::FreeUntil(-0.1), Edge::FreeUntil(0.2));
+        let by_brent = contact.clone().limit_search(&Brent::DEFAULT);
         for (how, contact) in
             [("free", &contact), ("corners", &corner), ("searched", &by_brent), ("fixed", &fixed)]
         {

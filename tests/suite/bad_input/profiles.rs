@@ -26,7 +26,7 @@ fn bodies() {
         let checked = |wrong: &Wrong| matches!(wrong, Wrong::Profile(source) if wanted(source));
         table.row(&name, 0, || Ok(Piece::checked(&*curve(domain, point)).map(|_| ())?), checked);
         table.row(&name, 0, || Ok(Piece::new(&*curve(domain, point)).map(|_| ())?), checked);
-        let joined = |wrong: &Wrong| matches!(wrong, Wrong::Joint(PiecewiseError::InPiece { piece: 1, source }) if wanted(source));
+        let joined = |wrong: &Wrong| matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 1, source }) if wanted(source));
         let pieces = vec![curve([-2.0, -1.0], point), curve(domain, point)];
         table.row(&name, 39, || Ok(Piecewise::new(pieces).map(|_| ())?), joined);
     }
@@ -72,7 +72,7 @@ fn bodies() {
             Ok(Contact::new(&*beside, &*curve([-1.0, 1.0], |k| CurvePoint { x: k, ..point(k) }))
                 .map(|_| ())?)
         },
-        contact_error!(ContactError::Apart { lower: [-3.0, -1.0], upper: [-1.0, 1.0] }),
+        contact_error!(ContactError::NoCommonRange { lower: [-3.0, -1.0], upper: [-1.0, 1.0] }),
     );
     table.finish();
 }
@@ -134,7 +134,7 @@ fn compound_profiles_that_are_none() {
 }
 
 #[test]
-fn joints() {
+fn breakpoints() {
     let mut table = Table::new("Piecewise::new");
     let line = |from: f64, to: f64, up: f64| {
         curve([from, to], move |k| CurvePoint { x: k, y: up, dx: 1.0, dy: 0.0 })
@@ -143,12 +143,12 @@ fn joints() {
         "no pieces",
         0,
         || Ok(Piecewise::<f64, Profile>::new(vec![]).map(|_| ())?),
-        |wrong| matches!(wrong, Wrong::Joint(PiecewiseError::NoPieces)),
+        |wrong| matches!(wrong, Wrong::Breakpoint(PiecewiseError::NoPieces)),
     );
     for tolerance in [NAN, INF, -INF, -1.0, -TINY] {
         let pieces = || vec![line(-1.0, 0.0, 0.0), line(0.0, 1.0, 0.0)];
         table.row(&format!("tolerance {tolerance}"), 0, || Ok(Piecewise::with_tolerance(pieces(), tolerance).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Joint(PiecewiseError::Tolerance { tolerance: t }) if same(*t, tolerance))
+            matches!(wrong, Wrong::Breakpoint(PiecewiseError::Tolerance { tolerance: t }) if same(*t, tolerance))
         });
     }
     let mut pair = |name: &str, right: Profile, expected: fn(&PiecewiseError<f64>) -> bool| {
@@ -157,17 +157,17 @@ fn joints() {
             name,
             78,
             || Ok(Piecewise::new(pieces).map(|_| ())?),
-            |wrong| matches!(wrong, Wrong::Joint(error) if expected(error)),
+            |wrong| matches!(wrong, Wrong::Breakpoint(error) if expected(error)),
         );
     };
     pair("a gap", line(0.5, 1.0, 0.0), |error| {
-        *error == PiecewiseError::Gap { joint: 0, left: 0.0, right: 0.5 }
+        *error == PiecewiseError::Gap { breakpoint: 0, left: 0.0, right: 0.5 }
     });
     pair("an overlap", line(-0.5, 1.0, 0.0), |error| {
-        *error == PiecewiseError::Overlap { joint: 0, left: 0.0, right: -0.5 }
+        *error == PiecewiseError::Overlap { breakpoint: 0, left: 0.0, right: -0.5 }
     });
     pair("a jump", line(0.0, 1.0, 3.0), |error| {
-        *error == PiecewiseError::Jump { joint: 0, x: 0.0, left: 0.0, right: 3.0 }
+        *error == PiecewiseError::Jump { breakpoint: 0, x: 0.0, left: 0.0, right: 3.0 }
     });
     pair("Y that is NaN", line(0.0, 1.0, NAN), |error| {
         matches!(

@@ -18,19 +18,19 @@ fn loads_scales_and_edges() {
         for (name, way) in ways {
             let given = if name == "Constant" { value / PI } else { value };
             table.row(&format!("{name}({value:e})"), 0, || Ok(contact.solve(way(value)).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Load { load }) if same(*load, given))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { load }) if same(*load, given))
             });
         }
         table.row(&format!("κ = {value:e}"), 0, || Ok(contact.clone().kappa(value).solve(good).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Scale { kappa }) if same(*kappa, value))
+            matches!(wrong, Wrong::Contact(ContactError::InvalidKappa { kappa }) if same(*kappa, value))
         });
         table.row(&format!("E* = {value:e}"), 0, || Ok(contact.clone().contact_modulus(value).solve(good).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Scale { kappa }) if same(*kappa, value * PI / 2.0))
+            matches!(wrong, Wrong::Contact(ContactError::InvalidKappa { kappa }) if same(*kappa, value * PI / 2.0))
         });
         if value != 0.0 {
             let adhesive = contact.clone().edges(Edge::Free, Edge::Adhesive(value));
             table.row(&format!("w = {value:e}"), 0, || Ok(adhesive.solve(good).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Adhesion { work }) if same(*work, value))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidAdhesion { work }) if same(*work, value))
             });
         }
     }
@@ -53,14 +53,15 @@ fn loads_scales_and_edges() {
                         Err(Wrong::Contact(error)) => {
                             matches!(
                                 error,
-                                ContactError::TooShort { .. }
-                                    | ContactError::TooWide { .. }
+                                ContactError::DomainTooShort { .. }
+                                    | ContactError::HalfWidthTooLarge { .. }
                                     | ContactError::Overflow { .. }
                                     | ContactError::NoPeak { .. }
                                     | ContactError::PeakTooHigh { .. }
-                                    | ContactError::NoBalance { .. }
+                                    | ContactError::NoEquilibrium { .. }
                                     | ContactError::OutsideBodies { .. }
-                            ) || (name == "Constant" && *error == ContactError::Load { load: 0.0 })
+                            ) || (name == "Constant"
+                                && *error == ContactError::InvalidLoad { load: 0.0 })
                         }
                         Err(_) => false,
                     },
@@ -76,20 +77,20 @@ fn loads_scales_and_edges() {
     for x in [NAN, INF, -INF] {
         for edges in [
             [Edge::Fixed(x), Edge::Free],
-            [Edge::Free, Edge::UpTo(x)],
-            [Edge::UpTo(x), Edge::Fixed(0.1)],
+            [Edge::Free, Edge::FreeUntil(x)],
+            [Edge::FreeUntil(x), Edge::Fixed(0.1)],
         ] {
             let [left, right] = edges;
             let contact = contact.clone().edges(left, right);
             for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
                 table.row(&format!("{edges:?}, {load:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, x) || same(interval.right, x))
+                    matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval }) if same(interval.left, x) || same(interval.right, x))
                 });
             }
         }
     }
     for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Limits { interval }) if same(interval.left, left) && same(interval.right, right));
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval }) if same(interval.left, left) && same(interval.right, right));
         for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
             let contact = contact.clone().start(Interval { left, right });
             table.row(
@@ -124,7 +125,7 @@ fn loads_scales_and_edges() {
             |wrong| {
                 matches!(
                     wrong,
-                    Wrong::Contact(ContactError::Control {
+                    Wrong::Contact(ContactError::BothLimitsGiven {
                         interval: Interval { left: -0.1, right: 0.1 }
                     })
                 )
@@ -162,12 +163,12 @@ fn edge_pressures_rules_and_tolerances() {
             }
             let contact = contact.clone().edge_pressure(edges);
             table.row(&format!("{wrong_one} = {value}"), 0, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::EdgePressure { name, value: v }) if *name == wrong_one && same(*v, value))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidEdgePressure { name, value: v }) if *name == wrong_one && same(*v, value))
             });
         }
         let by_pressure = contact.clone().edge_pressure(good);
         table.row(&format!("Eq. (6) under {value}"), 0, || Ok(by_pressure.solve(Control::Load(value)).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Load { load }) if same(*load, value))
+            matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { load }) if same(*load, value))
         });
     }
     let far = contact.clone().edge_pressure(EdgePressure::zero(2.4, 1e-6));
@@ -176,7 +177,10 @@ fn edge_pressures_rules_and_tolerances() {
         100,
         || Ok(far.solve(load).map(|_| ())?),
         |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::EdgePressure { name: "ε_a", value: 2.4 }))
+            matches!(
+                wrong,
+                Wrong::Contact(ContactError::InvalidEdgePressure { name: "ε_a", value: 2.4 })
+            )
         },
     );
     for (segments, extrapolations) in [
@@ -190,7 +194,7 @@ fn edge_pressures_rules_and_tolerances() {
     ] {
         let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
         let contact = contact.clone().quadrature(&rule);
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Segments { segments: s, extrapolations: e }) if (*s, *e) == (segments, extrapolations));
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidSegments { segments: s, extrapolations: e }) if (*s, *e) == (segments, extrapolations));
         table.row(&format!("{rule:?}"), 0, || Ok(contact.solve(load).map(|_| ())?), is_it);
         let of_solver = || Ok(Solver::new().solve(&contact, load).map(|_| ())?);
         table.row(&format!("solver of {rule:?}"), 0, of_solver, is_it);
@@ -198,7 +202,7 @@ fn edge_pressures_rules_and_tolerances() {
     for tolerance in [NAN, INF, -INF, -1.0, -TINY, 1.0, 7.0] {
         let panels = Panels { tolerance };
         let contact_by = contact.clone().quadrature(&panels);
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Tolerance { tolerance: t }) if same(*t, tolerance));
+        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidTolerance { tolerance: t }) if same(*t, tolerance));
         table.row(&format!("{panels:?}"), 0, || Ok(contact_by.solve(load).map(|_| ())?), is_it);
         let of_solver = || Ok(Solver::new().solve(&contact_by, load).map(|_| ())?);
         table.row(&format!("solver of {panels:?}"), 0, of_solver, is_it);
@@ -208,9 +212,9 @@ fn edge_pressures_rules_and_tolerances() {
         }
         let rule = Midpoint::default();
         for tolerance in [
-            Tolerance { absolute: tolerance, ..Tolerance::FULL },
-            Tolerance { relative: tolerance, ..Tolerance::FULL },
-            Tolerance { residual: tolerance, ..Tolerance::FULL },
+            StoppingCriteria { absolute: tolerance, ..StoppingCriteria::FULL },
+            StoppingCriteria { relative: tolerance, ..StoppingCriteria::FULL },
+            StoppingCriteria { residual: tolerance, ..StoppingCriteria::FULL },
         ] {
             let given = [tolerance.absolute, tolerance.relative, tolerance.residual];
             let bad = given.into_iter().find(|&v| v != 0.0).unwrap();
@@ -220,7 +224,7 @@ fn edge_pressures_rules_and_tolerances() {
                 table.row(&format!("inversion by {tolerance:?}"), 200, || Ok(inverting.solve(load).map(|_| ())?), |wrong| {
                     matches!(wrong, Wrong::Contact(ContactError::Inversion { source: SearchError::Tolerance { value }, .. }) if same(*value, bad))
                 });
-                let searching = contact.clone().search(&**strategy);
+                let searching = contact.clone().limit_search(&**strategy);
                 table.row(&format!("search by {tolerance:?}"), 200, || Ok(searching.solve(load).map(|_| ())?), |wrong| {
                     matches!(wrong, Wrong::Contact(ContactError::LimitSearch { best, source: SearchError::Tolerance { value } })
                         if same(*value, bad) && best.left < best.right)

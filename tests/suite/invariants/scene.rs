@@ -11,9 +11,9 @@ pub enum Term {
     Cube(f64, f64),
     Sinh(f64, f64, f64),
     Tanh(f64, f64, f64),
-    /// Curvature from a joint on to the right.
+    /// Curvature from a breakpoint on to the right.
     Ramp(f64, f64),
-    /// Curvature to the left of a joint.
+    /// Curvature to the left of a breakpoint.
     RampLeft(f64, f64),
     /// A slope that jumps up.
     Jump(f64, f64),
@@ -24,7 +24,7 @@ pub enum Term {
 }
 
 impl Term {
-    /// Height and slope, on the piece on whose right side of every joint of it `right` says.
+    /// Height and slope, on the piece on whose right side of every breakpoint of it `right` says.
     fn at<T: Real>(&self, x: T, middle: f64) -> [T; 2] {
         let (n, half) = (T::of, T::of(0.5));
         let quadratic = |c: f64, x0: f64| {
@@ -55,7 +55,7 @@ impl Term {
         }
     }
 
-    fn joint(&self) -> Option<f64> {
+    fn breakpoint(&self) -> Option<f64> {
         match *self {
             Self::Ramp(_, x0) | Self::RampLeft(_, x0) | Self::Jump(_, x0) => Some(x0),
             _ => None,
@@ -99,10 +99,10 @@ impl<T: Real> Part<T> {
 
 pub type Body<T> = Vec<Part<T>>;
 
-/// The body of some terms, between -4 and 4, in pieces that end at their joints and at `splits`.
+/// The body of some terms, between -4 and 4, in pieces that end at their breakpoints and at `splits`.
 fn body<T: Real>(terms: &[Term], sign: f64, splits: &[f64]) -> Body<T> {
     let mut ends: Vec<f64> =
-        terms.iter().filter_map(Term::joint).chain(splits.iter().copied()).collect();
+        terms.iter().filter_map(Term::breakpoint).chain(splits.iter().copied()).collect();
     ends.extend([-4.0, 4.0]);
     ends.sort_by(f64::total_cmp);
     ends.dedup();
@@ -148,7 +148,7 @@ impl Scene {
         [body(&below, -1.0, &[]), with(&self.upper, 1.0)]
     }
 
-    /// The slope of the gap, not at a joint.
+    /// The slope of the gap, not at a breakpoint.
     pub fn slope(&self, x: f64) -> f64 {
         slope(&self.upper, x) + slope(&self.lower, x)
     }
@@ -168,7 +168,7 @@ impl Scene {
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = Vec::new();
         for term in self.upper.iter().chain(&self.lower) {
-            breaks.extend(term.joint());
+            breaks.extend(term.breakpoint());
             if let Term::Tanh(_, w, x0) = *term {
                 breaks.extend([-4.0, -1.0, 0.0, 1.0, 4.0].map(|share| x0 + share * w));
             }

@@ -73,7 +73,7 @@ fn the_quadrature_is_that_of_each_contact() {
     // Settings that cannot be used are refused here, too, and the solver is none the worse.
     let never = Panels { tolerance: 1.0 };
     let refused = solver.solve(&contact.clone().quadrature(&never), load).unwrap_err();
-    assert_eq!(refused, ContactError::Tolerance { tolerance: 1.0 });
+    assert_eq!(refused, ContactError::InvalidTolerance { tolerance: 1.0 });
     let alone = seen(&contact.solve(load).unwrap());
     assert_eq!(seen(&solver.solve(&contact, load).unwrap()), alone);
 }

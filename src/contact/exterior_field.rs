@@ -1,0 +1,156 @@
+//! What the pressure does outside the contacts, from a few of its values.
+//!
+//! With `P w = q₀ + Σ q_n cos nθ` over a contact, w² = (x + b)(a - x), and u the Joukowski variable of a place
+//! outside it (|u| <= 1 there, and 1 at the edge)
+//!
+//! ```text
+//! ∫ P ln|x - s| ds = π (q₀ ln(L/(2|u|)) - Σ q_n uⁿ/n)
+//! ```
+//!
+//! Values at 32 angles are enough for rounding where the pressure is smooth, and for a thousandth of it
+//! elsewhere; more are taken where it turns on that.
+
+use crate::{Interval, Real};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// Angles at which the pressure is looked at, and as many coefficients.
+pub(crate) const POINTS: usize = 32;
+
+/// cos(m π/(2 POINTS))
+static COSINES: LazyLock<[f64; 4 * POINTS]> =
+    LazyLock::new(|| std::array::from_fn(|m| (m as f64 * PI / (2 * POINTS) as f64).cos()));
+
+/// The pressure of one contact as a cosine series.
+#[derive(Clone)]
+pub(crate) struct ExteriorField<T> {
+    on: Interval<T>,
+    pressures: [T; POINTS],
+    q: [T; POINTS],
+    /// More coefficients in place of q, if any.
+    finer: Vec<T>,
+}
+
+impl<T: Real> ExteriorField<T> {
+    /// The places at which the pressure is wanted, from right to left.
+    pub fn places(on: Interval<T>) -> [T; POINTS] {
+        std::array::from_fn(|i| Self::place(on, i, POINTS))
+    }
+
+    /// One of so many.
+    pub fn place(on: Interval<T>, i: usize, count: usize) -> T {
+        on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(count))
+    }
+
+    /// From the pressures at those places.
+    pub fn new(on: Interval<T>, x: &[T; POINTS], pressures: &[T; POINTS]) -> Self {
+        let bounded: [T; POINTS] = std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
+        let q = std::array::from_fn(|n| coefficient(n, &bounded, &*COSINES));
+        Self { on, pressures: *pressures, q, finer: Vec::new() }
+    }
+
+    /// From the pressures at more places.
+    pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
+        let count = x.len();
+        let step = PI / (2 * count) as f64;
+        let cosines: Vec<_> = (0..4 * count).map(|m| (m as f64 * step).cos()).collect();
+        pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.chebyshev_weight(x));
+        self.finer = (0..count).map(|n| coefficient(n, &pressures, &cosines)).collect();
+    }
+
+    /// q₀, q₁, ...
+    pub fn coefficients(&self) -> &[T] {
+        if self.finer.is_empty() { &self.q } else { &self.finer }
+    }
+
+    /// `∫ P ln|x - s| ds` at a place that is not inside the contact.
+    pub fn potential(&self, x: T) -> T {
+        let half_width = self.on.half_width();
+        let right = x > self.on.centre();
+        let distance = if right { x - self.on.right } else { self.on.left - x };
+        let beyond = distance.max(T::zero()) / half_width;
+        let size = T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt();
+        let u = if right { T::one() / size } else { -T::one() / size };
+        let (mut sum, mut power) = (T::zero(), T::one());
+        let all = self.coefficients();
+        for (n, &q) in all.iter().enumerate().skip(1) {
+            power *= u;
+            // From afar a contact is a line load.
+            if power.abs() < T::epsilon() {
+                break;
+            }
+            sum += q * power / T::count(n);
+        }
+        T::pi() * (all[0] * (T::of(0.5) * half_width * size).ln() - sum)
+    }
+
+    pub fn interval(&self) -> Interval<T> {
+        self.on
+    }
+
+    pub fn pressures(&self) -> &[T; POINTS] {
+        &self.pressures
+    }
+
+    /// What the coefficients left out may add to the potential.
+    pub fn doubt(&self) -> T {
+        let all = self.coefficients();
+        let tail = all[all.len() - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
+        T::of(4.0) * T::pi() * tail
+    }
+
+    /// `∫ P/(x - s) ds` at a place outside the contact.
+    pub fn slope(&self, x: T) -> T {
+        let half_width = self.on.half_width();
+        let right = x > self.on.centre();
+        let distance = if right { x - self.on.right } else { self.on.left - x };
+        let beyond = distance.max(T::zero()) / half_width;
+        let root = (beyond * (beyond + T::of(2.0))).sqrt();
+        let size = T::one() / (T::one() + beyond + root);
+        let u = if right { size } else { -size };
+        let sum = self.coefficients().iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
+        let pull = T::pi() * sum / (root * half_width);
+        if right { pull } else { -pull }
+    }
+
+    /// The load of the contact.
+    pub fn load(&self) -> T {
+        T::pi() * self.q[0]
+    }
+}
+
+/// Number n of the coefficients of a cosine series, from its values, the number of which is a power of two.
+fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64]) -> T {
+    let count = values.len();
+    let (mut sum, mut angle) = (T::zero(), n);
+    for &value in values {
+        sum += value * T::of(cosines[angle]);
+        angle = (angle + 2 * n) & (4 * count - 1);
+    }
+    sum /= T::count(count);
+    if n == 0 { sum } else { sum + sum }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parabola of radius 1 on a flat, κ = 1: P = sqrt(L² - x²)/π, and outside the surfaces open by
+    /// x²/2 - L²/2 less the logarithmic potential.
+    #[test]
+    fn the_gap_beside_a_parabola() {
+        let on = Interval { left: -0.3, right: 0.3 };
+        let x = ExteriorField::places(on);
+        let pressures = x.map(|x: f64| (0.09 - x * x).sqrt() / PI);
+        let field = ExteriorField::new(on, &x, &pressures);
+        assert!((field.load() / 0.045 - 1.0).abs() < 1e-14);
+        for x in [0.3001f64, 0.4, 1.0, 30.0, -0.31, -2.0] {
+            let pushed = field.potential(x) - field.potential(0.3);
+            // h(x) - h(L) = (z sqrt(z² - 1) - arcosh z) L²/2 + that, z = |x|/L.
+            let z = x.abs() / 0.3;
+            let open = 0.045 * (z * (z * z - 1.0).sqrt() - z.acosh());
+            let due = 0.5 * x * x - 0.045 - open;
+            assert!((pushed - due).abs() < 1e-14 * (x * x).max(1.0), "{x}: {pushed} for {due}");
+        }
+    }
+}

@@ -1,0 +1,522 @@
+//! Newton's method on all limits of several contacts at once.
+//!
+//! The equations and their exact Jacobian are those of the quadrature. A step is cut short where a contact or a
+//! gap would lose more than two thirds of its width at once. A gap that shrinks step after step is one that
+//! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
+
+use super::Found;
+use super::single_contact::MOST_DOUBT;
+use crate::gap::Gap;
+use crate::numerics::LinearSystem;
+use crate::quadrature::panels::{Several, System};
+use crate::{ContactError, Interval, Real};
+
+/// Steps before the search is given up.
+const MOST_STEPS: usize = 60;
+
+/// What a contact or a gap keeps of its width in one step.
+const LEAST_LEFT: f64 = 0.3;
+
+/// By how much a width may grow in one step.
+const MOST_GROWTH: f64 = 4.0;
+
+/// Steps in a row that are cut short by the same gap, or end, before it is taken not to exist: one at a kink may
+/// be as narrow as rounding.
+const MOST_CUT: i32 = 12;
+
+/// The same for a contact: what is left of it by then is less than a hundredth.
+const MOST_CUT_OF_A_CONTACT: i32 = 4;
+
+/// How Newton's method ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum SeveralOutcome {
+    ContactState,
+    /// The gap after this contact closes.
+    Closed(usize),
+    /// This contact vanishes.
+    Lost(usize),
+    /// A limit reaches beyond the left (0) or the right (1) end of the bodies.
+    Beyond(usize),
+    Failed,
+}
+
+/// What is sought besides the limits.
+#[derive(Clone, Copy)]
+pub(super) enum Besides<T> {
+    /// The tilt under which the load acts at this place.
+    Tilt(T),
+    /// The load under which the outermost limit is at the left (0) or the right (1) end of the bodies.
+    Load(usize),
+}
+
+/// A gap of so many units of rounding of x is nothing.
+const NOTHING: f64 = 64.0;
+
+/// What cuts a step short: a contact (even) or a gap (odd), by twice its number.
+type CutWidth = usize;
+
+#[derive(Clone)]
+pub(super) struct NewtonSeveral<T> {
+    /// By how much body 2 is turned.
+    pub tilt: T,
+    /// What the contacts bear: F/κ.
+    pub load: T,
+    /// The contacts, from left to right.
+    pub on: Vec<Interval<T>>,
+    /// Estimated errors of the limits, each as a share of the half-width of its contact.
+    pub errors: Vec<T>,
+    pub steps: usize,
+    system: System<T>,
+    linear: LinearSystem<T>,
+    step: Vec<T>,
+    /// What the limits move by, and what the widths between them do besides.
+    moves: Vec<T>,
+    corrections: Vec<T>,
+    /// What the conditions leave open: of one of them, and of what that makes of the limits.
+    unit: Vec<T>,
+    open: Vec<T>,
+}
+
+impl<T: Real> NewtonSeveral<T> {
+    pub fn new() -> Self {
+        let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
+        let (system, linear) = (System::new(), LinearSystem::new());
+        let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
+        let steps = 0;
+        Self { tilt, load, on, errors, steps, system, linear, step, moves, corrections, unit, open }
+    }
+
+    /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
+    /// or changes the load until an outermost limit is where it has been put, at an end of the bodies.
+    pub fn converge(
+        &mut self,
+        several: &mut Several<T>,
+        gap: &Gap<'_, T>,
+        load: T,
+        corners: [bool; 2],
+        ends: [T; 2],
+        besides: Option<Besides<T>>,
+    ) -> Result<SeveralOutcome, ContactError<T>> {
+        self.errors.clear();
+        self.load = load;
+        if !matches!(besides, Some(Besides::Tilt(_))) {
+            self.tilt = gap.tilt();
+        }
+        // The limits that stay where they are.
+        let mut held = corners;
+        if let Some(Besides::Load(side)) = besides {
+            held[side] = true;
+        }
+        let mut turned = gap.tilted(self.tilt);
+        let (one, half) = (T::one(), T::of(0.5));
+        let mut before: Option<T> = None;
+        let mut cut: Option<(CutWidth, i32)> = None;
+        let mut more_steps = None;
+        for _ in 0..MOST_STEPS {
+            self.steps += 1;
+            // Between two contacts at a concave kink the gap falls exponentially with the load.
+            if let Some(i) = (0..self.on.len() - 1).find(|&i| self.is_nothing(i)) {
+                return Ok(SeveralOutcome::Closed(i));
+            }
+            several.set(&turned, &self.on, corners, ends)?;
+            several.system(self.load, &mut self.system);
+            match besides {
+                Some(Besides::Tilt(at)) => several.turning(load, at, &mut self.system),
+                Some(Besides::Load(side)) => several.by_load(side == 1, &mut self.system),
+                None => {}
+            }
+            if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
+                return Ok(SeveralOutcome::Failed);
+            }
+            self.linear.solve(&self.system.residual, &mut self.step);
+            if !self.step.iter().all(|step| step.is_finite()) {
+                return Ok(SeveralOutcome::Failed);
+            }
+            match (besides, self.step.last()) {
+                (Some(Besides::Tilt(_)), Some(&step)) => {
+                    self.tilt -= step;
+                    turned = turned.tilted(self.tilt);
+                }
+                (Some(Besides::Load(_)), Some(&step)) => self.load -= step,
+                _ => {}
+            }
+            // For the derivatives of dual numbers, beyond the convergence of the value.
+            if let Some(left) = &mut more_steps {
+                self.advance(held, None);
+                *left -= 1;
+                if *left == 0 {
+                    several.set(&turned, &self.on, corners, ends)?;
+                    several.press();
+                    return Ok(SeveralOutcome::Found);
+                }
+                continue;
+            }
+            let size = self.size(held);
+            let last = self.on.len() - 1;
+            let hull = Interval { left: self.on[0].left, right: self.on[last].right };
+            let place = self.advance(held, cut);
+            // Where one load reaches both ends, one of them is passed by rounding.
+            if let Some(Besides::Load(_)) = besides {
+                let nothing = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
+                if self.on[0].left >= ends[0] - nothing {
+                    self.on[0].left = self.on[0].left.max(ends[0]);
+                }
+                if self.on[last].right <= ends[1] + nothing {
+                    self.on[last].right = self.on[last].right.min(ends[1]);
+                }
+            }
+            let next = Interval { left: self.on[0].left, right: self.on[last].right };
+            let (beyond_left, beyond_right) = (next.left < ends[0], next.right > ends[1]);
+            if beyond_left {
+                self.on[0].left = half * hull.left + half * ends[0];
+            }
+            if beyond_right {
+                self.on[last].right = half * hull.right + half * ends[1];
+            }
+            // A contact may have left the bodies as a whole.
+            let ordered = |pair: [T; 2]| pair[0] < pair[1];
+            if !self.on.iter().all(|on| ordered([on.left, on.right]))
+                || !self.on.windows(2).all(|pair| ordered([pair[0].right, pair[1].left]))
+            {
+                return Ok(SeveralOutcome::Failed);
+            }
+            if place.is_some() || beyond_left || beyond_right {
+                let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
+                let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
+                cut = Some((place, times));
+                let of_a_contact = place < usize::MAX - 1 && place.is_multiple_of(2);
+                if times > if of_a_contact { MOST_CUT_OF_A_CONTACT } else { MOST_CUT } {
+                    return Ok(match place {
+                        usize::MAX => SeveralOutcome::Beyond(1),
+                        place if place == usize::MAX - 1 => SeveralOutcome::Beyond(0),
+                        place if place % 2 == 0 => SeveralOutcome::Lost(place / 2),
+                        place => SeveralOutcome::Closed(place / 2),
+                    });
+                }
+                before = None;
+                continue;
+            }
+            cut = None;
+            let ratio = before.map_or(one, |before| size / before);
+            let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
+            // Rounding keeps the steps from falling any further.
+            let stalled = ratio >= T::of(0.25);
+            let small = size <= T::epsilon().sqrt() || self.is_small();
+            if done || stalled && small {
+                self.estimate(held);
+            }
+            if done || stalled && small && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
+                if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {
+                    return Ok(SeveralOutcome::Closed(i));
+                }
+                if stalled {
+                    let left =
+                        self.moves.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
+                    let add = |(error, (step, half_width)): (&mut T, (&T, T))| {
+                        *error += step.abs() / half_width;
+                    };
+                    self.errors.iter_mut().zip(left).for_each(add);
+                }
+                if T::DERIVATIVE_ORDER == 0 {
+                    several.set(&turned, &self.on, corners, ends)?;
+                    several.press();
+                    return Ok(SeveralOutcome::Found);
+                }
+                more_steps = Some(T::DERIVATIVE_ORDER);
+            }
+            before = Some(size);
+        }
+        Ok(SeveralOutcome::Failed)
+    }
+
+    /// What was found.
+    pub fn found(
+        &self,
+        several: &Several<T>,
+        kappa: T,
+        load: T,
+        corners: [bool; 2],
+        ends: [T; 2],
+    ) -> ContactState<T> {
+        let on = &self.on;
+        ContactState {
+            interval: Interval { left: on[0].left, right: on[on.len() - 1].right },
+            load,
+            strengths: [false, true].map(|right| kappa * several.strength(right)),
+            free: corners.map(|corner| !corner),
+            adhesive: [false; 2],
+            error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
+            force: None,
+            trend: None,
+            tilt: self.tilt,
+            ends,
+        }
+    }
+
+    /// The free limits, by the number of their contact and whether they are right ones.
+    fn free(&self, corners: [bool; 2]) -> impl Iterator<Item = (usize, bool)> + use<T> {
+        let last = self.on.len() - 1;
+        let both = (0..=last).flat_map(|i| [(i, false), (i, true)]);
+        both.filter(move |&(i, right)| {
+            !(i == 0 && !right && corners[0] || i == last && right && corners[1])
+        })
+    }
+
+    fn limit(&mut self, i: usize) -> &mut T {
+        let on = &mut self.on[i / 2];
+        if i.is_multiple_of(2) { &mut on.left } else { &mut on.right }
+    }
+
+    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
+    /// the load of a round body goes with it, and so does what is left of a gap that closes. Says which width
+    /// was kept from falling further.
+    ///
+    /// `cut` is what was kept from falling further last, and how often in a row: a gap may then fall faster.
+    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
+        let (zero, one, half, two) = (T::zero(), T::one(), T::of(0.5), T::of(2.0));
+        let count = 2 * self.on.len();
+        self.moves.clear();
+        self.moves.resize(count, zero);
+        let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
+        for (i, &step) in free.zip(&self.step) {
+            self.moves[i] = -step;
+        }
+        let is_fixed = |i: usize| i == 0 && corners[0] || i + 1 == count && corners[1];
+        let mut held: Option<(T, CutWidth)> = None;
+        self.corrections.clear();
+        for i in 0..count - 1 {
+            let width = *self.limit(i + 1) - *self.limit(i);
+            let change = self.moves[i + 1] - self.moves[i];
+            let times = match cut {
+                Some((place, times)) if place == i && i % 2 == 1 => times + 1,
+                _ => 1,
+            };
+            let least = T::of(LEAST_LEFT.powi(times)) * width;
+            let square = width * (width + two * change);
+            let next = if square < least * least {
+                let worse = (square / (width * width), i);
+                held = Some(held.filter(|held| held.0 <= worse.0).unwrap_or(worse));
+                least
+            } else {
+                square.sqrt().min(T::of(MOST_GROWTH) * width)
+            };
+            self.corrections.push(next - (width + change));
+        }
+        for (i, &correction) in self.corrections.iter().enumerate() {
+            let share = if is_fixed(i) {
+                one
+            } else if is_fixed(i + 1) {
+                zero
+            } else {
+                half
+            };
+            self.moves[i] -= (one - share) * correction;
+            self.moves[i + 1] += share * correction;
+        }
+        // What is good for one width may be too much for the next.
+        let mut share = one;
+        for i in 0..count - 1 {
+            let width = *self.limit(i + 1) - *self.limit(i);
+            let less = self.moves[i] - self.moves[i + 1];
+            let times = if i % 2 == 1 { MOST_CUT } else { 1 };
+            let most = (one - T::of(0.5 * LEAST_LEFT.powi(times))) * width;
+            if less > most {
+                share = share.min(most / less);
+            }
+        }
+        for i in 0..count {
+            let step = share * self.moves[i];
+            *self.limit(i) += step;
+        }
+        held.map(|(_, place)| place)
+    }
+
+    /// Whether the gap after a contact is as narrow as rounding, or as what is in doubt of its limits.
+    pub fn is_nothing(&self, i: usize) -> bool {
+        let doubtful = self.doubtful_gap(i);
+        let width = doubtful.right - doubtful.left;
+        let both = self.on[i + 1].right - self.on[i].left;
+        let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * both;
+        self.gap(i) <= self.rounding(i) || is_point && self.is_hidden(i)
+    }
+
+    /// Whether the gap after a contact may be nothing for all that is known of its limits.
+    fn is_hidden(&self, i: usize) -> bool {
+        let doubtful = self.doubtful_gap(i);
+        self.gap(i) <= T::of(0.5) * (doubtful.right - doubtful.left)
+    }
+
+    /// The rounding of the limits of a contact and of the next.
+    fn rounding(&self, i: usize) -> T {
+        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
+        T::of(NOTHING) * T::epsilon() * size
+    }
+
+    /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
+    /// the pressure tells how narrow the gap is.
+    fn size(&self, corners: [bool; 2]) -> T {
+        let share = |((i, right), &step): ((usize, bool), &T)| {
+            let gap = if right { Some(i) } else { i.checked_sub(1) };
+            let gap =
+                gap.filter(|&gap| gap + 1 < self.on.len()).map(|gap| T::of(0.5) * self.gap(gap));
+            step.abs() / gap.map_or(self.on[i].half_width(), |gap| gap.min(self.on[i].half_width()))
+        };
+        self.free(corners).zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
+    }
+
+    /// The width of the gap after a contact.
+    fn gap(&self, i: usize) -> T {
+        self.on[i + 1].left - self.on[i].right
+    }
+
+    /// The gap after a contact, as far as its limits are in doubt.
+    fn doubtful_gap(&self, i: usize) -> Interval<T> {
+        let [left, right] = [self.on[i].right, self.on[i + 1].left];
+        let doubt = [(i, 2 * i + 1), (i + 1, 2 * i + 2)].map(|(i, limit)| {
+            self.errors.get(limit).map_or(T::zero(), |&error| error * self.on[i].half_width())
+        });
+        Interval { left: left - doubt[0], right: right + doubt[1] }
+    }
+
+    /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts at least.
+    pub fn closed_gap(&self, i: usize) -> Interval<T> {
+        let (Interval { left, right }, rounding) = (self.doubtful_gap(i), self.rounding(i));
+        Interval { left: left - rounding, right: right + rounding }
+    }
+
+    /// Whether no limit has moved by more than it may be in doubt.
+    fn is_small(&self) -> bool {
+        let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
+        half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
+    }
+
+    /// Whether no limit has moved by more than it is in doubt. One at a gap that this doubt hides is on its way:
+    /// where a contact would pull, its equations hold with any gap that is nothing.
+    fn is_all_doubt(&self) -> bool {
+        let errors = self.errors.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
+        errors.zip(&self.moves).all(|((&error, half_width), step)| step.abs() <= error * half_width)
+            && !(0..self.on.len() - 1).any(|i| self.is_hidden(i))
+    }
+
+    /// What the equations leave open of the limits, and rounding.
+    fn estimate(&mut self, corners: [bool; 2]) {
+        let n = self.step.len();
+        self.open.clear();
+        self.open.resize(n, T::zero());
+        for (k, &error) in self.system.open.iter().enumerate() {
+            self.unit.clear();
+            self.unit.resize(n, T::zero());
+            self.unit[k] = error;
+            self.linear.solve(&self.unit, &mut self.step);
+            for (open, step) in self.open.iter_mut().zip(&self.step) {
+                *open += step.abs();
+            }
+        }
+        self.errors.clear();
+        self.errors.resize(2 * self.on.len(), T::zero());
+        for ((i, right), &open) in self.free(corners).zip(&self.open) {
+            let on = self.on[i];
+            let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
+            self.errors[2 * i + usize::from(right)] =
+                T::of(4.0) * (open + rounding) / on.half_width();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Shape;
+    use crate::profile::{Curve, CurvePoint, Flat, Piecewise};
+    use crate::search::NewtonSeveral as Inversion;
+    use std::f64::consts::PI;
+
+    fn solve(
+        body: &dyn crate::ParametricProfile<f64>,
+        load: f64,
+        start: &[[f64; 2]],
+        corners: [bool; 2],
+    ) -> (Vec<Interval<f64>>, Vec<f64>, Several<f64>) {
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(body), &inversion).unwrap();
+        let mut several = Several::new(16.0 * f64::EPSILON);
+        let mut newton = NewtonSeveral::new();
+        newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
+        let outcome = newton.converge(&mut several, &gap, load, corners, gap.range(), None).unwrap();
+        assert_eq!(outcome, SeveralOutcome::Found, "{:?}", newton.on);
+        (newton.on, newton.errors, several)
+    }
+
+    #[test]
+    fn a_quartic_up_to_its_merge() {
+        let body = Curve::new([-3.0, 3.0], |k: f64| {
+            let square = k * k;
+            CurvePoint { x: k, y: square * (square - 2.0), dx: 1.0, dy: 4.0 * k * (square - 1.0) }
+        });
+        // E* = 1, so κ = π/2.
+        for load in [1e-6, 0.1, 1.0, 3.0, 0.9995 * PI, 0.9999998 * PI] {
+            let d = f64::sqrt(4.0 * load / PI);
+            let [al, be] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
+            let off = 0.1 * (be - al);
+            let start = [[-be + off, -al - off], [al + off, be - off]];
+            let (on, errors, several) =
+                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, [false; 2]);
+            let width = be - al;
+            let limits = on.iter().flat_map(|on| [on.left, on.right]);
+            for ((x, due), error) in limits.zip([-be, -al, al, be]).zip(errors) {
+                let allowed = 1e-12f64.max(error) * width;
+                assert!((x - due).abs() <= allowed, "F {load}: {x} for {due}, error {error}");
+            }
+            let x: Vec<f64> = [0.001, 0.3, 0.7, 0.95].iter().map(|s| al + s * width).collect();
+            let mut p = vec![0.0; 4];
+            several.pressures(&x, &mut p);
+            let top = 2.0 * 1.0 * width / 2.0;
+            for (x, p) in x.into_iter().zip(p) {
+                let due = 2.0 * x * ((x * x - al * al) * (be * be - x * x)).sqrt();
+                let got = p * std::f64::consts::FRAC_PI_2;
+                // Beside a limit its rounding counts.
+                let rounding = f64::EPSILON * due / (x - al);
+                assert!(
+                    (got - due).abs() <= 1e-11 * top + rounding,
+                    "F {load}: P({x}) {got} for {due}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn kinks_inside_each_contact() {
+        // m |T|/N with T = 2 x² - 1 scaled: kinks at ±sqrt(1/2), declared.
+        let piece = |from: f64, to: f64, sign: f64| {
+            Curve::new([from, to], move |k: f64| CurvePoint {
+                x: k,
+                y: sign * (2.0 * k * k - 1.0) * 0.5,
+                dx: 1.0,
+                dy: sign * 2.0 * k,
+            })
+        };
+        let r = 0.5f64.sqrt();
+        let body =
+            Piecewise::new(vec![piece(-1.5, -r, 1.0), piece(-r, r, -1.0), piece(r, 1.5, 1.0)])
+                .unwrap();
+        for load in [0.01f64, 0.2, 0.6] {
+            // The wedge |v| bears F = 2 a/π with κ = 1, on |v| <= a; each of N contacts a half.
+            let a = load * std::f64::consts::PI / 2.0;
+            let [al, be] = [((1.0 - a) / 2.0).sqrt(), ((1.0 + a) / 2.0).sqrt()];
+            let off = 0.05 * (be - al);
+            let start = [[-be - off, -al + off], [al + off, be + off]];
+            let (on, _, several) = solve(&body, load, &start, [false; 2]);
+            for (x, due) in
+                [(on[0].left, -be), (on[0].right, -al), (on[1].left, al), (on[1].right, be)]
+            {
+                assert!((x - due).abs() <= 1e-12 * (be - al), "F {load}: {x} for {due}");
+            }
+            let x = al + 0.3 * (be - al);
+            let v = 2.0 * x * x - 1.0;
+            let due = 4.0 * x / 2.0 * 2.0 / PI.powi(2) * (a / v.abs()).acosh();
+            let mut p = [0.0];
+            several.pressures(&[x], &mut p);
+            assert!((p[0] / due - 1.0).abs() < 1e-11, "{} for {due}", p[0]);
+        }
+    }
+}

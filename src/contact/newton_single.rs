@@ -1,0 +1,610 @@
+//! Newton's method on both limits and the load at once.
+//!
+//! Three equations for `-b`, `a` and F, linear in what the quadrature says of a trial contact:
+//!
+//! ```text
+//! at -b:  F - κ L (m₁ - m₀) = π L K_b        or  b is given
+//! at a:   F - κ L (m₁ + m₀) = π L K_a        or  a is given
+//! F is given,  or the half-width L is
+//! ```
+//!
+//! with `K = 0` at a free edge and `π L K = -2 sqrt(κ w L)` at an adhesive one. (The tension `-P ≈
+//! K_I/sqrt(2π d)` at a distance d from an edge has `K_I² = 2 E* w`, and `P ≈ K sqrt(L/2d)`;
+//! κ = π E*/2. With a parabola this is the line contact of Johnson, Kendall and Roberts as Barquins
+//! has it, *J. Adhesion* 26 (1988) 1.) The Jacobian is exact: the derivatives of `m₀` and `m₁` by
+//! the limits come with them. The control settles one unknown beforehand, F or `a + b`; two are left.
+//!
+//! Where the load F is to act at a place x̄ the bodies turn by an angle τ, which adds τ to `m₀` and nothing to
+//! `m₁` and `m₂`. It is eliminated: with the forces `Δ = F - κ L m₁` and `E = f (c - x̄)/L + κ L m₂/2`,
+//!
+//! ```text
+//! both free:    Δ + E = 0 at -b,  Δ - E = 0 at a,   f = κ L m₁     then  τ = -m₀
+//! a given:      Δ/2 + E = 0 at -b,                  f = F          then  τ = m₁ - F/(κ L) - m₀
+//! -b given:     Δ/2 - E = 0 at a,                   f = F          then  τ = F/(κ L) - m₁ - m₀
+//! both given:                                                      τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
+//! ```
+//!
+//! (With the load that a trial carries, and not F, `E` rises with c on every body that bulges, however far the
+//! trial is off: by `κ L/2 (1/π) ∫ g' dθ`, since `m₁ = (L/π) ∫ g' sin² θ dθ`.)
+//!
+//! The derivatives of `m₂` are those of `m₀` and `m₁`: `L² ∂m₂/∂L = (L²/π) ∫ g' cos θ dθ - 2 L m₂`.
+//!
+//! A step in the half-width is taken as one in `L²`, in which the load of a round body is linear; a
+//! long one as in the power of L that the load is seen to go with. The centre is taken along as the balance
+//! `m₀ = 0` has it, `dc/dL` by its derivatives: where one limit is a million times as stiff as the other, it
+//! stays where it is. The balance itself is linearised without the factor L that both rows have: that of a
+//! parabola is linear in c, and one step leads to its centre from however far.
+//!
+//! A step is halved where the next one by the same Jacobian would be longer (the natural monotonicity test: P.
+//! Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, §3.3), as across a jump of the slope, on whose two sides
+//! limits are unlike stiff; and where the limits do not act on the slope, as on a flat. Where a contact carries too
+//! little, and a wider one less, as under adhesion, it is widened until it grows with its load. A step that would
+//! leave the bodies goes half the way to their end.
+
+use super::edges::{Conditions, Edge, Given};
+use super::single_contact::MOST_DOUBT;
+use crate::quadrature::{Integrator, Moments};
+use crate::{ContactError, Gap, Interval, Real};
+use nalgebra::{Matrix2, Vector2};
+
+/// Trials before the search is given up, in a initial_guess and in full. A initial_guess that takes long has no contact.
+const MOST_TRIALS: [usize; 2] = [16, 200];
+
+/// A step longer than so many half-widths leads nowhere.
+const MOST_STEP: f64 = 1e9;
+
+/// Steps in full that may be longer than half of the half-width.
+const MOST_LONG: usize = 8;
+
+/// The least share of a step that is taken.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// A contact that meets its conditions.
+#[derive(Clone, Copy)]
+pub(super) struct Converged<T> {
+    pub on: Interval<T>,
+    pub load: T,
+    /// Estimated error of the limits relative to the half-width.
+    pub error: T,
+    /// The load that such an error stands for.
+    pub force: T,
+}
+
+/// How well a contact has to meet them.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Effort {
+    /// To a few hundredths of its width, or until it is known to be much narrower than the start.
+    Sketch,
+    /// To rounding.
+    Full,
+}
+
+/// How Newton's method ends.
+pub(super) enum Outcome<T> {
+    Converged(Converged<T>),
+    /// Step after step leads beyond an end of the bodies; how far they went.
+    AtEnd(Interval<T>),
+    LeftBracket,
+}
+
+impl<T> Outcome<T> {
+    pub fn converged(self) -> Option<Converged<T>> {
+        match self {
+            Self::Converged(converged) => Some(converged),
+            Self::AtEnd(_) | Self::LeftBracket => None,
+        }
+    }
+}
+
+/// Finds the limits from a start nearby. `most_at_end` steps may lead beyond an end of the bodies: each takes
+/// samples closer to that.
+pub(super) fn converge<T: Real>(
+    integrator: &mut dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    conditions: &Conditions<T>,
+    start: Interval<T>,
+    effort: Effort,
+    most_at_end: usize,
+) -> Result<Outcome<T>, ContactError<T>> {
+    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+    let range = gap.range();
+    let mut on = conditions.with_given(start, range);
+    let mut load = conditions.load();
+    let mut long = 0;
+    let (mut before, mut last, mut at_end) = (None::<[T; 2]>, None::<Step<T>>, 0);
+    // A step that was cut short tells nothing of the next.
+    let certain = |sizes: [T; 2]| Some(sizes).filter(|&[left, right]| left + right <= T::of(0.25));
+    for _ in 0..MOST_TRIALS[usize::from(effort == Effort::Full)] {
+        let half_width = on.half_width();
+        if !(half_width > zero && half_width.is_finite()) {
+            return Ok(Outcome::LeftBracket);
+        }
+        let m = integrator.moments(gap, on)?;
+        let Some(system) = Linearised::new(conditions, on, load, &m) else {
+            return Ok(Outcome::LeftBracket);
+        };
+        let step = system.step(on, load, conditions.kappa * half_width * m.first);
+        let too_far = |last: &&mut Step<T>| {
+            last.share > T::of(LEAST_SHARE) && (step.is_none() || last.grew_to(&system, on))
+        };
+        if let Some(last) = last.as_mut().filter(too_far) {
+            last.share *= half;
+            (on, load) = last.end(conditions);
+            on = before_ends(conditions, last.from, on, range);
+            before = None;
+            continue;
+        }
+        let is_open = system.by_load && system.residual[0] + system.residual[1] > zero;
+        let leads = !is_open || system.is_stable(conditions);
+        let Some(step) = step.filter(|_| leads) else {
+            // Where less is carried than asked for, and less still by a wider contact, one that is wider yet grows
+            // with its load.
+            let wider = moved(conditions, on, system.lean(), [-one, one], one);
+            let next = before_ends(conditions, on, wider, range);
+            at_end += usize::from(next != wider);
+            if at_end > most_at_end {
+                return Ok(Outcome::AtEnd(next));
+            }
+            if !is_open || next.is_same(&on) {
+                return Ok(Outcome::LeftBracket);
+            }
+            (on, before, last) = (next, None, None);
+            continue;
+        };
+        let from = on;
+        (on, load) = step.end(conditions);
+        let ([left, right], size, inverse) = (step.limits, step.size(), step.inverse);
+        last = Some(step);
+        // What is much narrower than the span is to be seen in a closer one.
+        if effort == Effort::Sketch && on.half_width() < T::of(1e-6) * start.half_width() {
+            return Ok(Outcome::Converged(Converged { on, load, error: size.max(one), force: size }));
+        }
+        if !(on.left >= range[0] && on.right <= range[1]) {
+            on = rounded_within(on, range);
+            let next = before_ends(conditions, from, on, range);
+            if next != on {
+                at_end += 1;
+                if at_end > most_at_end || next.is_same(&from) {
+                    return Ok(Outcome::AtEnd(next));
+                }
+                (on, before) = (next, None);
+                continue;
+            }
+        }
+        let sizes = [left.abs(), right.abs()];
+        if effort == Effort::Sketch {
+            if size <= T::of(0.03) {
+                let sound =
+                    opens(integrator, conditions, on, system.tilt) && system.is_stable(conditions);
+                let converged = Converged { on, load, error: size, force: size };
+                return Ok(if sound { Outcome::Converged(converged) } else { Outcome::LeftBracket });
+            }
+            before = certain(sizes);
+            continue;
+        }
+        // What the next step leaves of each limit.
+        let next: [T; 2] = std::array::from_fn(|i| match before {
+            Some(before) if sizes[i] < before[i] => {
+                (sizes[i] / before[i]) * (sizes[i] / before[i]) * sizes[i]
+            }
+            _ => sizes[i],
+        });
+        let small = next[0] + next[1] <= half * T::epsilon() && size <= half * half;
+        // Across a kink a step is as much too long as the one before has been.
+        let crossed = small && size > T::of(4.0) * T::epsilon() && crosses_breakpoint(gap, from, on);
+        let done = small && !crossed;
+        let slow = before.is_some_and(|[left, right]| size >= half * half * (left + right));
+        if done || slow {
+            let noise = system.error(&inverse, &m);
+            let rounding = [on.left, on.right].map(|x| T::epsilon() * x.abs() / on.half_width());
+            let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
+            let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
+            if done || stalled {
+                let sound =
+                    opens(integrator, conditions, on, system.tilt) && system.is_stable(conditions);
+                if !sound || least > T::of(MOST_DOUBT) {
+                    return Ok(Outcome::LeftBracket);
+                }
+                let left_over = if stalled { sizes } else { next };
+                // The noise is known from a few coefficients only.
+                let errors = std::array::from_fn(|i| {
+                    T::of(4.0) * (noise[i] + rounding[i]) + half * left_over[i]
+                });
+                let force = system.force(errors);
+                let error = errors[0].max(errors[1]);
+                let (on, load) = derivative_steps(integrator, gap, conditions, on, load)?;
+                return Ok(Outcome::Converged(Converged { on, load, error, force }));
+            }
+        }
+        before = certain(sizes).filter(|_| !crossed);
+        // Each of these takes samples: what is so far off was no guess.
+        long += usize::from(size > half);
+        if long > MOST_LONG {
+            break;
+        }
+    }
+    Ok(Outcome::LeftBracket)
+}
+
+/// Whether an edge of the contact passes a breakpoint from one step to the next.
+fn crosses_breakpoint<T: Real>(gap: &Gap<'_, T>, from: Interval<T>, to: Interval<T>) -> bool {
+    [[from.left, to.left], [from.right, to.right]].into_iter().any(|[one, other]| {
+        let passed = Interval { left: one.min(other), right: one.max(other) };
+        gap.breakpoints(passed).next().is_some()
+    })
+}
+
+/// Steps beyond the convergence of the value: from one to the next, one more derivative is exact.
+fn derivative_steps<T: Real>(
+    integrator: &mut dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    conditions: &Conditions<T>,
+    mut on: Interval<T>,
+    mut load: T,
+) -> Result<(Interval<T>, T), ContactError<T>> {
+    for _ in 0..T::DERIVATIVE_ORDER {
+        let m = integrator.moments(gap, on)?;
+        let Some(system) = Linearised::new(conditions, on, load, &m) else { break };
+        let Some(inverse) = system.matrix.try_inverse() else { break };
+        let [left, right, force] = system.solve(&inverse, system.scale, system.residual);
+        load += force;
+        on = moved(conditions, on, system.lean(), [left, right], T::one());
+    }
+    Ok((on, load))
+}
+
+/// The load of a contact of given width that has converged. By one more step, since the last was linear
+/// only, and not from the moments alone: those of limits that are rounded close to a jump of the
+/// slope are not those of a contact.
+pub(super) fn load_of<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    load: T,
+    m: &Moments<T>,
+) -> T {
+    let more = Linearised::new(conditions, on, load, m).and_then(|system| {
+        let inverse = system.matrix.try_inverse()?;
+        let [.., more] = system.solve(&inverse, system.scale, system.residual);
+        Some(load + more)
+    });
+    more.filter(|load| load.is_finite()).unwrap_or(load)
+}
+
+/// What fills the bodies may be rounded beyond them.
+fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
+    let rounded = |x: T, end: T, beyond: T| {
+        let rounding = T::of(8.0) * T::epsilon() * (end.abs() + on.half_width());
+        if beyond > T::zero() && beyond <= rounding { end } else { x }
+    };
+    Interval {
+        left: rounded(on.left, range[0], range[0] - on.left),
+        right: rounded(on.right, range[1], on.right - range[1]),
+    }
+}
+
+/// An interval with its limits moved by steps in units of the half-width, given the load as a share of
+/// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
+/// up, and the centre with it, by `lean` for each unit, as the balance has it: one limit may be a million
+/// times as stiff as the other.
+fn moved<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    lean: T,
+    [left, right]: [T; 2],
+    share: T,
+) -> Interval<T> {
+    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+    let half_width = on.half_width();
+    let [along, asked] = [half * (right + left), half * (right - left)];
+    let wider = if asked < T::of(-0.3) && share > zero && share < one {
+        // Far off, the power of the half-width that the load goes with is read off the step: 2
+        // for a round body, 1 for a wedge.
+        let power = (one - share) / -asked;
+        (share.powf(one / power) - one).max(T::of(-0.97))
+    } else {
+        let square = (one + asked + asked).max(T::of(1e-3));
+        ((square - one) / (one + square.sqrt())).min(T::of(3.0))
+    };
+    match conditions.edges.map(|edge| edge.limit()) {
+        [None, None] => {
+            let along = match conditions.given {
+                // Where the bodies turn the balance is another.
+                Given::Centre { .. } => along.max(-one).min(one),
+                _ => along + lean * (wider - asked),
+            };
+            Interval {
+                left: on.left + (along - wider) * half_width,
+                right: on.right + (along + wider) * half_width,
+            }
+        }
+        [left, right] => Interval {
+            left: left.unwrap_or(on.left - (wider + wider) * half_width),
+            right: right.unwrap_or(on.right + (wider + wider) * half_width),
+        },
+    }
+}
+
+/// A step that would leave the bodies is moved so that it goes half the way to their end, where the slope may
+/// be infinite. What is too wide for that is cut.
+fn before_ends<T: Real>(
+    conditions: &Conditions<T>,
+    from: Interval<T>,
+    to: Interval<T>,
+    range: [T; 2],
+) -> Interval<T> {
+    if to.left >= range[0] && to.right <= range[1] {
+        return to;
+    }
+    let half = T::of(0.5);
+    let ends = [half * (from.left + range[0]), half * (from.right + range[1])];
+    let [left, right] = conditions.edges.map(|edge| edge.limit());
+    let back = (to.right - ends[1]).max(T::zero());
+    let on = (ends[0] - to.left).max(T::zero());
+    Interval {
+        left: left.unwrap_or((to.left - back).max(ends[0])),
+        right: right.unwrap_or((to.right + on).min(ends[1])),
+    }
+}
+
+/// Whether adhesion acts, under which the bodies need not open at the other edge either.
+fn is_pulled<T: Real>(conditions: &Conditions<T>) -> bool {
+    conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
+}
+
+/// Whether the bodies, turned by so much, open at those edges of a contact that are free.
+fn opens<T: Real>(
+    integrator: &dyn Integrator<T>,
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    tilt: T,
+) -> bool {
+    let opens =
+        |x: T, sign: T| integrator.slope(x).is_none_or(|slope| (slope + tilt) * sign >= T::zero());
+    let [left, right] = &conditions.edges;
+    is_pulled(conditions)
+        || (!left.is_free() || opens(on.left, -T::one()))
+            && (!right.is_free() || opens(on.right, T::one()))
+}
+
+/// How large noise may be that is said to be so large. It is known from a few coefficients only; but
+/// what a loose tolerance leaves open does not hide that a step is still too short.
+fn doubtful<T: Real>(noise: T) -> T {
+    (T::of(1e3) * noise).min(T::epsilon().sqrt()).max(T::of(4.0) * noise)
+}
+
+/// The equations, linearised: rows for -b and a. Limits are in units of the half-width, forces in
+/// those of `scale`.
+struct Linearised<T> {
+    /// By -b and by a.
+    jacobian: [[T; 2]; 2],
+    residual: [T; 2],
+    /// By the two unknowns: -b and a; or both at once and the load, where the half-width is given.
+    matrix: Matrix2<T>,
+    by_load: bool,
+    /// Whether the difference of the rows is the balance.
+    is_balance: bool,
+    /// A force per unit length.
+    scale: T,
+    stiffness: T,
+    /// By how much the bodies turn.
+    tilt: T,
+}
+
+/// A step.
+struct Step<T> {
+    from: Interval<T>,
+    load: T,
+    /// The load that the contact it is taken from would carry.
+    carried: T,
+    /// By how much the centre goes with the half-width.
+    lean: T,
+    inverse: Matrix2<T>,
+    /// Of force.
+    unit: T,
+    /// Of -b and of a, in half-widths.
+    limits: [T; 2],
+    force: T,
+    /// How much of it is taken.
+    share: T,
+}
+
+impl<T: Real> Step<T> {
+    /// How long it is, in half-widths.
+    fn size(&self) -> T {
+        self.limits[0].abs() + self.limits[1].abs()
+    }
+
+    /// Where it leads, and under which load.
+    fn end(&self, conditions: &Conditions<T>) -> (Interval<T>, T) {
+        let load = self.load + self.share * self.force;
+        let limits = self.limits.map(|step| self.share * step);
+        (moved(conditions, self.from, self.lean, limits, load / self.carried), load)
+    }
+
+    /// Whether the next one would be longer by the same Jacobian.
+    fn grew_to(&self, next: &Linearised<T>, on: Interval<T>) -> bool {
+        let ([left, right, _], size) = (next.steps_of(on, self), self.size());
+        // As far as rounding allows.
+        let rounding = T::epsilon() * (on.left.abs() + on.right.abs());
+        left.abs() + right.abs() >= size
+            && size > T::epsilon().sqrt()
+            && size * on.half_width() > T::of(64.0) * rounding
+    }
+}
+
+impl<T: Real> Linearised<T> {
+    #[inline(always)]
+    fn new(conditions: &Conditions<T>, on: Interval<T>, load: T, m: &Moments<T>) -> Option<Self> {
+        let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
+        let trend = m.trend?;
+        let half_width = on.half_width();
+        let stiffness = conditions.kappa * half_width;
+        let [pull_b, pull_a] = conditions.edge_strengths(half_width);
+        let scale = load.abs() + stiffness * m.size + pull_a + pull_b;
+        if !(scale > zero && scale.is_finite()) {
+            return None;
+        }
+        // Derivatives by centre and half-width, each times the half-width.
+        let (by_scale, by_width) = (one / scale, one / half_width);
+        let weight = stiffness * by_scale;
+        let by_half_width = weight * half_width;
+        let turning = match conditions.given {
+            Given::Centre { at, .. } => Some(Turning::new(conditions, at, on, m)?),
+            _ => None,
+        };
+        let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match (edge.limit(), &turning) {
+            (Some(limit), _) => ((x - limit) * by_width, [zero, one], zero),
+            (None, Some(turning)) => {
+                let [residual, centre, width] = turning.row(sign).map(|x| x * by_scale);
+                let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
+                (residual, [away, own], one)
+            }
+            (None, None) => {
+                let carried = m.first + sign * m.mean;
+                let residual = (load + pull + pull) * by_scale - weight * carried;
+                let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
+                let width = -weight * carried + pull * by_scale
+                    - by_half_width * (trend.by_2 + sign * trend.by_1);
+                let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
+                (residual, [away, own], one)
+            }
+        };
+        let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
+        let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
+        // The difference of the rows without their factor L: the change of that is taken off their derivatives.
+        let is_balance =
+            turning.is_none() && conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let lean = if is_balance { T::of(0.25) * (at_a - at_b) } else { zero };
+        let (jacobian, residual) = ([[bb - lean, ba + lean], [ab + lean, aa - lean]], [at_b, at_a]);
+        let [[bb, ba], [ab, aa]] = jacobian;
+        let matrix = match conditions.given {
+            Given::Load(_) | Given::Centre { .. } => Matrix2::new(bb, ba, ab, aa),
+            Given::HalfWidth(_) => Matrix2::new(ba + bb, force_b, aa + ab, force_a),
+        };
+        let by_load = !matches!(conditions.given, Given::HalfWidth(_));
+        let tilt = conditions.tilt(on, m);
+        Some(Self { jacobian, residual, matrix, by_load, is_balance, scale, stiffness, tilt })
+    }
+
+    /// The step from an interval; `None` where the limits do not act on the slope, as on a flat.
+    fn step(&self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
+        let inverse = self.matrix.try_inverse()?;
+        let [left, right, force] = self.solve(&inverse, self.scale, self.residual);
+        let size = (right - left).abs() + (right + left).abs();
+        let leads = size <= T::of(MOST_STEP) && force.is_finite();
+        let (lean, unit, share) = (self.lean(), self.scale, T::one());
+        let limits = [left, right];
+        leads.then_some(Step { from, load, carried, lean, inverse, unit, limits, force, share })
+    }
+
+    /// The steps of -b and of a, in half-widths, and that of the load, by a Jacobian in a unit of force.
+    #[inline(always)]
+    fn solve(&self, inverse: &Matrix2<T>, unit: T, [at_b, at_a]: [T; 2]) -> [T; 3] {
+        let step = -(inverse * Vector2::new(at_b, at_a));
+        if self.by_load {
+            [step[0], step[1], T::zero()]
+        } else {
+            [step[0], step[0], step[1] * unit]
+        }
+    }
+
+    /// The steps by the Jacobian of another contact.
+    fn steps_of(&self, on: Interval<T>, other: &Step<T>) -> [T; 3] {
+        let share = self.scale / other.unit;
+        let [mut at_b, mut at_a] = self.residual.map(|residual| share * residual);
+        if self.is_balance {
+            // Which was linearised without the factor L.
+            let wider = other.from.half_width() / on.half_width();
+            let half = T::of(0.5);
+            let [load, balance] = [half * (at_a + at_b), half * wider * (at_a - at_b)];
+            [at_b, at_a] = [load - balance, load + balance];
+        }
+        self.solve(&other.inverse, other.unit, [at_b, at_a])
+    }
+
+    /// By how much the centre moves in balance for each unit of the half-width, `dc/dL`.
+    fn lean(&self) -> T {
+        let [[bb, ba], [ab, aa]] = self.jacobian;
+        let [by_left, by_right] = [ab - bb, aa - ba];
+        let lean = (by_left - by_right) / (by_left + by_right);
+        if lean.is_finite() { lean.max(-T::one()).min(T::one()) } else { T::zero() }
+    }
+
+    /// Whether the contact grows with its load: where it does not, another does.
+    fn is_stable(&self, conditions: &Conditions<T>) -> bool {
+        let [[bb, ba], [ab, aa]] = self.jacobian;
+        match (conditions.given, conditions.edges.map(|edge| edge.limit())) {
+            (Given::HalfWidth(_), _) | (_, [Some(_), Some(_)]) => true,
+            (_, [None, None]) => aa * bb < ab * ba,
+            (_, [Some(_), None]) => aa < T::zero(),
+            (_, [None, Some(_)]) => bb > T::zero(),
+        }
+    }
+
+    /// Whether the conditions hold as well as the error of the moments and the rounding of the limits
+    /// allow. (Small steps alone are no proof: a poor initial_guess may creep.)
+    fn is_met(&self, m: &Moments<T>, rounding: [T; 2]) -> bool {
+        let left_open = (self.stiffness * m.error + self.force(rounding)) / self.scale;
+        self.residual.iter().all(|residual| residual.abs() <= doubtful(left_open))
+    }
+
+    /// The load that moves the limits by so much of the half-width.
+    fn force(&self, errors: [T; 2]) -> T {
+        let row = |[b, a]: [T; 2]| b.abs() * errors[0] + a.abs() * errors[1];
+        row(self.jacobian[0]).max(row(self.jacobian[1])) * self.scale
+    }
+
+    /// What the error of the moments leaves open of `-b` and of `a`, in half-widths.
+    fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
+        let error = self.stiffness * m.error / self.scale;
+        let row = |i: usize| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs());
+        [row(0), row(usize::from(self.by_load))]
+    }
+}
+
+/// The conditions of a load that acts at a given place, forces, with their derivatives by the centre and by
+/// the half-width, each times the half-width.
+struct Turning<T> {
+    /// Δ, or Δ/2.
+    load: [T; 3],
+    /// E.
+    moment: [T; 3],
+}
+
+impl<T: Real> Turning<T> {
+    fn new(conditions: &Conditions<T>, at: T, on: Interval<T>, m: &Moments<T>) -> Option<Self> {
+        let (half, trend, second) = (T::of(0.5), m.trend?, m.second?);
+        let (load, half_width) = (conditions.load(), on.half_width());
+        let stiffness = conditions.kappa * half_width;
+        let by_width = stiffness * half_width;
+        // κ L m₁.
+        let carried = [
+            stiffness * m.first,
+            by_width * trend.by_1,
+            stiffness * m.first + by_width * trend.by_2,
+        ];
+        let left = load - carried[0];
+        let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let (acting, load) = if both_free {
+            (carried, [left, -carried[1], -carried[2]])
+        } else {
+            // A condition that was multiplied by the half-width.
+            let row = [half * left, -half * carried[1], half * (left - carried[2])];
+            ([load, T::zero(), T::zero()], row)
+        };
+        let arm = (on.centre() - at) / half_width;
+        Some(Self {
+            load,
+            moment: [
+                acting[0] * arm + half * stiffness * second,
+                acting[0] + acting[1] * arm + by_width * (trend.by_2 - half * trend.by_0),
+                acting[2] * arm + half * by_width * trend.by_1,
+            ],
+        })
+    }
+
+    /// What is asked of a free edge, positive where that must move outward: -b (negative sign) or a.
+    fn row(&self, sign: T) -> [T; 3] {
+        std::array::from_fn(|i| self.load[i] - sign * self.moment[i])
+    }
+}

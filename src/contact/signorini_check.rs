@@ -1,0 +1,367 @@
+//! Whether what solves the equations is a contact: nothing pulls inside, nothing overlaps outside.
+//!
+//! Inside, a slope of the gap that rises on every panel proves it: P is an integral of the rate of g'
+//! with a kernel that is nowhere negative. Only otherwise pressures are looked at. Outside, the gap
+//! between the loaded bodies is looked at where their heights are known.
+
+use super::Found;
+use super::exterior_field::{ExteriorField, POINTS};
+use crate::gap::{Cost, Gap, LowPoint, Sampler};
+use crate::quadrature::panels::{self, Several};
+use crate::quadrature::{Integrator, LoadCase};
+use crate::{ContactError, Interval, Real};
+use std::cmp::Ordering;
+
+/// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.
+const MOST_JOINTS: usize = 64;
+
+/// Places with tension of which it is asked how far they can be trusted.
+const MOST_DOUBTFUL: usize = 256;
+
+/// Places in a contact at which the pressure is looked at for the gap beside it.
+const MOST_POINTS: usize = 256;
+
+/// The share of the load that the series of its pressures may leave open before more of them are taken.
+const OPEN: f64 = 1e-3;
+
+/// Places between two heights that are looked at where these may hide a wave.
+const PLACES: usize = 8;
+
+/// How often a span between two heights is halved in search of its lowest place.
+const MOST_HALVES: usize = 8;
+
+/// Places from that of a tension to the end of the contact at which the pressure is looked at.
+const HALVES: usize = 52;
+
+/// Steps to a least pressure between those that were looked at.
+const MOST_STEPS: usize = 4;
+
+/// The contacts of a solution, ready to be checked.
+pub(super) struct SignoriniCheck<'c, T: Real> {
+    pub gap: &'c Gap<'c, T>,
+    pub integrator: &'c dyn Integrator<T>,
+    pub kappa: T,
+    pub found: &'c ContactState<T>,
+    /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
+    pub closed: &'c [Interval<T>],
+}
+
+/// Where the bodies would pull at each other, and room for pressures `[x, P]`.
+#[derive(Clone)]
+pub(super) struct TensionSpans<T> {
+    pub spans: Vec<Interval<T>>,
+    seen: Vec<[T; 2]>,
+}
+
+impl<T> TensionSpans<T> {
+    pub fn new() -> Self {
+        Self { spans: Vec::new(), seen: Vec::new() }
+    }
+}
+
+fn by_size<T: Real>(one: T, other: T) -> Ordering {
+    // NaN first.
+    let is_number = |value: T| value.partial_cmp(&value).is_some();
+    one.partial_cmp(&other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
+}
+
+impl<T: Real> SignoriniCheck<'_, T> {
+    fn contacts(&self) -> &[Interval<T>] {
+        let several = panels::several(self.integrator).map(Several::contacts);
+        several.unwrap_or(std::slice::from_ref(&self.found.interval))
+    }
+
+    fn load_case(&self) -> LoadCase<T> {
+        LoadCase { kappa: self.kappa, load: self.found.load, free: self.found.free }
+    }
+
+    /// The share of the mean pressure, or of the heights in the contact, that is taken for zero.
+    fn share(&self) -> T {
+        let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+        let error = T::of(16.0) * self.found.error.unwrap_or(T::zero());
+        rounding.max(error).min(T::of(0.01))
+    }
+
+    /// The pressures in each contact.
+    pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
+        fields.clear();
+        for &on in self.contacts() {
+            let x = ExteriorField::places(on);
+            let mut pressures = [T::zero(); POINTS];
+            self.pressures(&x, &mut pressures)?;
+            fields.push(ExteriorField::new(on, &x, &pressures));
+        }
+        Ok(())
+    }
+
+    fn pressures(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        let cost = &mut Cost::default();
+        self.integrator.pressures(self.gap, &self.load_case(), x, pressures, cost)
+    }
+
+    /// Takes more pressures of those contacts whose series leaves much open: they hide many waves, or kinks.
+    pub fn resolve(&self, fields: &mut [ExteriorField<T>]) -> Result<(), ContactError<T>> {
+        for field in fields {
+            let mut count = POINTS;
+            while field.doubt() > T::of(OPEN) * self.found.load.abs() && count < MOST_POINTS {
+                count *= 2;
+                let x = (0..count).map(|i| ExteriorField::place(field.interval(), i, count));
+                let x: Vec<T> = x.collect();
+                let mut pressures = vec![T::zero(); count];
+                self.pressures(&x, &mut pressures)?;
+                field.refine(&x, pressures);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the bodies would have to pull at each other inside a contact, and the pressure there: the worst
+    /// such place, and in `tension_spans` all spans on which they would.
+    pub fn tension(
+        &self,
+        fields: &mut Vec<ExteriorField<T>>,
+        TensionSpans { spans: tension_spans, seen }: &mut TensionSpans<T>,
+    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        tension_spans.clear();
+        let adhesive = self.found.adhesive != [false; 2];
+        if adhesive || panels::rises(self.integrator, self.share()) == Some(true) {
+            return Ok(None);
+        }
+        self.fields(fields)?;
+        let mut found: Vec<[T; 2]> = Vec::new();
+        let mut meet = |x: T, pressure: T, allowed: T| {
+            // NaN does not press either.
+            let presses = pressure >= -allowed;
+            if !presses && !self.closed.iter().any(|closed| closed.contains(x)) {
+                found.push([x, pressure]);
+            }
+        };
+        for (i, field) in fields.iter().enumerate() {
+            let on = field.interval();
+            let mean = field.load().abs() / on.half_width();
+            let allowed =
+                self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+            seen.clear();
+            let both = ExteriorField::places(on).into_iter().zip(field.pressures());
+            seen.extend(both.map(|(x, &pressure)| [x, pressure]));
+            // What the panels resolve is not narrower than their nodes.
+            let (mut places, mut count) = ([T::zero(); POINTS], 0);
+            let mut look = |places: &[T]| {
+                let mut pressures = [T::zero(); POINTS];
+                let out = &mut pressures[..places.len()];
+                self.pressures(places, out)?;
+                seen.extend(places.iter().zip(out).map(|(&x, &mut pressure)| [x, pressure]));
+                Ok::<_, ContactError<T>>(())
+            };
+            panels::nodes(self.integrator, i, &mut |x| {
+                (places[count], count) = (x, count + 1);
+                if count == POINTS {
+                    count = 0;
+                    look(&places)?;
+                }
+                Ok(())
+            })?;
+            look(&places[..count])?;
+            seen.sort_by(|one, other| by_size(one[0], other[0]));
+            seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
+            // Between them, at the vertex of the parabola through each least value and its neighbours.
+            for near in seen.windows(3) {
+                let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
+                if !(p[1] <= p[0] && p[1] <= p[2]) {
+                    continue;
+                }
+                for _ in 0..MOST_STEPS {
+                    let [one, two] = [x[1] - x[0], x[2] - x[1]];
+                    let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
+                    let bend = (rise - fall) / (one + two);
+                    let slope = (fall * two + rise * one) / (one + two);
+                    let vertex = x[1] - T::of(0.5) * slope / bend;
+                    let below = p[1] - T::of(0.25) * slope * slope / bend;
+                    // A least value that is far above nothing needs no closer look.
+                    let is_near = below < T::of(0.5) * p[1];
+                    if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
+                        break;
+                    }
+                    let mut pressure = [T::zero()];
+                    self.pressures(&[vertex], &mut pressure)?;
+                    meet(vertex, pressure[0], allowed);
+                    (x, p) = if vertex < x[1] {
+                        ([x[0], vertex, x[1]], [p[0], pressure[0], p[1]])
+                    } else {
+                        ([x[1], vertex, x[2]], [p[1], pressure[0], p[2]])
+                    };
+                }
+            }
+            // Where the slope jumps down the pressure goes to minus infinity.
+            for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
+                let doubt = self.integrator.doubt(breakpoint).unwrap_or(T::zero());
+                if self.gap.jump(breakpoint)[0].abs() > T::of(16.0) * doubt {
+                    let mut pressure = [T::zero()];
+                    self.pressures(&[breakpoint], &mut pressure)?;
+                    meet(breakpoint, pressure[0], allowed);
+                }
+            }
+        }
+        found.sort_by(|one, other| by_size(one[1], other[1]));
+        let mut worst = None;
+        for &[x, pressure] in found.iter().take(MOST_DOUBTFUL) {
+            if tension_spans.iter().any(|span| span.contains(x)) {
+                continue;
+            }
+            // Beside a kink that nobody declared a value may be all doubt.
+            if pressure.is_finite() {
+                let cost = &mut Cost::default();
+                let estimate = self.integrator.estimate(self.gap, &self.load_case(), x, cost)?;
+                if pressure + estimate.error >= T::zero() {
+                    continue;
+                }
+            }
+            worst.get_or_insert([x, pressure]);
+            tension_spans.push(Interval {
+                left: self.presses_from(x, false)?,
+                right: self.presses_from(x, true)?,
+            });
+        }
+        Ok(worst)
+    }
+
+    /// The place nearest to one without pressure, of some that lie twice as far away each, where there is some;
+    /// or else the end of the contact.
+    fn presses_from(&self, x: T, right: bool) -> Result<T, ContactError<T>> {
+        let on = self.contacts().iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
+        let end = if right { on.right } else { on.left };
+        let mut places = [x; HALVES];
+        let mut away = end - x;
+        for place in places.iter_mut().rev() {
+            away *= T::of(0.5);
+            *place = x + away;
+        }
+        let mut pressures = [T::zero(); HALVES];
+        self.pressures(&places, &mut pressures)?;
+        let mut both = places.iter().zip(&pressures);
+        let first = both.find(|&(&place, &pressure)| place != x && pressure > T::zero());
+        Ok(first.map_or(end, |(&place, _)| place))
+    }
+
+    /// Between which of some places the loaded gap is lowest.
+    fn valley(
+        &self,
+        pressed: &impl Fn(T) -> T,
+        sampler: &mut Sampler<T>,
+        [from, to]: [T; 2],
+    ) -> Result<[T; 2], ContactError<T>> {
+        let step = (to - from) / T::count(PLACES + 1);
+        let (mut lowest, mut least) = (from, None);
+        for i in 1..=PLACES {
+            let x = from + step * T::count(i);
+            let gap = sampler.height(self.gap, x)? - pressed(x) / self.kappa;
+            if least.is_none_or(|least| gap < least) {
+                (lowest, least) = (x, Some(gap));
+            }
+        }
+        Ok([lowest - step, lowest + step])
+    }
+
+    /// About where the loaded gap is lowest between two places, at the first of which it falls and at the
+    /// second rises.
+    fn lowest_between(
+        &self,
+        fields: &[ExteriorField<T>],
+        sampler: &mut Sampler<T>,
+        [mut left, mut right]: [T; 2],
+    ) -> Result<T, ContactError<T>> {
+        let half = T::of(0.5);
+        for _ in 0..MOST_HALVES {
+            let x = half * (left + right);
+            let tension_spans = fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x));
+            let slope = sampler.slope(self.gap, x)? - tension_spans / self.kappa;
+            if slope > T::zero() { right = x } else { left = x }
+        }
+        Ok(half * (left + right))
+    }
+
+    /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
+    /// the gap before loading show it, by rising x.
+    pub fn overlap(
+        &self,
+        fields: &[ExteriorField<T>],
+        heights: impl Iterator<Item = LowPoint<T>>,
+        cost: &mut Cost,
+    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        let (contacts, hull) = (self.contacts(), self.found.interval);
+        let last = contacts.len() - 1;
+        let mut sampler = Sampler::default();
+        let mut worst: Option<[T; 2]> = None;
+        let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
+        let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
+        // The edge from which the gap is followed to x, the height of the gap there, and what the pressure
+        // takes off it.
+        let mut from: Option<(usize, T, T)> = None;
+        let mut next = 0;
+        for LowPoint { x, height, between, doubt: hidden } in heights {
+            while next <= last && contacts[next].right <= x {
+                next += 1;
+            }
+            if next <= last && contacts[next].left <= x {
+                continue;
+            }
+            let (edge, contact, right) = match next.checked_sub(1) {
+                None => (contacts[0].left, 0, false),
+                Some(before) => (contacts[before].right, before, true),
+            };
+            let (_, at_edge, taken) = match from.filter(|&(at, ..)| at == next) {
+                Some(known) => known,
+                None => {
+                    let height = match panels::several(self.integrator) {
+                        Some(several) => several.height(contact, right),
+                        None => sampler.height(self.gap, self.gap.nearest(edge))?,
+                    };
+                    *from.insert((next, height, total(edge)))
+                }
+            };
+            // From no place does the load act further away than from the far end of the contacts.
+            let most = load * (x - hull.left).max(hull.right - x).ln();
+            if height - hidden - at_edge >= (most - taken) / self.kappa {
+                continue;
+            }
+            let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
+            let allowed = doubt
+                + self.share() * (height - at_edge).abs()
+                + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
+            if gap(height - hidden) >= -allowed {
+                continue;
+            }
+            // The height may be an interpolated one, or a bound.
+            let x = match between {
+                Some([from, to]) => {
+                    // Not in the contacts on either side.
+                    let from = next.checked_sub(1).map_or(from, |i| from.max(contacts[i].right));
+                    let to = contacts.get(next).map_or(to, |on| to.min(on.left));
+                    let mut between = [from, to];
+                    if gap(height + hidden) >= -allowed {
+                        between = self.valley(&total, &mut sampler, between)?;
+                    }
+                    self.lowest_between(fields, &mut sampler, between)?
+                }
+                None => x,
+            };
+            let height = sampler.height(self.gap, x)?;
+            let gap = height - at_edge - (total(x) - taken) / self.kappa;
+            // Where the formulas are all rounding, heights do not go with slopes, and tell nothing.
+            let aside = T::epsilon().sqrt() * hull.half_width();
+            let beside = self.gap.nearest(x + aside);
+            let rise = sampler.height(self.gap, beside)? - height;
+            let due = sampler.slope(self.gap, x)? * (beside - x);
+            let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
+            let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
+            let noise = T::of(8.0) * (rise - due).abs();
+            let is_open = gap >= -(allowed + noise) || !is_sound;
+            if !is_open && worst.is_none_or(|[_, least]| gap < least) {
+                worst = Some([x, gap]);
+            }
+        }
+        cost.heights += sampler.cost.evaluations;
+        Ok(worst)
+    }
+}

@@ -1,0 +1,378 @@
+//! Points of a curve *near* given abscissae.
+//!
+//! An interpolant does not need its nodes to be anywhere in particular: near the Chebyshev points
+//! is as good as at them. So nothing is inverted. The parameter of each target is read off the
+//! cubic `k(x)` through the two known points around it (`dk/dx = 1/X'` is known there too), and
+//! where the curve then turns out to be is where the node is. On a range that the curve crosses
+//! evenly this takes one evaluation a node, all of them in one batch. A target that is missed by
+//! more than a tenth of the distance to its neighbours is approached by a few steps of Newton's
+//! rule, as is the first where nothing is known but the far ends of a piece. Where they do not
+//! get there it is searched for with the user's strategy, which is stopped as soon as it is near:
+//! it meets a zero there.
+
+mod curve_samples;
+mod inverse_hermite;
+
+pub(crate) use curve_samples::CurveSample;
+
+use super::{Cost, Gap, Side};
+use crate::profile::{Piece, first_turn};
+use crate::real::is_finite;
+use crate::search::{Bracket, SearchError};
+use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+use curve_samples::CurveSamples;
+use inverse_hermite::{InverseHermite, is_between, newton};
+
+/// The most targets at a time.
+const MOST: usize = 32;
+
+/// Steps of Newton's rule to a target, before it is left to the user's strategy.
+const STEPS: usize = 4;
+
+/// The points of one body that were sampled last, from left to right.
+#[derive(Clone, Debug)]
+pub(crate) struct SampleCache<T> {
+    /// The piece they lie on.
+    piece: Option<usize>,
+    curve_samples: CurveSamples<T>,
+    /// Where `X(k) = x` needs no solving there is no `Y`, and the curve_samples are at their targets.
+    pub direct: bool,
+}
+
+impl<T: Real> SampleCache<T> {
+    pub fn new() -> Self {
+        Self { piece: None, curve_samples: CurveSamples::new(), direct: false }
+    }
+
+    /// Forgets what was sampled: the body is another.
+    pub fn clear(&mut self) {
+        self.piece = None;
+    }
+
+    /// The last points, one for each target.
+    pub fn curve_samples(&self) -> &[CurveSample<T>] {
+        self.curve_samples.inner()
+    }
+
+    /// The two ends of the piece.
+    pub fn ends(&self) -> [CurveSample<T>; 2] {
+        self.curve_samples.ends()
+    }
+
+    /// The larger `|Y|` at the ends of the piece.
+    pub fn height(&self) -> T {
+        let [left, right] = self.curve_samples.ends();
+        left.y.abs().max(right.y.abs())
+    }
+}
+
+/// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by so
+/// much. Afterwards the trace has one curve_sample for each, rising too.
+pub(crate) fn sample_near<const N: usize, T: Real>(
+    gap: &Gap<'_, T>,
+    body: Body,
+    targets: &[T; N],
+    room: &[T; N],
+    trace: &mut SampleCache<T>,
+    cost: &mut Cost,
+) -> Result<(), ContactError<T>> {
+    const { assert!(N <= MOST) };
+    let (index, piece) = gap.piece_with(body, targets[N / 2], Side::Left)?;
+    if let Some(slope) = piece.curve.slope_at(targets[0]) {
+        (trace.direct, trace.piece) = (true, None);
+        let zero = T::zero();
+        let mut curve_samples = targets.map(|x| CurveSample { k: zero, x, y: zero, dx: zero, slope });
+        for (i, curve_sample) in curve_samples.iter_mut().enumerate() {
+            if i > 0 {
+                curve_sample.slope = piece.curve.slope_at(curve_sample.x).unwrap_or(slope);
+            }
+            if !curve_sample.slope.is_finite() {
+                return Err(not_finite(body, "slope_at(x)", curve_sample.x, curve_sample.slope));
+            }
+        }
+        trace.curve_samples.set([curve_samples[0], curve_samples[N - 1]], &curve_samples);
+        return Ok(());
+    }
+    trace.direct = false;
+    if trace.piece != Some(index) {
+        let ends = [0, 1].map(|i| {
+            let slope = piece.end_slope(i, &mut cost.evaluations);
+            CurveSample { slope, ..CurveSample::new(piece.k[i], piece.ends[i]) }
+        });
+        trace.piece = Some(index);
+        trace.curve_samples.set(ends, &[]);
+    }
+    let (ends, rises) = (trace.curve_samples.ends(), piece.k[0] < piece.k[1]);
+    let shot = TargetBatch { gap, body, piece, ends, rises, targets, room };
+    shot.take(&mut trace.curve_samples, cost).map_err(|error| turns(piece, error))
+}
+
+/// What is aimed at.
+struct TargetBatch<'s, const N: usize, T: Real> {
+    gap: &'s Gap<'s, T>,
+    body: Body,
+    piece: Piece<'s, T>,
+    /// The ends of the piece, with slopes where the curve itself has none.
+    ends: [CurveSample<T>; 2],
+    rises: bool,
+    targets: &'s [T; N],
+    /// By how much each may be missed.
+    room: &'s [T; N],
+}
+
+impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
+    /// Puts curve_samples near the targets in place of those that are known.
+    fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let (targets, ends) = (self.targets, self.ends);
+        // A range much longer than that of the targets says little of where they are: with one found,
+        // the others are aimed at from there.
+        let [first, last] = [targets[0], targets[N - 1]];
+        let len = known.len();
+        let [leftmost, rightmost] = [known.row[1], known.row[len]];
+        let far = last - first < T::of(0.25) * (ends[1].x - ends[0].x);
+        let beside = first <= ends[0].x || last >= ends[1].x;
+        if len == 0 && far && !beside {
+            let found = self.find(N / 2, ends, cost)?;
+            known.set(ends, &[found]);
+        } else if len > 0 && first > rightmost.x && !beside {
+            let found = self.find(N - 1, [rightmost, ends[1]], cost)?;
+            known.set(ends, &[rightmost, found]);
+        } else if len > 0 && last < leftmost.x && !beside {
+            let found = self.find(0, [ends[0], leftmost], cost)?;
+            known.set(ends, &[found, leftmost]);
+        }
+        let mut curve_samples = [ends[0]; N];
+        if !self.batch(known, &mut curve_samples, cost)? {
+            self.find_missed(known, &mut curve_samples, cost)?;
+        }
+        known.set(ends, &curve_samples);
+        Ok(())
+    }
+
+    fn is_near(&self, i: usize, curve_sample: &CurveSample<T>) -> bool {
+        (curve_sample.x - self.targets[i]).abs() <= self.room[i]
+    }
+
+    /// A point, or the end of the piece, where rounding has put it there and it has no slope of its own.
+    fn or_end(&self, curve_sample: CurveSample<T>) -> CurveSample<T> {
+        if is_finite(curve_sample.slope) {
+            return curve_sample;
+        }
+        let end = self.ends.iter().find(|end| end.k == curve_sample.k && is_finite(end.slope));
+        end.copied().unwrap_or(curve_sample)
+    }
+
+    /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
+    fn batch(
+        &self,
+        known: &CurveSamples<T>,
+        curve_samples: &mut [CurveSample<T>; N],
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let zero = T::zero();
+        let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
+        let (mut asked, mut k) = ([0; N], [zero; N]);
+        let (row, len) = (&known.row[..], known.len());
+        let (mut count, mut right) = (0, 1);
+        let mut from = 0;
+        let mut way = InverseHermite::new(&row[0], &row[1]);
+        for (i, &target) in self.targets.iter().enumerate() {
+            while right <= len && row[right].x <= target {
+                right += 1;
+            }
+            let left = right - 1;
+            let [one, other] = [&row[left], &row[right]];
+            let [from_left, to_right] = [target - one.x, other.x - target];
+            let nearer = if from_left < to_right { one } else { other };
+            if self.is_near(i, nearer) && is_finite(nearer.slope) {
+                curve_samples[i] = *nearer;
+                continue;
+            }
+            // Just outside what is known, its last two points say more than a far end.
+            let pair = if left == 0 && len >= 2 && to_right <= row[2].x - other.x {
+                1
+            } else if left == len && len >= 2 && from_left <= one.x - row[len - 1].x {
+                len - 1
+            } else {
+                left
+            };
+            if from != pair {
+                (from, way) = (pair, InverseHermite::new(&row[pair], &row[pair + 1]));
+            }
+            (asked[count], k[count]) = (i, way.parameter(target, one, other));
+            count += 1;
+        }
+        let mut points = [nowhere; N];
+        self.piece.curve.at_many(&k[..count], &mut points[..count]);
+        cost.evaluations += count;
+        let (mut all_near, mut sound) = (true, true);
+        for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {
+            let curve_sample = CurveSample::new(k, point);
+            sound &= self.is_sound(&curve_sample);
+            all_near &= self.is_near(i, &curve_sample);
+            curve_samples[i] = curve_sample;
+        }
+        if !sound {
+            for (i, curve_sample) in curve_samples.iter_mut().enumerate() {
+                *curve_sample = self.or_end(*curve_sample);
+                self.check(i, curve_sample)?;
+            }
+        }
+        Ok(all_near)
+    }
+
+    /// Finds points near the targets that were missed.
+    fn find_missed(
+        &self,
+        known: &CurveSamples<T>,
+        curve_samples: &mut [CurveSample<T>; N],
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        for (i, &target) in self.targets.iter().enumerate() {
+            if self.is_near(i, &curve_samples[i]) {
+                continue;
+            }
+            let [mut left, mut right] = self.ends;
+            for &curve_sample in known.inner().iter().chain(curve_samples.iter()) {
+                if curve_sample.x <= target && curve_sample.x >= left.x {
+                    left = curve_sample;
+                }
+                if curve_sample.x >= target && curve_sample.x <= right.x {
+                    right = curve_sample;
+                }
+            }
+            let found = self.find(i, [left, right], cost)?;
+            // A strategy that stops early leaves nodes that are good for nothing.
+            let missed = found.x - target;
+            let [from, to] = self.piece.x();
+            let noise = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
+            if missed.abs() > T::of(5.0) * self.room[i] + noise {
+                let source = SearchError::NotConverged { x: found.k, residual: missed };
+                return Err(ContactError::Inversion { body: self.body, x: target, source });
+            }
+            curve_samples[i] = found;
+        }
+        Ok(())
+    }
+
+    /// Finds a point near one target between two known points, by Newton's rule; where a few steps are
+    /// not enough, with the user's strategy.
+    fn find(
+        &self,
+        i: usize,
+        between: [CurveSample<T>; 2],
+        cost: &mut Cost,
+    ) -> Result<CurveSample<T>, ContactError<T>> {
+        let [left, right] = between;
+        let target = self.targets[i];
+        let [from_left, to_right] = [target - left.x, right.x - target];
+        let beside = from_left.min(to_right) < T::of(0.25) * from_left.max(to_right);
+        let mut k = if beside {
+            newton(left, right, target)
+        } else {
+            InverseHermite::new(&left, &right).parameter(target, &left, &right)
+        };
+        for _ in 0..STEPS {
+            if !is_between(k, left.k, right.k) {
+                break;
+            }
+            cost.evaluations += 1;
+            let curve_sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
+            self.check(i, &curve_sample)?;
+            if self.is_near(i, &curve_sample) {
+                return Ok(curve_sample);
+            }
+            k = curve_sample.k + (target - curve_sample.x) / curve_sample.dx;
+        }
+        self.limit_search(i, between, cost)
+    }
+
+    /// Finds a point near one target with the user's strategy.
+    #[cold]
+    fn search(
+        &self,
+        i: usize,
+        [left, right]: [CurveSample<T>; 2],
+        cost: &mut Cost,
+    ) -> Result<CurveSample<T>, ContactError<T>> {
+        let (target, body) = (self.targets[i], self.body);
+        let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
+        if lo.k >= hi.k {
+            // The two known points are one and the same.
+            return Ok(left);
+        }
+        let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
+        let bracket = bracket.guess(newton(left, right, target));
+        let (mut best, mut failed) = (None, None);
+        let (low, high) = (lo.k, hi.k);
+        let astray = |k: T| {
+            let source = SearchError::LeftBracket { x: k, lo: low, hi: high };
+            ContactError::Inversion { body, x: target, source }
+        };
+        let mut f = |k: T| {
+            if !(k >= low && k <= high) {
+                failed = Some(astray(k));
+                return (T::of(f64::NAN), T::zero());
+            }
+            cost.evaluations += 1;
+            let curve_sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
+            if let Err(error) = self.check(i, &curve_sample) {
+                failed = Some(error);
+                return (T::of(f64::NAN), curve_sample.dx);
+            }
+            best = Some(curve_sample);
+            (if self.is_near(i, &curve_sample) { T::zero() } else { curve_sample.x - target }, curve_sample.dx)
+        };
+        match (self.gap.inversion().find_with_slope(&mut f, &bracket), failed) {
+            (_, Some(error)) => Err(error),
+            (Ok(root), None) if !(root.x >= low && root.x <= high) => Err(astray(root.x)),
+            (Ok(root), None) => match best.filter(|best| best.k == root.x) {
+                Some(curve_sample) => Ok(curve_sample),
+                None => {
+                    cost.evaluations += 1;
+                    let curve_sample = self.or_end(CurveSample::new(root.x, self.piece.curve.at(root.x)));
+                    self.check(i, &curve_sample).map(|()| curve_sample)
+                }
+            },
+            (Err(source), None) => Err(ContactError::Inversion { body, x: target, source }),
+        }
+    }
+
+    #[inline(always)]
+    fn is_sound(&self, curve_sample: &CurveSample<T>) -> bool {
+        let onward = if self.rises { curve_sample.dx } else { -curve_sample.dx };
+        curve_sample.x.is_finite() & curve_sample.slope.is_finite() & (onward >= T::zero())
+    }
+
+    /// A point on the way to a target need have no slope: X may have saturated there, far from all that
+    /// counts.
+    fn check(&self, i: usize, curve_sample: &CurveSample<T>) -> Result<(), ContactError<T>> {
+        let still = curve_sample.dx.is_zero() && curve_sample.x.is_finite() && !self.is_near(i, curve_sample);
+        if still || self.is_sound(curve_sample) { Ok(()) } else { Err(self.fault(curve_sample)) }
+    }
+
+    #[cold]
+    fn fault(&self, &CurveSample { k, x, slope, .. }: &CurveSample<T>) -> ContactError<T> {
+        if !x.is_finite() {
+            not_finite(self.body, "X", k, x)
+        } else if !slope.is_finite() {
+            not_finite(self.body, "the slope Y'/X'", k, slope)
+        } else {
+            let source = ProfileError::TurnsBack { k, x };
+            ContactError::Profile { body: self.body, source }
+        }
+    }
+}
+
+/// Says where a curve that runs the wrong way turns.
+fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
+    let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
+        return error;
+    };
+    let (k, x) = first_turn(piece.curve, piece.k, [piece.k[0], k]);
+    ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
+}
+
+fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {
+    ContactError::Profile { body, source: ProfileError::NotFinite { quantity, k, value } }
+}

@@ -1,0 +1,56 @@
+//! The known points of a curve on one of its pieces.
+
+use super::MOST;
+use crate::{CurvePoint, Real};
+
+/// A known point of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CurveSample<T> {
+    pub k: T,
+    pub x: T,
+    pub y: T,
+    pub dx: T,
+    /// `Y'/X'`
+    pub slope: T,
+}
+
+impl<T: Real> CurveSample<T> {
+    pub fn new(k: T, point: CurvePoint<T>) -> Self {
+        Self { k, x: point.x, y: point.y, dx: point.dx, slope: point.dy / point.dx }
+    }
+}
+
+/// The two ends of a piece and the known points between them, from left to right; none at all before
+/// the first.
+#[derive(Clone, Debug)]
+pub(super) struct CurveSamples<T> {
+    pub row: Vec<CurveSample<T>>,
+}
+
+impl<T: Real> CurveSamples<T> {
+    pub fn new() -> Self {
+        Self { row: Vec::new() }
+    }
+
+    /// How many there are between the ends.
+    pub fn len(&self) -> usize {
+        self.row.len().saturating_sub(2)
+    }
+
+    pub fn ends(&self) -> [CurveSample<T>; 2] {
+        [self.row[0], self.row[self.row.len() - 1]]
+    }
+
+    /// Takes other curve_samples in place of these.
+    pub fn set(&mut self, [left, right]: [CurveSample<T>; 2], inner: &[CurveSample<T>]) {
+        self.row.clear();
+        self.row.reserve(MOST + 2);
+        self.row.push(left);
+        self.row.extend_from_slice(inner);
+        self.row.push(right);
+    }
+
+    pub fn inner(&self) -> &[CurveSample<T>] {
+        &self.row[1..=self.len()]
+    }
+}

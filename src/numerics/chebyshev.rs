@@ -1,0 +1,278 @@
+//! Chebyshev series: the tables for a few fixed sizes, and evaluation.
+//!
+//! The sizes are multiples of four, and all loops over nodes run over arrays of a length known to
+//! the compiler, which turns them into vector instructions.
+
+use crate::Real;
+use crate::real::fma;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// The numbers of nodes in use.
+pub(super) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
+/// The largest of them.
+pub(crate) const MOST: usize = 32;
+
+/// A call for one of the [`SIZES`], with the number of nodes known to the compiler.
+macro_rules! by_size {
+    ($n:expr, $size:ident => $call:expr) => {
+        by_size!(@ $n, $size, $call, 4 8 12 16 24)
+    };
+    (@ $n:expr, $size:ident, $call:expr, $($each:literal)*) => {
+        match $n {
+            $($each => {
+                const $size: usize = $each;
+                $call
+            })*
+            _ => {
+                const $size: usize = crate::numerics::chebyshev::MOST;
+                $call
+            }
+        }
+    };
+}
+pub(super) use by_size;
+
+/// Coefficients or values, as many as the panel has nodes.
+pub(crate) type Row<T> = [T; MOST];
+
+/// The zeros of `T_n`, and the transform from values there to coefficients.
+pub(crate) struct Table {
+    /// The nodes, rising, and `sin θ` there.
+    pub z: [f64; MOST],
+    pub sine: [f64; MOST],
+    /// From each node the distance to the nearest other.
+    pub spacing: [f64; MOST],
+    /// `transform[j][k]`: the share of the value at node j in coefficient k.
+    transform: [[f64; MOST]; MOST],
+    /// The share of the value at node j in that at the right end.
+    at_end: [f64; MOST],
+}
+
+static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
+static SKETCH: LazyLock<Table> = LazyLock::new(Table::with_ends);
+
+impl Table {
+    fn empty() -> Self {
+        Self {
+            z: [0.0; MOST],
+            sine: [0.0; MOST],
+            spacing: [0.0; MOST],
+            transform: [[0.0; MOST]; MOST],
+            at_end: [0.0; MOST],
+        }
+    }
+
+    fn new(n: usize) -> Self {
+        let mut table = Self::empty();
+        let angle = |eighths: usize| PI * eighths as f64 / (2 * n) as f64;
+        for j in 0..n {
+            // sin of a small angle of either sign, so that the nodes are symmetric.
+            table.z[j] = ((2.0 * j as f64 + 1.0 - n as f64) * PI / (2 * n) as f64).sin();
+            table.sine[j] = (1.0 - table.z[j] * table.z[j]).sqrt();
+            for k in 0..n {
+                let cosine = angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
+                table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
+            }
+            table.at_end[j] = table.transform[j][..n].iter().sum();
+        }
+        table.set_spacing(n);
+        table
+    }
+
+    fn set_spacing(&mut self, n: usize) {
+        for j in 0..n {
+            let before = if j > 0 { self.z[j] - self.z[j - 1] } else { f64::INFINITY };
+            let after = if j + 1 < n { self.z[j + 1] - self.z[j] } else { f64::INFINITY };
+            self.spacing[j] = before.min(after);
+        }
+    }
+
+    /// Four nodes, two of them at the ends.
+    fn with_ends() -> Self {
+        let mut table = Self::empty();
+        table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
+        table.set_spacing(4);
+        for j in 0..4 {
+            for k in 0..4 {
+                let halved = |i: usize| if i == 0 || i == 3 { 0.5 } else { 1.0 };
+                let cosine = (PI * (k * (3 - j)) as f64 / 3.0).cos();
+                table.transform[j][k] = 2.0 / 3.0 * halved(j) * halved(k) * cosine;
+            }
+        }
+        table
+    }
+
+    /// The table for a sketch. With its ends among the nodes, a panel beside a breakpoint is good where it
+    /// matters however long it is.
+    pub fn sketch() -> &'static Self {
+        &SKETCH
+    }
+
+    /// The table for one of the [`SIZES`].
+    pub fn of(n: usize) -> &'static Self {
+        &TABLES[match n {
+            4 => 0,
+            8 => 1,
+            12 => 2,
+            16 => 3,
+            24 => 4,
+            _ => 5,
+        }]
+    }
+
+    /// The share of each node in a sum of coefficients, each times a number.
+    pub fn shares<const N: usize, T: Real>(&self, numbers: &[T; N]) -> [T; N] {
+        std::array::from_fn(|j| {
+            let row = self.transform[j][..N].iter().zip(numbers);
+            row.fold(T::zero(), |sum, (&share, &number)| fma(number, T::of(share), sum))
+        })
+    }
+
+    /// The polynomial with these values at the nodes, at its left and at its right end.
+    pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
+        let [mut left, mut right] = [T::zero(); 2];
+        for j in 0..N {
+            left = fma(values[N - 1 - j], T::of(self.at_end[j]), left);
+            right = fma(values[j], T::of(self.at_end[j]), right);
+        }
+        [left, right]
+    }
+
+    /// The larger of the last two coefficients, after that of the two before.
+    pub fn last_pairs<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
+        let mut last = [T::zero(); 4];
+        for (row, &value) in self.transform.iter().zip(values) {
+            for k in 0..4 {
+                last[k] = fma(value, T::of(row[N - 4 + k]), last[k]);
+            }
+        }
+        let [a, b, c, d] = last.map(|a| a.abs());
+        [a.max(b), c.max(d)]
+    }
+
+    /// The coefficients of the polynomial with given values at the nodes.
+    #[inline(always)]
+    pub fn coefficients<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; N] {
+        let mut row = [T::zero(); N];
+        for j in 0..N {
+            for k in 0..N {
+                row[k] = fma(values[j], T::of(self.transform[j][k]), row[k]);
+            }
+        }
+        row
+    }
+}
+
+/// The polynomial and its derivative at W points (Clenshaw).
+#[inline(always)]
+pub(super) fn evaluate<const W: usize, T: Real>(
+    coefficients: &[T],
+    s: &[T; W],
+) -> ([T; W], [T; W]) {
+    let zero = [T::zero(); W];
+    let (mut b1, mut b2, mut d1, mut d2) = (zero, zero, zero, zero);
+    let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
+    for &a in coefficients[1..].iter().rev() {
+        for i in 0..W {
+            let b = fma(twice[i], b1[i], a - b2[i]);
+            let d = fma(twice[i], d1[i], b1[i] + b1[i] - d2[i]);
+            (b2[i], b1[i]) = (b1[i], b);
+            (d2[i], d1[i]) = (d1[i], d);
+        }
+    }
+    let value = std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]));
+    let slope = std::array::from_fn(|i| fma(s[i], d1[i], b1[i] - d2[i]));
+    (value, slope)
+}
+
+/// The polynomial at W points.
+#[inline(always)]
+pub(super) fn values<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
+    let [b1, b2] = recurrence(&coefficients[1..], s);
+    std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]))
+}
+
+/// `Σ c_k U_k` at W points, U_k being the Chebyshev polynomials of the second kind.
+#[inline(always)]
+pub(super) fn second_kind<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
+    recurrence(coefficients, s)[0]
+}
+
+/// The last two numbers of Clenshaw's recurrence, the later one first.
+#[inline(always)]
+fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W]; 2] {
+    let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
+    let (mut b1, mut b2) = ([T::zero(); W], [T::zero(); W]);
+    for &a in coefficients.iter().rev() {
+        for i in 0..W {
+            let b = fma(twice[i], b1[i], a - b2[i]);
+            (b2[i], b1[i]) = (b1[i], b);
+        }
+    }
+    [b1, b2]
+}
+
+/// The polynomial at one point.
+pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
+    values(coefficients, &[s])[0]
+}
+
+/// Coefficients treated together; [`MOST`] is a multiple of it.
+const ABREAST: usize = 4;
+
+/// The coefficients of the same polynomial on the range from `left` to `right`, which need not lie
+/// between -1 and 1.
+///
+/// Clenshaw's recurrence for `s = middle + reach t`, each number of which is a series in t itself, one
+/// term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
+pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+    let mut row = [T::zero(); MOST];
+    expand_to(&mut row, coefficients, [left, right]);
+    row
+}
+
+/// The same in a place for it.
+pub(super) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, right]: [T; 2]) {
+    let half = T::of(0.5);
+    let (middle, reach) = (half * (left + right), half * (right - left));
+    let [last, others @ ..] = coefficients else { return };
+    // From T_{-1} = T_1 on, all twice, so that every term is as the next.
+    let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
+    let (mut b1, mut b2) = (&mut one, &mut other);
+    for (length, a) in others.iter().rev().enumerate() {
+        step(b1, b2, length, [middle + middle, reach], *a);
+        std::mem::swap(&mut b1, &mut b2);
+    }
+    // The last step has half of what the others have.
+    step(b1, b2, others.len(), [middle, half * reach], *last);
+    row.copy_from_slice(&b2[1..=MOST]);
+    row[0] *= half;
+}
+
+/// The next number of the recurrence in place of the one before the last, whose series has so many terms.
+#[inline(always)]
+fn step<T: Real>(
+    b1: &[T; MOST + 2],
+    b2: &mut [T; MOST + 2],
+    length: usize,
+    [by_middle, by_reach]: [T; 2],
+    a: T,
+) {
+    for block in 0..(length / ABREAST + 1).min(MOST / ABREAST) {
+        let first = ABREAST * block;
+        let around: [T; ABREAST + 2] = std::array::from_fn(|i| b1[first + i]);
+        let next: [T; ABREAST] = std::array::from_fn(|i| {
+            let beside = fma(by_reach, around[i] + around[i + 2], -b2[first + 1 + i]);
+            fma(by_middle, around[i + 1], beside)
+        });
+        b2[first + 1..=first + ABREAST].copy_from_slice(&next);
+    }
+    b2[1] += a + a;
+    b2[0] = b2[2];
+}
+
+/// The smallest of the [`SIZES`] that holds so many coefficients.
+pub(super) fn size_for(n: usize) -> usize {
+    SIZES.into_iter().find(|&size| size >= n).unwrap_or(MOST)
+}

@@ -1,0 +1,254 @@
+//! The edge integrals of a row of panels, and their derivatives by the two limits.
+//!
+//! A polynomial over the contact is a sum of cosines, and so is its derivative: what a panel adds is
+//! a sum of differences of `sin kθ/k`. Where panels are too short for their series to be continued
+//! over the contact, each is a span of θ for Gauss's rule.
+
+use super::angles::{Arc, Gauss, HalfAngle, Sines};
+use crate::numerics::chebyshev::{MOST, Row, by_size, evaluate, size_for};
+use super::reexpansion::{PanelAngles, reexpanded};
+use super::panel::{Panel, Series, within};
+use crate::quadrature::{Moments, MomentDerivatives};
+use crate::real::Sum;
+use crate::{Interval, Real};
+
+/// `∫ g cos iθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
+#[derive(Clone, Copy)]
+struct EdgeSums<T> {
+    g: [Sum<T>; 3],
+    size: T,
+    slope: [T; 3],
+    error: T,
+}
+
+impl<T: Real> EdgeSums<T> {
+    fn new() -> Self {
+        let zero = T::zero();
+        Self { g: [Sum::new(); 3], size: zero, slope: [zero; 3], error: zero }
+    }
+
+    fn scale(&mut self, share: T) {
+        self.g = self.g.map(|sum| Sum::of(sum.value() * share));
+        self.slope = self.slope.map(|sum| sum * share);
+        self.size *= share;
+        self.error *= share;
+    }
+}
+
+/// The edge integrals over a contact that the panels cover, or sketch; and where one panel alone holds it,
+/// `over` becomes the [series](Panel::over) of that.
+pub(super) fn moments<T: Real>(
+    panels: &[Panel<T>],
+    on: Interval<T>,
+    sketch: bool,
+    over: &mut Option<Series<T>>,
+) -> Moments<T> {
+    let within = within(panels, on);
+    let mut sums = EdgeSums::new();
+    if let [panel] = within {
+        let over = over.get_or_insert_with(|| ([T::zero(); MOST], 0));
+        panel.over_to(over, on);
+        whole(&mut sums, over, panel.tail, on);
+    } else {
+        *over = None;
+        if !by_cosines(&mut sums, within, on) {
+            sums = EdgeSums::new();
+            by_gauss(&mut sums, within, on, sketch);
+        }
+    }
+    // A formula of a few terms is good to a few units in the last place.
+    let rounding = T::of(16.0) * T::epsilon() * sums.size;
+    let [by_0, by_1, by_2] = sums.slope;
+    Moments {
+        mean: sums.g[0].value(),
+        first: sums.g[1].value(),
+        second: Some(sums.g[2].value()),
+        size: sums.size,
+        error: sums.error.max(rounding),
+        inversion: T::zero(),
+        trend: Some(MomentDerivatives { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
+    }
+}
+
+/// The coefficients of the derivative by z.
+#[inline(always)]
+fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
+    let mut slopes = [T::zero(); MOST];
+    for k in (1..N).rev() {
+        let before = if k + 1 < N { slopes[k + 1] } else { T::zero() };
+        slopes[k - 1] = before + T::of(2.0 * k as f64) * series[k];
+    }
+    slopes[0] *= T::of(0.5);
+    slopes
+}
+
+/// Whether the slope rises over the contact, up to errors of this size: its derivative is not negative
+/// by its coefficients alone, and no jump goes down.
+pub(super) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+    let mut before: Option<T> = None;
+    within(panels, on).iter().all(|panel| {
+        let mut series = [T::zero(); MOST];
+        series[..panel.counting].copy_from_slice(panel.coefficients());
+        let slopes = by_size!(size_for(panel.counting), N => derivative::<N, T>(&series));
+        let others = slopes[1..panel.counting].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let [left, right] = panel.at_ends();
+        let error = panel.tail.max(allowed);
+        let jumps_down = before.is_some_and(|before| left < before - error);
+        before = Some(right);
+        // Markov's inequality: so large may the derivative of such an error be.
+        slopes[0] - others >= -error * T::count(panel.counting) && !jumps_down
+    })
+}
+
+/// One panel holds the contact: over half a turn every cosine vanishes.
+fn whole<T: Real>(sums: &mut EdgeSums<T>, (series, counting): &Series<T>, tail: T, on: Interval<T>) {
+    let half = T::of(0.5);
+    let slopes = by_size!(size_for(*counting), N => derivative::<N, T>(series));
+    let by_x = T::one() / on.half_width();
+    sums.g[0].add(series[0]);
+    sums.g[1].add(half * series[1]);
+    sums.g[2].add(half * series[2]);
+    let [h0, h1, h2] = [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])];
+    sums.slope = [by_x * h0, by_x * h1, by_x * h2];
+    let squares = series[1..*counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
+    sums.size = (series[0] * series[0] + half * squares).sqrt();
+    sums.error = tail;
+}
+
+/// Several panels hold it between them, and their series can be continued over it; `false` if not.
+fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
+    let half = T::of(0.5);
+    let mut before = [T::zero(); 2];
+    let every = reexpanded(panels, on, |span| {
+        let PanelAngles { panel, series, integrals, ends: [from, to], .. } = span;
+        if !span.is_first {
+            let [before, tail] = before;
+            jump(sums, [before, *from], tail + panel.tail, span.start, on);
+        }
+        by_size!(size_for(span.terms), N => span_of::<N, T>(sums, series, integrals, on));
+        sums.size += half * (from.abs() + to.abs()) * integrals[0];
+        sums.error += (panel.tail + T::epsilon() * span.bulk) * integrals[0];
+        before = [*to, panel.tail];
+    });
+    sums.scale(T::frac_1_pi());
+    every
+}
+
+/// What the series adds on a span, given the integrals of cos kθ over it.
+#[inline(always)]
+fn span_of<const N: usize, T: Real>(
+    sums: &mut EdgeSums<T>,
+    series: &Row<T>,
+    integrals: &Sines<T>,
+    on: Interval<T>,
+) {
+    let (half, by_x) = (T::of(0.5), T::one() / on.half_width());
+    let slopes = derivative::<N, T>(series);
+    let (mut g, mut h) = ([T::zero(); 3], [T::zero(); 3]);
+    for k in 0..N {
+        // Times cos θ, and times its square.
+        let once = half * (integrals[k.abs_diff(1)] + integrals[k + 1]);
+        g[0] += series[k] * integrals[k];
+        g[1] += series[k] * once;
+        let twice = half * (integrals[k.abs_diff(2)] + integrals[k + 2]);
+        g[2] += series[k] * twice;
+        if k + 1 < N {
+            h[0] += slopes[k] * integrals[k];
+            h[1] += slopes[k] * once;
+            h[2] += slopes[k] * half * (integrals[k] + twice);
+        }
+    }
+    for (sum, g) in sums.g.iter_mut().zip(g) {
+        sum.add(g);
+    }
+    for (sum, h) in sums.slope.iter_mut().zip(h) {
+        *sum += by_x * h;
+    }
+}
+
+/// Several panels hold it between them, some of them too short for their series to be continued.
+fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>, sketch: bool) {
+    let width = on.right - on.left;
+    let mut left = HalfAngle::of(on, on.left);
+    let mut before: Option<&Panel<T>> = None;
+    for (i, panel) in panels.iter().enumerate() {
+        // The outermost may have to be continued a little.
+        let from = if i == 0 { on.left } else { panel.x[0] };
+        let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
+        if let Some(before) = before {
+            let error = before.tail + panel.tail;
+            jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
+        }
+        let right = HalfAngle::of(on, to);
+        span(sums, panel, from, &Arc::new(to - from, left, right, width), sketch);
+        left = right;
+        before = Some(panel);
+    }
+    sums.scale(T::frac_1_pi());
+}
+
+/// One span of several.
+fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: &Arc<T>, sketch: bool) {
+    const W: usize = 8;
+    let rule = if sketch { Gauss::coarsest() } else { Gauss::suited(panel.counting, arc.tangent) };
+    let by_x = T::one() / panel.half();
+    let from = panel.local(from);
+    let by_half_width = T::of(2.0) / arc.width();
+    let mut lanes = [[T::zero(); W]; 7];
+    for block in 0..rule.n / W {
+        let mut s = [T::zero(); W];
+        let mut cosine = s;
+        let mut weight = s;
+        for i in 0..W {
+            let node = block * W + i;
+            let (y, turn) = arc.beside_middle(arc.tangent * T::of(rule.nodes[node]));
+            s[i] = from + (y - arc.to_left) * by_x;
+            cosine[i] = arc.cos + y * by_half_width;
+            weight[i] = T::of(rule.weights[node]) * turn;
+        }
+        let (g, slope) = evaluate::<W, T>(panel.coefficients(), &s);
+        for i in 0..W {
+            let (g, slope) = (weight[i] * g[i], weight[i] * slope[i]);
+            lanes[0][i] += g;
+            lanes[1][i] += cosine[i] * g;
+            lanes[2][i] += g.abs();
+            lanes[3][i] += slope;
+            lanes[4][i] += cosine[i] * slope;
+            lanes[5][i] += cosine[i] * (cosine[i] * slope);
+            lanes[6][i] += cosine[i] * (cosine[i] * g);
+        }
+    }
+    let total = |lane: [T; W]| lane.into_iter().fold(T::zero(), |sum, term| sum + term);
+    let [g0, g1, size, h0, h1, h2, square] = lanes.map(|lane| total(lane) * arc.tangent);
+    sums.g[0].add(g0);
+    sums.g[1].add(g1);
+    sums.g[2].add(square + square - g0);
+    sums.size += size;
+    for (sum, term) in sums.slope.iter_mut().zip([h0, h1, h2]) {
+        *sum += term * by_x;
+    }
+    sums.error += panel.tail * T::of(4.0) * arc.tangent;
+}
+
+/// Where g jumps, g' is an impulse. What no part of a number tells from the errors of the two series is no jump:
+/// next to an edge it would outweigh all the rest.
+fn jump<T: Real>(
+    sums: &mut EdgeSums<T>,
+    [before, after]: [T; 2],
+    error: T,
+    at: HalfAngle<T>,
+    on: Interval<T>,
+) {
+    let jump = after - before;
+    let error = error + T::of(4.0) * T::epsilon() * (before.abs() + after.abs());
+    if (0..T::COMPONENTS).all(|part| jump.component(part).abs() <= error) {
+        return;
+    }
+    let impulse = jump / (on.half_width() * at.sine());
+    let cosine = at.cosine();
+    if impulse.is_finite() {
+        sums.slope[0] += impulse;
+        sums.slope[1] += impulse * cosine;
+        sums.slope[2] += impulse * cosine * cosine;
+    }
+}

@@ -1,0 +1,360 @@
+//! The regular part of the pressure, from the panels.
+//!
+//! With `w = sqrt((x + b)(a - x))` it is the conjugate of the slope,
+//!
+//! ```text
+//! R(x) = (w/π²) PV∫ g(t)/((t - x) w(t)) dt = (1/π) Σ c_k sin kθ
+//! ```
+//!
+//! On a panel where `g` is the polynomial p, `p(t) = p(x) + (t - x) q(t)`, and the integral falls
+//! into two parts known in closed form:
+//!
+//! ```text
+//! w ∫_u^v ... = p(x) (Λ(x, u) - Λ(x, v)) + w ∫ q dθ
+//! Λ(x, t) = 2 artanh(min(m, n)/max(m, n)),   m² = (a - t)(x + b),   n² = (a - x)(t + b)
+//! ```
+//!
+//! Λ vanishes at the edges of the contact, so one panel alone has no logarithm, and of two that meet
+//! only the difference of their polynomials has. If `b_k` are the numbers that Clenshaw's recurrence
+//! passes through on its way to `p(x) = Σ c_k T_k(z)`, `x = c + L z`, then
+//!
+//! ```text
+//! (p(z') - p(z))/(z' - z) = b₁ + 2 Σ_{k≥1} b_{k+1} T_k(z'),      b_k(z) = Σ_{l≥0} c_{k+l} U_l(z)
+//! ```
+//!
+//! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the series
+//! of each panel can be continued over the contact: the pressure then takes one series, and one
+//! more with a logarithm at each breakpoint. Where they cannot, see `far.rs`.
+//!
+//! All of it has the factor w, or one that goes to zero like w, from the distances of x to the
+//! edges: R keeps its relative accuracy up to a free edge.
+
+use super::angles::Sines;
+use crate::numerics::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
+use super::reexpansion::{PanelAngles, reexpanded};
+use super::near_far_sum::{NearFarSum, Distance};
+use super::panel::{Panel, Series, within};
+use crate::real::fma;
+use crate::{Interval, Real};
+
+/// Points treated together.
+pub(super) const LANES: usize = 16;
+
+/// Changes from one panel to the next, each with its logarithm, before groups of panels take less time.
+const MOST_CHANGES: usize = 64;
+
+/// Points by their distances to the two edges, and `sqrt((x + b)(a - x))`.
+pub(super) struct Edges<T> {
+    pub left: [T; LANES],
+    pub right: [T; LANES],
+    pub root: [T; LANES],
+}
+
+impl<T: Real> Edges<T> {
+    #[inline(always)]
+    pub fn of(on: Interval<T>, x: &[T; LANES]) -> Self {
+        let width = on.right - on.left;
+        let share = T::one() / width;
+        let left = x.map(|x| x - on.left);
+        let right = x.map(|x| on.right - x);
+        // In shares of the width, whose product neither overflows nor underflows.
+        let root = std::array::from_fn(|i| width * ((left[i] * share) * (right[i] * share)).sqrt());
+        Self { left, right, root }
+    }
+}
+
+/// The coefficients of artanh(r)/r in r².
+const ARTANH: [f64; 9] = [
+    1.0,
+    1.0 / 3.0,
+    1.0 / 5.0,
+    1.0 / 7.0,
+    1.0 / 9.0,
+    1.0 / 11.0,
+    1.0 / 13.0,
+    1.0 / 15.0,
+    1.0 / 17.0,
+];
+
+/// A contact on its panels.
+#[derive(Clone)]
+pub(super) struct HilbertTransform<T> {
+    pub on: Interval<T>,
+    /// The smooth part: the first `terms` coefficients of the `U_l`, divided by L.
+    smooth: Row<T>,
+    terms: usize,
+    /// By how much the slope changes from one panel to the next.
+    changes: Vec<Change<T>>,
+    /// The panels, where their series cannot be continued over the contact.
+    far: NearFarSum<T>,
+    is_far: bool,
+    rounding: Rounding<T>,
+}
+
+/// What tells a jump of the slope from what rounding makes of a kink.
+#[derive(Clone, Copy)]
+pub(super) struct Rounding<T> {
+    /// Rounding of the slopes.
+    pub slope: T,
+    /// The largest jump that the series may have where there is only a kink.
+    pub kink: T,
+}
+
+/// The difference of the series of two panels that meet, over the contact.
+#[derive(Clone)]
+struct Change<T> {
+    breakpoint: Breakpoint<T>,
+    series: Row<T>,
+    terms: usize,
+}
+
+impl<T: Real> HilbertTransform<T> {
+    pub fn new() -> Self {
+        let (zero, row) = (T::zero(), [T::zero(); MOST]);
+        Self {
+            on: Interval { left: zero, right: zero },
+            smooth: row,
+            terms: 0,
+            changes: Vec::new(),
+            far: NearFarSum::new(),
+            is_far: false,
+            rounding: Rounding { slope: zero, kink: zero },
+        }
+    }
+
+    /// Sets it to a contact that the panels cover, with slopes up to `size`; or that one panel alone holds, of
+    /// this series.
+    pub fn set(
+        &mut self,
+        panels: &[Panel<T>],
+        over: Option<&Series<T>>,
+        on: Interval<T>,
+        size: T,
+        tolerance: T,
+    ) {
+        self.on = on;
+        let panels = within(panels, on);
+        let tail = panels.iter().fold(T::zero(), |max, panel| max.max(panel.tail));
+        let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
+        let kink = size * rounding + T::of(64.0) * tail;
+        self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
+        self.is_far = panels.len() > MOST_CHANGES || !self.reexpanded(panels, over, on);
+        if self.is_far {
+            self.far.set(panels, on);
+        }
+    }
+
+    /// The series, continued over the contact; `false` if one of several grows too much on the way.
+    fn reexpanded(
+        &mut self,
+        panels: &[Panel<T>],
+        over: Option<&Series<T>>,
+        on: Interval<T>,
+    ) -> bool {
+        let zero = T::zero();
+        (self.smooth, self.terms) = ([zero; MOST], 1);
+        self.changes.clear();
+        if let Some((series, terms)) = over {
+            // Over the whole contact only the cosine of zero times the angle has an integral.
+            let share = T::pi() / on.half_width();
+            self.terms = terms - 1;
+            for k in 1..*terms {
+                self.smooth[k - 1] = share * series[k];
+            }
+            return true;
+        }
+        let mut before = ([zero; MOST], 0, zero);
+        let every = reexpanded(panels, on, |span| {
+            let PanelAngles { panel, series, terms, integrals, .. } = span;
+            if !span.is_first {
+                self.changes.push(self.change(span, &before, on));
+            }
+            self.terms = self.terms.max(terms - 1);
+            let smooth = &mut self.smooth;
+            by_size!(size_for(*terms), N => add_smooth::<N, T>(smooth, series, integrals));
+            before = (*series, *terms, panel.tail);
+        });
+        let share = T::one() / on.half_width();
+        self.smooth = self.smooth.map(|coefficient| coefficient * share);
+        every
+    }
+
+    /// From the panel before, by its series, terms and tail, to this one.
+    fn change(
+        &self,
+        span: &PanelAngles<'_, T>,
+        (last, last_terms, last_tail): &(Row<T>, usize, T),
+        on: Interval<T>,
+    ) -> Change<T> {
+        let panel = span.panel;
+        let mut series: Row<T> = std::array::from_fn(|k| span.series[k] - last[k]);
+        let terms = span.terms.max(*last_terms);
+        // Noise at a breakpoint that does not jump would be a spike.
+        let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
+        let jump = value_at(&series[..terms], z / (on.right - on.left));
+        if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + *last_tail) {
+            // A derivative may jump where the slope does not.
+            series[0] -= jump.component(0);
+        }
+        Change { breakpoint: Breakpoint::new(panel, on, panel.x[0]), series, terms }
+    }
+
+    /// `π² R` at so many points strictly inside the contact. Infinite where the slope jumps.
+    #[inline(always)]
+    pub fn at(&self, x: &[T; LANES], count: usize, edges: &Edges<T>) -> [T; LANES] {
+        if self.is_far {
+            let mut sums = [T::zero(); LANES];
+            for (sum, &x) in sums.iter_mut().zip(&x[..count]) {
+                *sum = self.far.at(x, self.on, self.rounding);
+            }
+            return sums;
+        }
+        let share = T::one() / (self.on.right - self.on.left);
+        let z: [T; LANES] = std::array::from_fn(|i| (edges.left[i] - edges.right[i]) * share);
+        let smooth = second_kind(&self.smooth[..self.terms], &z);
+        let mut sum: [T; LANES] = std::array::from_fn(|i| edges.root[i] * smooth[i]);
+        if self.changes.is_empty() {
+            return sum;
+        }
+        let roots = [edges.left, edges.right].map(|side| side.map(|x| (x * share).sqrt()));
+        for Change { breakpoint, series, terms } in &self.changes {
+            let change = values(&series[..*terms], &z);
+            let logs = breakpoint.logarithms(change, x, &roots, self.on, self.rounding);
+            for i in 0..LANES {
+                sum[i] += logs[i];
+            }
+        }
+        sum
+    }
+
+    /// Estimated error of `π² R` at a point, from what the series leave open.
+    pub fn error(&self, panels: &[Panel<T>], x: T) -> T {
+        let on = self.on;
+        let width = on.right - on.left;
+        let sine = T::of(2.0) * on.chebyshev_weight(x) / width;
+        let [mut sum, mut here] = [T::zero(); 2];
+        let mut add = |panel: &Panel<T>| {
+            let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
+            let length = to - from;
+            let away = (from - x).max(x - to).max(T::zero());
+            if away <= length {
+                let near = T::one().min(T::count(panel.n) * sine * width / length);
+                // Beside a breakpoint a logarithm goes with it.
+                let beside = (x - from).abs().min((to - x).abs()).max(T::of(1e-6) * length);
+                let log = T::of(3.0) + T::of(0.5) * (length / beside).ln();
+                here = here.max(panel.tail * log * near);
+            } else {
+                sum += panel.tail * sine * length / away;
+            }
+        };
+        let mut of_groups = T::zero();
+        if self.is_far {
+            self.far.seen_from(x, |seen| match seen {
+                Distance::FarPanel(_, part) => add(&part.panel),
+                Distance::Group(group) => of_groups += sine * group.doubt(x),
+            });
+        } else {
+            within(panels, on).iter().for_each(add);
+        }
+        // The noise of the formulas is known from a few coefficients only.
+        T::of(8.0) * (sum + here + of_groups) + self.spike(panels, x)
+    }
+
+    /// As good as at the breakpoint of two panels, what a small difference makes with a logarithm: whether
+    /// it is rounding or a jump of the slope cannot be told, and at a jump the pressure is infinite.
+    fn spike(&self, panels: &[Panel<T>], x: T) -> T {
+        let width = self.on.right - self.on.left;
+        let next = panels.partition_point(|panel| panel.x[1] < x).min(panels.len() - 1);
+        let breakpoint = panels[next].x.map(|end| (end - x).abs());
+        let (next, distance) =
+            if breakpoint[0] < breakpoint[1] { (next, breakpoint[0]) } else { (next + 1, breakpoint[1]) };
+        let close = T::epsilon() * width;
+        if next == 0 || next == panels.len() || distance > close {
+            return T::zero();
+        }
+        let jump = (panels[next].at_ends()[0] - panels[next - 1].at_ends()[1]).abs();
+        if jump > self.rounding.kink {
+            return T::zero();
+        }
+        let distance = if distance.is_zero() { close } else { distance };
+        jump * (width / distance).ln()
+    }
+}
+
+/// Adds what the integral of q over a span makes of the coefficients.
+#[inline(always)]
+fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, integrals: &Sines<T>) {
+    for m in 1..N {
+        let integral = integrals[m - 1] * T::of(if m == 1 { 1.0 } else { 2.0 });
+        for l in 0..N - m {
+            smooth[l] = fma(integral, series[m + l], smooth[l]);
+        }
+    }
+}
+
+/// The distances of a point to the two edges, as shares of the width.
+pub(super) fn shares<T: Real>(on: Interval<T>, x: T) -> [T; 2] {
+    let share = T::one() / (on.right - on.left);
+    [(x - on.left) * share, (on.right - x) * share]
+}
+
+/// The start of a panel, as the place of a logarithm.
+#[derive(Clone)]
+pub(super) struct Breakpoint<T> {
+    x: T,
+    /// Square roots of its distances to the two edges, as shares of the width.
+    roots: [T; 2],
+    /// What a series cannot tell from it.
+    closest: T,
+}
+
+impl<T: Real> Breakpoint<T> {
+    pub fn new(panel: &Panel<T>, on: Interval<T>, x: T) -> Self {
+        let roots = shares(on, x).map(|share| share.sqrt());
+        Self { x, roots, closest: panel.half() / T::count(panel.n * panel.n) }
+    }
+
+    /// `change Λ(x, t)`, t the breakpoint, at points with the roots of the distances from the edges to
+    /// them, as shares of the width.
+    #[inline(always)]
+    pub fn logarithms<const W: usize>(
+        &self,
+        change: [T; W],
+        x: &[T; W],
+        [left, right]: &[[T; W]; 2],
+        on: Interval<T>,
+        rounding: Rounding<T>,
+    ) -> [T; W] {
+        let width = on.right - on.left;
+        // What is rounding, or an end that the series do not resolve, has no logarithm closer than
+        // the series can see.
+        let distance: [T; W] = std::array::from_fn(|i| {
+            let distance = (x[i] - self.x).abs();
+            let change = change[i].abs();
+            let kink = distance.is_zero() && change <= rounding.kink;
+            if kink || change <= rounding.slope { distance.max(self.closest) } else { distance }
+        });
+        let m = left.map(|left| self.roots[1] * left);
+        let n = right.map(|right| self.roots[0] * right);
+        let quotient: [T; W] =
+            std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * (width / distance[i]));
+        let comparable = |i: usize| m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]);
+        // Mostly all of them are plain.
+        if (0..W).fold(true, |all, i| all & comparable(i) & !distance[i].is_zero()) {
+            return std::array::from_fn(|i| change[i] * quotient[i].ln());
+        }
+        std::array::from_fn(|i| {
+            if distance[i].is_zero() {
+                return change[i] / distance[i];
+            }
+            if comparable(i) {
+                return change[i] * quotient[i].ln();
+            }
+            // 2 artanh, of which the logarithm would lose the digits.
+            let ratio = m[i].min(n[i]) / m[i].max(n[i]);
+            let square = ratio * ratio;
+            let series = ARTANH.iter().rev().fold(T::zero(), |sum, &c| sum * square + T::of(c));
+            change[i] * (ratio + ratio) * series
+        })
+    }
+}

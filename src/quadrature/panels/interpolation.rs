@@ -1,0 +1,105 @@
+//! What a body was sampled at, which is near the nodes, says of its slopes at the nodes, and what it
+//! leaves open.
+
+use crate::numerics::chebyshev::{MOST, Table};
+use crate::Real;
+use crate::gap::SampleCache;
+use crate::real::fma;
+
+/// Zeros, and in their middle 1, which takes the place of the difference of a node from itself.
+const ONE: [f64; 2 * MOST] = {
+    let mut one = [0.0; 2 * MOST];
+    one[MOST] = 1.0;
+    one
+};
+
+/// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
+/// from the left end of the panel, where the rounding of x matters less.
+///
+/// With node t next to the point xᵢ, Lagrange's formula for what the slope differs from that at xᵢ:
+///
+/// ```text
+/// f(t) = fᵢ + Σⱼ (fⱼ - fᵢ) wⱼ Π_{m≠j} (t - x_m),    wⱼ = 1/Π_{m≠j} (xⱼ - x_m)
+/// ```
+///
+/// whose terms are small where the rounding would be large; and it takes no division for a node.
+pub(super) fn at_nodes<const N: usize, T: Real>(
+    nodes: &[T; N],
+    trace: &SampleCache<T>,
+    left: T,
+    reach: T,
+) -> [T; N] {
+    let curve_samples = &trace.curve_samples()[..N];
+    let known: [T; N] = std::array::from_fn(|i| curve_samples[i].slope);
+    if trace.direct {
+        return known;
+    }
+    // In units that keep the products near 1.
+    let unit = T::of(2.0) / reach;
+    let x: [T; N] = std::array::from_fn(|i| (curve_samples[i].x - left) * unit);
+    let at = nodes.map(|node| node * unit);
+    // The factors in the same order as those of the products below, whose rounding they then share.
+    let mut weight = [T::one(); N];
+    for j in 0..N {
+        let one = &ONE[MOST - j..MOST - j + N];
+        for i in 0..N {
+            weight[i] *= x[i] - x[j] + T::of(one[i]);
+        }
+    }
+    let weight = weight.map(|weight| T::one() / weight);
+    let (mut sum, mut product) = ([T::zero(); N], [T::one(); N]);
+    for j in 0..N {
+        for i in 0..N {
+            let distance = at[i] - x[j];
+            sum[i] = fma(sum[i], distance, (known[j] - known[i]) * (weight[j] * product[i]));
+            product[i] *= distance;
+        }
+    }
+    // Points too close to be told apart: a panel of a few units in the last place.
+    let apart = sum.iter().fold(true, |all, sum| all & sum.is_finite());
+    std::array::from_fn(|i| if apart { known[i] + sum[i] } else { known[i] })
+}
+
+/// What the slopes of a body at the nodes leave open: the first coefficient that its series goes
+/// without, in the share by which its points are off the nodes.
+pub(super) fn left_open<const N: usize, T: Real>(
+    nodes: &[T; N],
+    trace: &SampleCache<T>,
+    reach: T,
+    slopes: &[T; N],
+    rough: bool,
+) -> T {
+    let table = Table::of(N);
+    if trace.direct || rough {
+        return T::zero();
+    }
+    // `T_N` rises by N/sin θ at its zeros.
+    let curve_samples = &trace.curve_samples()[..N];
+    let off = (0..N)
+        .fold(T::zero(), |max, i| max.max((curve_samples[i].x - nodes[i]).abs() / T::of(table.sine[i])));
+    let off = (off * T::count(N) / reach).min(T::one());
+    let [before, last] = table.last_pairs::<N, T>(slopes);
+    let largest = slopes.iter().fold(T::zero(), |max, slope| max.max(slope.abs()));
+    if last <= T::of(8.0) * T::epsilon() * largest {
+        return T::zero();
+    }
+    off * last * (last / before).min(T::one())
+}
+
+/// By how much the series of a body misses its slopes at the ends of its piece.
+pub(super) fn missed_at_ends<const N: usize, T: Real>(
+    x: [T; 2],
+    trace: &SampleCache<T>,
+    slopes: &[T; N],
+    rough: bool,
+) -> T {
+    let known = trace.ends();
+    let is_end = |i: usize| known[i].x == x[i] && known[i].slope.is_finite();
+    if trace.direct || rough || !(is_end(0) || is_end(1)) {
+        return T::zero();
+    }
+    let at_ends = Table::of(N).at_ends(slopes);
+    (0..2)
+        .filter(|&i| is_end(i))
+        .fold(T::zero(), |missed, i| missed.max((at_ends[i] - known[i].slope).abs()))
+}

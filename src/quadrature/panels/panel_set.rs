@@ -1,0 +1,362 @@
+//! The panels that cover a span of x: sampled once, extended when more is asked for.
+
+mod sampling;
+mod derivative_check;
+mod candidate;
+
+use crate::numerics::chebyshev::{size_for, value_at};
+use super::panel::Panel;
+use crate::gap::{Cost, Gap, Sampler, Side, SampleCache};
+use crate::real::same;
+use crate::{ContactError, Interval, Real};
+use sampling::SampledBody;
+use candidate::{LEVELS_OF_A_WAVE, MOST_LEVELS, Candidate, is_long};
+
+/// How often a span between two breakpoints may be split.
+const MOST_SPLITS: usize = 4096;
+
+/// How often a span is halved before large noise is taken for what it is, and not for a wave that
+/// is not resolved yet.
+const NOISY_LEVEL: usize = 4;
+
+/// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
+const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
+
+/// What the gap is like at a given limit, where a row of panels ends.
+#[derive(Clone, Copy)]
+pub(crate) struct EndProbe<T> {
+    pub limit: T,
+    /// A place as close to it as can be told from it, and the slope there.
+    x: T,
+    slope: T,
+}
+
+/// A row of panels, from left to right without gaps.
+#[derive(Clone)]
+pub(crate) struct PanelSet<T> {
+    pub panels: Vec<Panel<T>>,
+    /// Panels still to be looked at, the leftmost last.
+    waiting: Vec<Candidate<T>>,
+    traces: [SampleCache<T>; 2],
+    /// The largest slope of the gap, as far as a first look has shown.
+    pub size: T,
+    /// Nodes to start a panel with.
+    pub initial: usize,
+    /// No more than a sketch is wanted: four nodes, whatever they say.
+    pub rough: bool,
+    pub tolerance: T,
+    pub cost: Cost,
+    /// Looked at beforehand: at the left and at the right end.
+    pub held: [Option<EndProbe<T>>; 2],
+    /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
+    /// first.
+    derivatives: Vec<SampledBody<T>>,
+    derivative_sizes: Vec<T>,
+    /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
+    tilt: T,
+}
+
+impl<T: Real> PanelSet<T> {
+    pub fn new(tolerance: T) -> Self {
+        Self {
+            panels: Vec::new(),
+            waiting: Vec::new(),
+            traces: [SampleCache::new(), SampleCache::new()],
+            size: T::zero(),
+            initial: 8,
+            rough: false,
+            tolerance,
+            cost: Cost::default(),
+            held: [None; 2],
+            derivatives: Vec::new(),
+            derivative_sizes: Vec::new(),
+            tilt: T::zero(),
+        }
+    }
+
+    /// Forgets the panels; the curves' last points are kept if the bodies are the same.
+    pub fn clear(&mut self, same_bodies: bool) {
+        self.panels.clear();
+        self.size = T::zero();
+        self.derivative_sizes.clear();
+        if !same_bodies {
+            self.traces.iter_mut().for_each(SampleCache::clear);
+            self.held = [None; 2];
+        }
+    }
+
+    /// Looks at a limit that is given, unless it is at the end of a piece, of which more is known.
+    pub fn look_at(&mut self, gap: &Gap<'_, T>, end: usize, limit: T) -> Option<EndProbe<T>> {
+        let [from, to] = gap.range();
+        if !(limit > from && limit < to) || gap.is_breakpoint(limit) {
+            return None;
+        }
+        // At the limit itself a formula may be that of what is beyond.
+        let fine = T::of(4.0) * T::epsilon();
+        let inward = fine * limit.abs().max((to - from).min(T::one() / fine));
+        let x = if end == 0 { limit + inward } else { limit - inward };
+        let mut sampler = Sampler::default();
+        let slope = sampler.slope_untilted(gap, x, Side::Left);
+        self.cost += sampler.cost;
+        slope.ok().map(|slope| EndProbe { limit, x, slope })
+    }
+
+    /// Looks at both ends of an interval: beyond its last node a panel does not see.
+    pub fn look_at_ends(&mut self, gap: &Gap<'_, T>, on: Interval<T>) {
+        for (end, limit) in [on.left, on.right].into_iter().enumerate() {
+            self.held[end] = self.look_at(gap, end, limit);
+        }
+    }
+
+    /// What is covered.
+    pub fn interval(&self) -> Option<Interval<T>> {
+        let (first, last) = (self.panels.first()?, self.panels.last()?);
+        Some(Interval { left: first.x[0], right: last.x[1] })
+    }
+
+    /// Whether an outermost panel that starts at a breakpoint is much longer than what an interval has of it.
+    pub fn overshoots(&self, gap: &Gap<'_, T>, on: Interval<T>) -> bool {
+        let [Some(first), Some(last)] = [self.panels.first(), self.panels.last()] else {
+            return false;
+        };
+        let much = T::of(1.25);
+        let beside = |breakpoint: T, reach: T, needed: T| reach > much * needed && gap.is_breakpoint(breakpoint);
+        beside(first.x[1], first.x[1] - first.x[0], first.x[1] - on.left)
+            || beside(last.x[0], last.x[1] - last.x[0], on.right - last.x[0])
+    }
+
+    /// The slope at `x`, from the nearest panel.
+    pub fn slope(&self, x: T) -> Option<T> {
+        self.panel_at(x).map(|panel| panel.value(x))
+    }
+
+    /// The error that it may have.
+    pub fn truncation_error(&self, x: T) -> Option<T> {
+        self.panel_at(x).map(|panel| panel.tail)
+    }
+
+    fn panel_at(&self, x: T) -> Option<&Panel<T>> {
+        let last = self.panels.len().checked_sub(1)?;
+        Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
+    }
+
+    /// Turns the panels with the bodies, which costs no sample; whether anything has changed.
+    pub fn turn(&mut self, tilt: T) -> bool {
+        if same(tilt, self.tilt) {
+            return false;
+        }
+        for panel in &mut self.panels {
+            panel.turn(self.tilt, tilt);
+        }
+        self.tilt = tilt;
+        true
+    }
+
+    /// Covers an interval, sampling only what is missing.
+    pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+        let covers = |have: Interval<T>| have.left <= on.left && have.right >= on.right;
+        if !self.interval().is_some_and(covers) {
+            self.turn(T::zero());
+            self.extend_untilted(gap, on)?;
+        }
+        self.turn(gap.tilt());
+        Ok(())
+    }
+
+    fn extend_untilted(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        let Some(have) = self.interval() else {
+            return self.sample(gap, on, 0, None);
+        };
+        // More than a sliver at a time, but beside a breakpoint perhaps not much.
+        let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
+        let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
+        let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
+        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
+        // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
+        // breakpoint is between them.
+        if on.right > have.right {
+            self.initial = enough(&last);
+            let far = (have.right + more(&last)).min(half * on.right + half * range[1]);
+            let right = on.right.max(far);
+            let apart = gap.breakpoint_after(last.x[0]) == Some(have.right);
+            let known = self.panels.len() - usize::from(!apart);
+            self.sample(gap, Interval { left: have.right, right }, known, None)?;
+        }
+        if on.left < have.left {
+            self.initial = enough(&first);
+            let far = (have.left - more(&first)).max(half * on.left + half * range[0]);
+            let left = on.left.min(far);
+            let apart = gap.breakpoint_before(first.x[1]) == Some(have.left);
+            let neighbour = (!apart).then(|| self.panels.remove(0));
+            let known = self.panels.len();
+            self.sample(gap, Interval { left, right: have.left }, known, neighbour)?;
+            self.panels.rotate_left(known);
+        }
+        Ok(())
+    }
+
+    /// Covers an interval and nothing else, with eight nodes or more between two breakpoints.
+    pub fn sample_anew(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        self.clear(true);
+        self.initial = 8;
+        self.extend(gap, on)
+    }
+
+    /// Samples an interval; its panels are put last. They should meet those from number `known` on, and
+    /// the neighbour on the right, which is put after them.
+    fn sample(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        known: usize,
+        neighbour: Option<Panel<T>>,
+    ) -> Result<(), ContactError<T>> {
+        let (mut left, mut known) = (on.left, known);
+        loop {
+            let breakpoint = gap.breakpoint_after(left).filter(|&breakpoint| breakpoint < on.right);
+            let right = breakpoint.unwrap_or(on.right);
+            let neighbour = neighbour.filter(|_| breakpoint.is_none());
+            self.resolve(gap, [left, right], known, neighbour)?;
+            if breakpoint.is_none() {
+                return Ok(());
+            }
+            (left, known) = (right, self.panels.len());
+        }
+    }
+
+    /// Samples a span without breakpoints.
+    fn resolve(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+        begin: usize,
+        neighbour: Option<Panel<T>>,
+    ) -> Result<(), ContactError<T>> {
+        self.waiting.clear();
+        let mut trial = Candidate::new(x);
+        self.try_out(gap, &mut trial)?;
+        if let Some(panel) = neighbour {
+            let allowed = self.tolerance * self.size;
+            self.waiting.push(Candidate { panel, allowed, ..Candidate::new(panel.x) });
+        }
+        let mut splits = 0;
+        loop {
+            let [left, right] = trial.panel.x;
+            let middle = T::of(0.5) * left + T::of(0.5) * right;
+            let may = splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x);
+            if trial.split && may {
+                splits += 1;
+                let level = trial.level + 1;
+                let half = |x| Candidate { level, wave: trial.wave, ..Candidate::new(x) };
+                let [mut one, mut other] = [half([left, middle]), half([middle, right])];
+                self.try_out(gap, &mut one)?;
+                self.try_out(gap, &mut other)?;
+                for half in [&mut one, &mut other] {
+                    half.falls = half.falls_below(&trial);
+                }
+                // Noise is what both halves have as much of. A wave that is not resolved yet has,
+                // too, if it is no longer faint.
+                let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
+                // Much more is no noise: fewer nodes have given up earlier.
+                let as_much = |half: &Candidate<T>| {
+                    let ratio = half.panel.tail / trial.panel.tail;
+                    let fewer = half.panel.n < trial.panel.n;
+                    let by_value = ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0));
+                    let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
+                    let derived = half.derivatives > T::zero();
+                    half.split && if derived { by_derivative } else { by_value }
+                };
+                if faint && as_much(&one) && as_much(&other) {
+                    let derived = one.derivatives > T::zero() || other.derivatives > T::zero();
+                    let wave = !derived && level < LEVELS_OF_A_WAVE;
+                    let wave = wave && (trial.wave || !self.is_noisy(gap, &trial.panel)?);
+                    (one.wave, other.wave) = (wave, wave);
+                    (one.split, other.split) = (wave, wave);
+                }
+                self.waiting.push(other);
+                trial = one;
+                continue;
+            }
+            if trial.split && !is_long(trial.panel.x) {
+                trial.panel.straighten();
+            }
+            // What happens between the last node and the end of a panel shows at its neighbour.
+            let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
+            let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
+            if let Some(before) = before.filter(apart) {
+                let finer = trial.level < MOST_LEVELS
+                    && trial.may_be_halved()
+                    && (is_long(trial.panel.x) || is_long(before.x));
+                if finer && splits < MOST_SPLITS && !self.rough {
+                    self.panels.pop();
+                    let again = |panel, trial: &Candidate<T>| Candidate { panel, split: true, ..*trial };
+                    self.waiting.push(again(trial.panel, &trial));
+                    trial = again(before, &trial);
+                    continue;
+                }
+            }
+            if let Some(mut before) = before {
+                self.own_up([&mut before, &mut trial.panel], trial.allowed);
+                let last = self.panels.len() - 1;
+                self.panels[last].tail = before.tail;
+            }
+            self.panels.push(trial.panel);
+            let Some(next) = self.waiting.pop() else { return Ok(()) };
+            trial = next;
+        }
+    }
+
+    /// Whether the coefficients of a panel are noise, and not those of a wave: they then fall no more
+    /// on a small part of it.
+    fn is_noisy(&mut self, gap: &Gap<'_, T>, panel: &Panel<T>) -> Result<bool, ContactError<T>> {
+        const N: usize = 8;
+        let [left, right] = panel.x;
+        // Not in the middle, where a formula may be better than elsewhere.
+        let from = left + T::of(0.3) * (right - left);
+        let mut part = Panel::new([from, from + T::of(SHARE_OF_A_WAVE) * (right - left)]);
+        if !is_long(part.x) {
+            return Ok(true);
+        }
+        self.sample_panel::<N>(gap, &mut part)?;
+        let rest = part.series[N / 2..N].iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        Ok(rest >= T::of(0.125) * panel.tail)
+    }
+
+    /// Whether two neighbours have the same slope where they meet.
+    pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
+        missed(left, right) <= self.doubt(left, right, allowed, T::one())
+    }
+
+    /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
+    /// either: something lies between their last nodes.
+    fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
+        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
+        let missed = missed(left, right);
+        let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
+        if missed > least && missed <= most {
+            left.tail = left.tail.max(missed);
+            right.tail = right.tail.max(missed);
+        }
+    }
+
+    /// By how much two neighbours may miss each other, with so much of what is allowed.
+    fn doubt(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
+        let allowed = share * allowed.max(self.tolerance * self.size);
+        T::of(16.0) * (left.tail + right.tail + allowed)
+    }
+}
+
+/// By how much the slopes of two neighbours differ where they meet.
+fn missed<T: Real>(left: &Panel<T>, right: &Panel<T>) -> T {
+    let [from, to] =
+        [(left, T::one()), (right, -T::one())].map(|(panel, s)| value_at(panel.coefficients(), s));
+    (from - to).abs()
+}

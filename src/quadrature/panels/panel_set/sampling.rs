@@ -1,0 +1,217 @@
+//! One panel: sampled, with as many nodes as it takes, and judged.
+
+use super::candidate::Candidate;
+use super::{PanelSet, EndProbe};
+use crate::gap::{Gap, sample_near};
+use crate::numerics::chebyshev::{SIZES, Table, by_size};
+use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
+use crate::quadrature::panels::panel::{Panel, Resolution, judge};
+use crate::{Body, ContactError, Interval, Real};
+
+/// By how much of the distance to the nearest other node a point may miss its own, and for a sketch.
+const NEAR: [f64; 2] = [0.1, 0.45];
+
+/// How often a span is halved to resolve what only the slope at the end of a piece tells of. (A
+/// formula may be wrong there, as signum is at 0.)
+const LEVELS_OF_A_TIP: usize = 40;
+
+/// How often a span is halved for the sake of derivatives alone, which may have a kink where the
+/// slope has none.
+const DERIVATIVE_LEVELS: usize = 12;
+
+/// What a panel has met, in one part of its numbers.
+#[derive(Clone, Copy)]
+pub(super) struct SampledBody<T> {
+    /// The largest slope of the gap.
+    slope: T,
+    /// The largest sum of the slopes of the two bodies.
+    bodies: T,
+    /// What the rounding of x makes of the slope where the bodies bend sharply.
+    noise: T,
+    /// What the series of the bodies leave open where their points are not at the nodes. What the two
+    /// have in common does not show in the series of the gap.
+    off: T,
+    /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
+    missed: T,
+}
+
+impl<T: Real> PanelSet<T> {
+    /// Samples a panel with as many nodes as it takes, or says that it must be split.
+    pub(super) fn try_out(
+        &mut self,
+        gap: &Gap<'_, T>,
+        trial: &mut Candidate<T>,
+    ) -> Result<(), ContactError<T>> {
+        let (panel, level) = (&mut trial.panel, trial.level);
+        let mut n = if self.rough { 4 } else { self.initial };
+        let [left, right] = panel.x;
+        gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
+        loop {
+            let SampledBody { slope, bodies, noise, off, missed } =
+                by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
+            if level == 0 {
+                self.size = self.size.max(slope);
+            }
+            let counts = level < LEVELS_OF_A_TIP;
+            let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
+            // Next to a singularity the slope may be large, or noisy, beyond all that counts
+            // elsewhere.
+            let allowed = (self.tolerance * self.size.max(slope)).max(noise);
+            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
+            let (tail, next, split) = match verdict {
+                // The first sign of a tip looks like noise.
+                Resolution::Good(tail) | Resolution::Noise(tail)
+                    if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(tail)) =>
+                {
+                    (tail, None, true)
+                }
+                Resolution::Good(tail) if off > allowed => {
+                    let more = SIZES.into_iter().find(|&more| more > n);
+                    (tail.max(off), more, true)
+                }
+                // What only a loose tolerance lets pass is an error.
+                Resolution::Good(tail) => (tail.max(off).max(at_limit), None, false),
+                Resolution::Noise(size) => {
+                    panel.drop_noise(size);
+                    (size, None, false)
+                }
+                Resolution::Take(next, tail) => (tail, Some(next), true),
+                Resolution::Split(tail) => (tail, None, true),
+            };
+            panel.tail = tail;
+            let (mut next, mut split, mut derivatives) = (next, split, T::zero());
+            // More samples do nothing for the derivatives of what must be split anyway.
+            if T::COMPONENTS > 1 && (next.is_some() || !split) {
+                let noisy = matches!(verdict, Resolution::Noise(_));
+                let (more, off) = self.judge_derivatives(panel, level);
+                next = next.max(more);
+                if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
+                    (split, derivatives) = (true, off);
+                }
+            }
+            if self.rough {
+                // A short panel may be continued a long way.
+                panel.drop_noise(T::epsilon() * bodies);
+                split = false;
+            } else if let Some(next) = next {
+                n = next;
+                continue;
+            } else if !split {
+                self.check_slopes(gap)?;
+            }
+            (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
+            return Ok(());
+        }
+    }
+
+    /// Whether what a panel misses at a breakpoint is more than the noise there: a tip much narrower than
+    /// the panel.
+    fn misses_a_tip(&self, missed: T, noise: T) -> bool {
+        missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
+    }
+
+    /// By how much it misses the slope at a limit that is given, if that is more than rounding.
+    fn missed_at_limits(&self, panel: &Panel<T>) -> T {
+        let rounding = T::epsilon().sqrt() * self.size;
+        let at_end = |(held, end): (&Option<EndProbe<T>>, T)| {
+            let held = held.filter(|held| held.limit == end && !self.rough)?;
+            Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
+        };
+        self.held.iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
+    }
+
+    /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they
+    /// should have, or, where more would not do, the share of their size by which they are off.
+    fn judge_derivatives(&mut self, panel: &Panel<T>, level: usize) -> (Option<usize>, T) {
+        let (mut next, mut worst) = (None, T::zero());
+        for (i, seen) in self.derivatives.iter().enumerate() {
+            if self.derivative_sizes.len() <= i {
+                self.derivative_sizes.push(T::zero());
+            }
+            let largest = &mut self.derivative_sizes[i];
+            if level == 0 {
+                *largest = largest.max(seen.slope);
+            }
+            let size = largest.max(seen.slope);
+            let allowed = (self.tolerance * size).max(seen.noise);
+            let series = panel.series.map(|a| a.component(i + 1));
+            match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
+                Resolution::Good(_) if seen.off > allowed => {
+                    next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
+                }
+                Resolution::Take(more, _) => next = next.max(Some(more)),
+                Resolution::Split(tail) => worst = worst.max(tail / size),
+                Resolution::Good(_) | Resolution::Noise(_) => {}
+            }
+        }
+        (next, worst)
+    }
+
+    /// Samples one panel with N nodes.
+    pub(super) fn sample_panel<const N: usize>(
+        &mut self,
+        gap: &Gap<'_, T>,
+        panel: &mut Panel<T>,
+    ) -> Result<SampledBody<T>, ContactError<T>> {
+        let x = panel.x;
+        let table = if self.rough { Table::sketch() } else { Table::of(N) };
+        let (half, zero) = (T::of(0.5), T::zero());
+        let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
+        // Never at the very end of a body, where the slope may be infinite.
+        let inside = if self.rough { zero } else { T::epsilon() };
+        let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
+        // A sliver of a few units in the last place has no inside.
+        let [first, last] = if first <= last { [first, last] } else { [centre, centre] };
+        let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
+        let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
+        let near = T::of(NEAR[usize::from(self.rough)]) * reach;
+        let room = std::array::from_fn(|i| near * T::of(table.spacing[i]));
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
+            sample_near(gap, body, &nodes, &room, trace, &mut self.cost)?;
+        }
+        self.cost.samples += N;
+        let wanted = offsets.map(|offset| reach + offset);
+        let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
+        let mut slopes = [zero; N];
+        for i in 0..N {
+            slopes[i] = upper[i] - lower[i];
+        }
+        let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
+            seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.rough));
+        }
+        panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
+        panel.count(N);
+        self.derivatives.clear();
+        for part in 1..T::COMPONENTS {
+            let [lower, upper] =
+                [&lower, &upper].map(|slopes| slopes.map(|slope| slope.component(part)));
+            let seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+            self.derivatives.push(seen);
+        }
+        Ok(seen)
+    }
+
+    /// What the slopes of the two bodies at the nodes say.
+    fn seen<const N: usize>(
+        &self,
+        x: [T; 2],
+        nodes: &[T; N],
+        reach: T,
+        [lower, upper]: [&[T; N]; 2],
+    ) -> SampledBody<T> {
+        let zero = T::zero();
+        let off = [(lower, 0), (upper, 1)]
+            .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.rough));
+        let off = off[0].max(off[1]);
+        let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
+        for i in 0..N {
+            seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
+            seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
+        }
+        let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
+        let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
+        seen.noise = rounded * (bend(lower) + bend(upper)) / (nodes[N - 1] - nodes[0]);
+        seen
+    }
+}

@@ -1,0 +1,72 @@
+//! Several panels as one sum over the contact: the series of each, continued over the whole of it.
+//!
+//! A polynomial over the contact `c + L z` is `Σ c_k T_k(z) = Σ c_k cos kθ`, and a panel is a span
+//! of θ, so that all integrals over it are known from those of `cos kθ`. A series may be continued as
+//! long as its coefficients do not grow too much on the way, which would cost their digits.
+
+use super::angles::{HalfAngle, Sines};
+use crate::numerics::chebyshev::{MOST, Row, size_for};
+use super::panel::Panel;
+use crate::{Interval, Real};
+
+/// By how much the coefficients over the contact, added up, may exceed the largest slope.
+const MOST_GROWTH: f64 = 16.0;
+
+/// What one panel has of the contact.
+pub(super) struct PanelAngles<'a, T> {
+    pub panel: &'a Panel<T>,
+    /// The first panel starts at the edge of the contact; the others at a breakpoint with the one before.
+    pub is_first: bool,
+    /// Where it starts.
+    pub start: HalfAngle<T>,
+    /// Its series over the whole contact, and how many of the coefficients count.
+    pub series: Row<T>,
+    pub terms: usize,
+    /// The absolute values of the coefficients, added up.
+    pub bulk: T,
+    /// The integrals of `cos kθ` over the span: two more than there are coefficients.
+    pub integrals: Sines<T>,
+    /// The slopes at its two ends.
+    pub ends: [T; 2],
+}
+
+/// Shows the spans of a contact one by one, from left to right; `false` if one of several has a
+/// series that cannot be continued so far.
+#[inline(always)]
+pub(super) fn reexpanded<T: Real>(
+    panels: &[Panel<T>],
+    on: Interval<T>,
+    mut show: impl FnMut(&PanelAngles<'_, T>),
+) -> bool {
+    let zero = T::zero();
+    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
+    let count = size_for(most) + 2;
+    let (mut most_bulk, mut largest) = (zero, zero);
+    let mut start = HalfAngle::of(on, on.left);
+    let mut left = ([zero; MOST + 2], [T::pi(), zero]);
+    for (i, panel) in panels.iter().enumerate() {
+        let (series, terms) = panel.over(on);
+        let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
+        let mut ends = panel.at_ends();
+        if i == 0 {
+            ends[0] = panel.value(on.left);
+        }
+        let mut right = ([zero; MOST + 2], [zero, T::pi()]);
+        let mut end = start;
+        if i + 1 < panels.len() {
+            end = HalfAngle::of(on, panel.x[1]);
+            right = (end.sines(count), end.angles());
+        } else {
+            ends[1] = panel.value(on.right);
+        }
+        largest = largest.max(ends[0].abs()).max(ends[1].abs());
+        most_bulk = most_bulk.max(if bulk.is_finite() { bulk } else { T::one() / zero });
+        let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
+        // Between angles near π, their distances from there keep the digits.
+        let [by_angle, by_rest] = [left.1[0] - right.1[0], right.1[1] - left.1[1]];
+        integrals[0] = if right.1[1] < right.1[0] { by_rest } else { by_angle };
+        show(&PanelAngles { panel, is_first: i == 0, start, series, terms, bulk, integrals, ends });
+        (start, left) = (end, right);
+    }
+    panels.len() == 1 || most_bulk <= T::of(MOST_GROWTH) * largest
+}

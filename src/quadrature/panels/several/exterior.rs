@@ -1,0 +1,53 @@
+//! What a certificate asks several contacts for: what the pressure does beside them, and how it grows from
+//! their limits.
+
+use super::one_of_several::OneOfSeveral;
+use super::{Several, System};
+use crate::Real;
+use crate::quadrature::panels::Panel;
+
+impl<T: Real> Several<T> {
+    /// As many contacts on panels that others have sampled, over all of each of them.
+    pub fn sampled(tolerance: T, panels: impl Iterator<Item = Vec<Panel<T>>>) -> Self {
+        let mut several = Self::new(tolerance);
+        for panels in panels {
+            let mut part = OneOfSeveral::new(tolerance);
+            part.cover.panels = panels;
+            several.parts.push(part);
+        }
+        several.count = several.parts.len();
+        several
+    }
+
+    /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
+    /// no further than in the next gap, given the conditions on these contacts.
+    pub fn pull(&self, system: &System<T>, contact: usize, right: bool, distance: T) -> T {
+        let on = self.parts[contact].on;
+        let x = if right { on.right + distance } else { on.left - distance };
+        let value = self.outside(0..self.count, x, Some((contact, distance)));
+        let in_gap = if right {
+            Some(contact).filter(|k| k + 1 < self.count)
+        } else {
+            contact.checked_sub(1)
+        };
+        let Some(k) = in_gap else {
+            return -self.weight.beyond(right, x, distance) * value / T::pi();
+        };
+        let rest = self.parts[k + 1].on.left - self.parts[k].on.right - distance;
+        let distances = if right { [distance, rest] } else { [rest, distance] };
+        let without = match self.weight.zeros().get(k) {
+            Some(&zero) => (value - system.at_zeros[k]) / (x - zero),
+            None => value,
+        };
+        -self.weight.in_gap(k, x, distances) * without / T::pi()
+    }
+
+    /// The strength `K/κ` that a limit would have if it were off by a length, by that length, given the
+    /// conditions on these contacts.
+    pub fn strength_by_limit(&self, system: &System<T>, contact: usize, right: bool) -> T {
+        let on = self.parts[contact].on;
+        let limit = if right { on.right } else { on.left };
+        let value = system.at_ends[2 * contact + usize::from(right)];
+        (value / (T::pi() * T::pi() * self.weight.on_contact(contact, limit))).abs()
+    }
+}

@@ -1,0 +1,65 @@
+//! What several contacts answer to a load more.
+//!
+//! The conditions on the limits hold under every load: so `J de = e_F dF/κ`, with the Jacobian J and 1 in the
+//! row of the load alone. A limit e acts on `P = κ S/p V/π²` by S and by V, p being left as it is, together by
+//!
+//! ```text
+//! ∂P/∂e = -κ S/(2 π² p) V(e)/(x - e)
+//! ```
+//!
+//! The sum of that over the free limits, times de/dF, is ∂P/∂F: the pressure of a flat punch on all contacts
+//! under a unit load, whatever the bodies.
+
+use super::weight::Weight;
+use super::{Several, System};
+use crate::numerics::LinearSystem;
+use crate::{Interval, Real};
+
+/// The pressure of a flat punch on several contacts.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LoadResponse<T> {
+    weight: Weight<T>,
+    /// The free limits e, and what is to be divided by `x - e`.
+    terms: Vec<[T; 2]>,
+}
+
+impl<T: Real> Several<T> {
+    /// The derivatives of all limits by F/κ, left and right of each contact, and that of the pressure by F.
+    /// `None` where the limits do not follow the load.
+    pub fn rates(&self, load: T) -> Option<(Vec<[T; 2]>, LoadResponse<T>)> {
+        let (mut system, mut linear) = (System::new(), LinearSystem::new());
+        self.system(load, &mut system);
+        let n = system.residual.len();
+        if !linear.factor(&system.jacobian, n) {
+            return None;
+        }
+        let (mut unit, mut step) = (vec![T::zero(); n], Vec::new());
+        unit[system.load_row] = T::one();
+        linear.solve(&unit, &mut step);
+        let mut rates = vec![[T::zero(); 2]; self.count];
+        let mut terms = Vec::with_capacity(n);
+        let free = (0..2 * self.count).filter(|&i| self.is_free(i));
+        for (i, rate) in free.zip(step) {
+            if !rate.is_finite() {
+                return None;
+            }
+            rates[i / 2][i % 2] = rate;
+            let share = -T::of(0.5) * system.at_ends[i] * rate / (T::pi() * T::pi());
+            terms.push([self.limit(i), share]);
+        }
+        Some((rates, LoadResponse { weight: self.weight.clone(), terms }))
+    }
+}
+
+impl<T: Real> LoadResponse<T> {
+    pub fn contacts(&self) -> &[Interval<T>] {
+        self.weight.contacts()
+    }
+
+    /// At a place strictly inside one of the contacts, by its number.
+    pub fn pressure(&self, contact: usize, x: T) -> T {
+        let sum = self.terms.iter().fold(T::zero(), |sum, &[e, share]| sum + share / (x - e));
+        let root = self.contacts()[contact].chebyshev_weight(x);
+        root / self.weight.on_contact(contact, x) * sum
+    }
+}

@@ -1,0 +1,335 @@
+//! One of several contacts: the slope of the gap times the weight, and what follows from it.
+
+use super::super::angles::Gauss;
+use crate::numerics::chebyshev::{MOST, SIZES, Table, by_size, size_for};
+use super::super::hilbert_transform::{HilbertTransform, Edges, LANES};
+use super::super::panel_set::PanelSet;
+use super::super::near_far_sum::NearFarSum;
+use super::super::edge_integrals;
+use super::super::panel::{Panel, Series, within};
+use super::distant_contacts::DistantContacts;
+use crate::gap::{Gap, Sampler};
+use crate::quadrature::Moments;
+use crate::{ContactError, Interval, Real};
+
+/// How often a panel is halved to resolve the weight: beside a gap, which may be as narrow as rounding
+/// lets it be.
+const MOST_HALVES: usize = 60;
+
+/// How often for derivatives alone, which may be noise.
+const DERIVATIVE_HALVES: usize = 4;
+
+/// Panels of one contact, after which none is halved any more.
+const MOST_PANELS: usize = 1 << 12;
+
+/// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
+const ROOM: f64 = 0.1;
+
+/// A contact much narrower than what was sampled is sampled anew.
+const NARROWER: f64 = 0.4;
+
+/// The distance from a contact, in half-widths, from which on the cosines that its panels are summed up in
+/// are enough for rounding: u²⁴ there.
+const AFAR: f64 = 2.0;
+
+#[derive(Clone)]
+pub(super) struct OneOfSeveral<T> {
+    pub on: Interval<T>,
+    /// The slope of the gap around the contact.
+    pub cover: PanelSet<T>,
+    /// A place in the contact, and the height of the gap there before the bodies are turned.
+    height: Option<[T; 2]>,
+    tilt: T,
+    /// `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
+    panels: Vec<Panel<T>>,
+    /// Stretches still to be looked at, with how often each has been halved.
+    waiting: Vec<([T; 2], usize)>,
+    /// The largest |H|.
+    size: T,
+    conjugate: HilbertTransform<T>,
+    /// H as a cosine series: all of a single panel's, or as much as is seen from afar.
+    series: Series<T>,
+    /// Where there are several panels.
+    far: NearFarSum<T>,
+    /// Of H.
+    pub moments: Moments<T>,
+    /// What the contacts make of the weight, and of V, in this one.
+    pub weight: DistantContacts<T>,
+    pub value: DistantContacts<T>,
+}
+
+impl<T: Real> OneOfSeveral<T> {
+    pub fn new(tolerance: T) -> Self {
+        let zero = T::zero();
+        Self {
+            on: Interval { left: zero, right: zero },
+            cover: PanelSet::new(tolerance),
+            height: None,
+            tilt: zero,
+            panels: Vec::new(),
+            waiting: Vec::new(),
+            size: zero,
+            conjugate: HilbertTransform::new(),
+            series: ([zero; MOST], 0),
+            far: NearFarSum::new(),
+            moments: Moments {
+                mean: zero,
+                first: zero,
+                second: None,
+                size: zero,
+                error: zero,
+                inversion: zero,
+                trend: None,
+            },
+            weight: DistantContacts::near(0),
+            value: DistantContacts::near(0),
+        }
+    }
+
+    /// Forgets the samples: the contact is another, or the bodies are.
+    pub fn clear(&mut self, same_bodies: bool) {
+        self.cover.clear(same_bodies);
+        self.height = None;
+    }
+
+    /// Moves it to an interval, sampling what is missing of the gap. `ends` is how far it may be sampled.
+    pub fn sample(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        ends: [T; 2],
+    ) -> Result<(), ContactError<T>> {
+        self.on = on;
+        let plain = on.plain();
+        let covers = |have: Interval<T>| have.left <= plain.left && have.right >= plain.right;
+        let close = |have: Interval<T>| on.half_width() >= T::of(NARROWER) * have.half_width();
+        if !self.cover.interval().is_some_and(|have| covers(have) && close(have)) {
+            if !self.cover.interval().is_some_and(close) {
+                self.clear(true);
+                self.cover.initial = 8;
+            }
+            let room = T::of(ROOM) * (plain.right - plain.left);
+            let [from, to] = ends;
+            let half = T::of(0.5);
+            // Half the way to an end, where the slope may be infinite.
+            let span = Interval {
+                left: (plain.left - room).max(half * plain.left + half * from),
+                right: (plain.right + room).min(half * plain.right + half * to),
+            };
+            self.cover.extend(gap, span)?;
+        }
+        self.cover.turn(gap.tilt());
+        if self.height.is_none() {
+            let mut sampler = Sampler::default();
+            let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
+            let [first, second] = places;
+            let heights =
+                [sampler.height_untilted(gap, first)?, sampler.height_untilted(gap, second)?];
+            self.cover.cost += sampler.cost;
+            self.compare(places, heights, gap.tilt())?;
+            self.height = Some([first, heights[0]]);
+        }
+        self.tilt = gap.tilt();
+        Ok(())
+    }
+
+    /// Whether heights of the gap before the bodies are turned go with the integral of the slope.
+    fn compare(&self, [from, to]: [T; 2], heights: [T; 2], tilt: T) -> Result<(), ContactError<T>> {
+        let by_slopes = self.rise(from, to) - tilt * (to - from);
+        let by_heights = heights[1] - heights[0];
+        let rounding = T::of(64.0) * T::epsilon() * (heights[0].abs() + heights[1].abs());
+        let tail = |tail: T, panel: &Panel<T>| tail.max(panel.tail);
+        let tail = self.cover.panels.iter().fold(T::zero(), tail);
+        let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
+        let allowed = rounding + share + T::of(8.0) * tail * (to - from);
+        if (by_heights - by_slopes).abs() > allowed {
+            return Err(ContactError::InconsistentHeights { between: [from, to], by_heights, by_slopes });
+        }
+        Ok(())
+    }
+
+    /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
+    /// the integral of the slope from there.
+    pub fn height(&self, x: T) -> T {
+        self.height
+            .map_or(T::zero(), |[place, height]| height + self.tilt * place + self.rise(place, x))
+    }
+
+    /// `∫ g dx` from one place to another.
+    pub fn rise(&self, from: T, to: T) -> T {
+        if to < from {
+            return -self.rise(to, from);
+        }
+        let span = within(&self.cover.panels, Interval { left: from, right: to });
+        let mut sum = T::zero();
+        for (i, panel) in span.iter().enumerate() {
+            let start = if i == 0 { from } else { panel.x[0] };
+            let end = if i + 1 == span.len() { to } else { panel.x[1] };
+            sum += panel.half()
+                * (primitive(panel, panel.local(end)) - primitive(panel, panel.local(start)));
+        }
+        sum
+    }
+
+    /// Multiplies the slope by a weight, and makes ready for the conditions on the limits.
+    pub fn set(&mut self, weight: impl Fn(T) -> T) {
+        let on = self.on;
+        let sampled = within(&self.cover.panels, on);
+        self.panels.clear();
+        let tolerance = self.cover.tolerance;
+        (self.size, self.moments.error) = (T::zero(), T::zero());
+        for (i, panel) in sampled.iter().enumerate() {
+            let from = if i == 0 { on.left } else { panel.x[0] };
+            let to = if i + 1 == sampled.len() { on.right } else { panel.x[1] };
+            self.waiting.clear();
+            self.waiting.push(([from, to], 0));
+            while let Some((x, halved)) = self.waiting.pop() {
+                let (product, resolved, moved) = multiply(panel, x, &weight, tolerance);
+                let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
+                let [from, to] = x;
+                let middle = T::of(0.5) * (from + to);
+                let may = halved < MOST_HALVES && self.panels.len() < MOST_PANELS;
+                if !resolved && may && middle > from && middle < to {
+                    self.waiting.push(([middle, to], halved + 1));
+                    self.waiting.push(([from, middle], halved + 1));
+                    continue;
+                }
+                let largest = product.coefficients().iter().fold(T::zero(), |sum, a| sum + a.abs());
+                self.size = self.size.max(largest);
+                self.panels.push(product);
+            }
+        }
+        let mut over = None;
+        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over);
+        self.series = over.unwrap_or_else(|| {
+            self.far.set_seen_from_outside(&self.panels, on);
+            self.far.cosines()
+        });
+    }
+
+    /// Makes ready for pressures in the contact.
+    pub fn press(&mut self) {
+        let over = Some(&self.series).filter(|_| self.panels.len() == 1);
+        self.conjugate.set(&self.panels, over, self.on, self.size, self.cover.tolerance);
+    }
+
+    /// `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a distance from its
+    /// nearer end.
+    pub fn outside(&self, x: T, distance: T) -> T {
+        let half_width = self.on.half_width();
+        let beyond = distance / half_width;
+        if self.panels.len() > 1 && beyond < T::of(AFAR) {
+            return self.far.outside(x, distance, self.on);
+        }
+        // The power series in the Joukowski variable, as far as its powers count.
+        let root = (beyond * (beyond + T::of(2.0))).sqrt();
+        let right = x > self.on.centre();
+        let size = T::one() / (T::one() + beyond + root);
+        let (mut power, mut terms) = (size, 1);
+        while power > size * T::epsilon() && terms < self.series.1 {
+            (power, terms) = (power * power, 2 * terms);
+        }
+        let u = if right { size } else { -size };
+        let series = &self.series.0[..terms.min(self.series.1)];
+        let sum = series.iter().rev().fold(T::zero(), |sum, &a| sum * u + a);
+        let sum = T::pi() * sum / (root * half_width);
+        if right { -sum } else { sum }
+    }
+
+    /// The same at a place that is not next to this contact.
+    pub fn seen_from(&self, x: T) -> T {
+        self.outside(x, (self.on.left - x).max(x - self.on.right))
+    }
+
+    /// V at one end of the contact, without what is infinite there.
+    pub fn at_end(&self, right: bool) -> T {
+        let Some(trend) = self.moments.trend else { return T::zero() };
+        T::pi() * if right { trend.by_0 + trend.by_1 } else { trend.by_0 - trend.by_1 }
+    }
+
+    /// `sqrt((x - α)(β - x)) V(x)` at so many points of the contact, and that root.
+    pub fn inside(&self, x: &[T; LANES], count: usize) -> ([T; LANES], [T; LANES]) {
+        let edges = Edges::of(self.on, x);
+        (self.conjugate.at(x, count, &edges), edges.root)
+    }
+
+    /// Estimated error of the first of these.
+    pub fn error(&self, x: T) -> T {
+        self.conjugate.error(&self.panels, x)
+    }
+}
+
+/// A panel of the product over a span, and whether its nodes are enough: for the value, and for the
+/// derivatives that dual numbers carry.
+pub(super) fn multiply<T: Real>(
+    panel: &Panel<T>,
+    x: [T; 2],
+    weight: &impl Fn(T) -> T,
+    tolerance: T,
+) -> (Panel<T>, bool, bool) {
+    let half = T::of(0.5);
+    let least = size_for((panel.counting + 4).min(MOST)).max(8);
+    let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
+    for n in SIZES.into_iter().filter(|&n| n >= least) {
+        let table = Table::of(n);
+        let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
+        let mut values = [T::zero(); MOST];
+        for (value, &z) in values[..n].iter_mut().zip(&table.z) {
+            // From the nearer end, where the weight may be steep.
+            let place =
+                if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
+            let factor = weight(place);
+            largest = largest.max(factor.abs());
+            *value = factor * panel.value(place);
+        }
+        by_size!(n, N => {
+            let mut row = [T::zero(); N];
+            row.copy_from_slice(&values[..N]);
+            product.series[..N].copy_from_slice(&table.coefficients(&row));
+        });
+        product.count(n);
+        let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+        // The rounding of x counts where the weight is steep.
+        let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
+        let noise = panel.tail * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
+        product.tail = noise + last;
+        // What is not finite, no halving mends.
+        resolved = last <= half * tolerance * all + noise || !all.is_finite();
+        // So must be what dual numbers carry: the weight bends more as a limit moves.
+        let small = T::epsilon().powf(T::of(0.75));
+        moved = (1..T::COMPONENTS).all(|part| {
+            let size =
+                |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.component(part).abs()));
+            let all = size(&product.series[..n]);
+            size(&product.series[n - 2..n]) <= small * all || !all.is_finite()
+        });
+        if resolved && moved {
+            break;
+        }
+    }
+    (product, resolved, moved)
+}
+
+/// `∫ g ds` from 0 to s on a panel, in its own variable.
+fn primitive<T: Real>(panel: &Panel<T>, s: T) -> T {
+    let series = panel.coefficients();
+    let (half, mut sum) = (T::of(0.5), series[0] * s);
+    // ∫ T_k = (T_{k+1}/(k+1) - T_{k-1}/(k-1))/2
+    let (mut before, mut here) = (T::one(), s);
+    for (k, &a) in series.iter().enumerate().skip(1) {
+        let after = (s + s) * here - before;
+        sum += a * if k == 1 {
+            half * s * s
+        } else {
+            half * (after / T::count(k + 1) - before / T::count(k - 1))
+        };
+        (before, here) = (here, after);
+    }
+    sum
+}
+
+/// The rule on a span of the way through a gap.
+pub(super) fn gauss() -> &'static Gauss {
+    Gauss::sixteen()
+}

@@ -1,0 +1,157 @@
+//! Groups of panels, each of which a point far enough away sees as one.
+//!
+//! From a distance of its own length and more, `1/(t - x)` over a group is a polynomial in t of
+//! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points of it,
+//! whatever the number of panels: with ℓ_m the polynomial that is 1 at the m-th of these and 0
+//! at the others,
+//!
+//! ```text
+//! ∫ g(t)/(t - x) dθ = Σ_m W_m/(t_m - x),      W_m = ∫ g ℓ_m dθ
+//! ```
+//!
+//! Groups are halved until few panels are left. A pressure then takes time with the logarithm of the
+//! number of panels (the idea of tree codes: Barnes and Hut, *Nature* 324 (1986) 446).
+
+use crate::numerics::chebyshev::{MOST, Row, Table};
+use super::near_far_sum::FarPanel;
+use crate::Real;
+use std::ops::Range;
+
+/// Points that stand for a group.
+const POINTS: usize = 24;
+
+/// Panels that are not divided any further.
+const FEW: usize = 8;
+
+/// Some panels in a row.
+#[derive(Clone)]
+pub(super) struct Group<T> {
+    /// Their numbers.
+    pub parts: Range<usize>,
+    /// The span in which they are to be looked at one by one.
+    near: [T; 2],
+    /// The left end and half the length.
+    left: T,
+    half: T,
+    /// `W_m`.
+    weights: [T; POINTS],
+    /// The errors of the panels, each times its length.
+    tail: T,
+    /// The number of the next group that is not one of this group's.
+    pub next: usize,
+}
+
+/// Puts parts, with the nodes `[t - t_left, g dθ]` of Gauss's rule on each, into groups: each is
+/// followed by its two halves.
+pub(super) fn group<T: Real>(
+    groups: &mut Vec<Group<T>>,
+    parts: &[FarPanel<T>],
+    numbers: Range<usize>,
+    nodes: &[[T; 2]],
+) {
+    let within = &parts[numbers.clone()];
+    let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
+    let (left, right) = (first.panel.x[0], last.panel.x[1]);
+    let length = right - left;
+    let (mut near, mut tail) = ([left - length, right + length], T::zero());
+    for part in within {
+        tail += part.panel.tail * (part.panel.half() + part.panel.half());
+        let [from, to] = part.reached();
+        near = [near[0].min(from), near[1].max(to)];
+    }
+    let half = T::of(0.5) * length;
+    let (number, weights) = (groups.len(), [T::zero(); POINTS]);
+    let (parts_of, next) = (numbers.clone(), number + 1);
+    groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
+    let mut sums = GroupMoments { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] };
+    if numbers.len() <= FEW {
+        for part in within {
+            for nodes in nodes[part.nodes.clone()].as_chunks().0 {
+                sums.add(part.panel.x[0], nodes);
+            }
+        }
+    } else {
+        let middle = numbers.start + numbers.len() / 2;
+        for numbers in [numbers.start..middle, middle..numbers.end] {
+            let half = groups.len();
+            group(groups, parts, numbers, nodes);
+            let half = &groups[half];
+            let points = half.points();
+            let nodes: [_; POINTS] = std::array::from_fn(|m| [points[m], half.weights[m]]);
+            for nodes in nodes.as_chunks().0 {
+                sums.add(half.left, nodes);
+            }
+        }
+    }
+    let next = groups.len();
+    let group = &mut groups[number];
+    (group.weights, group.next) = (Table::of(POINTS).shares(&sums.values()), next);
+}
+
+/// Nodes treated together: their numbers are multiples of this.
+const W: usize = 8;
+
+/// `∫ g T_k dθ` over a group, in lanes.
+struct GroupMoments<T> {
+    left: T,
+    by_half: T,
+    lanes: [[T; W]; POINTS],
+}
+
+impl<T: Real> GroupMoments<T> {
+    /// Adds nodes by the place that they count from.
+    fn add(&mut self, from: T, nodes: &[[T; 2]; W]) {
+        let offset = from - self.left;
+        let s: [T; W] = std::array::from_fn(|i| (offset + nodes[i][0]) * self.by_half - T::one());
+        let mut t0 = nodes.map(|[_, weighted]| weighted);
+        let mut t1: [T; W] = std::array::from_fn(|i| t0[i] * s[i]);
+        for lanes in &mut self.lanes {
+            for i in 0..W {
+                lanes[i] += t0[i];
+                (t0[i], t1[i]) = (t1[i], (s[i] + s[i]) * t1[i] - t0[i]);
+            }
+        }
+    }
+
+    fn values(&self) -> [T; POINTS] {
+        self.lanes.map(|lanes| lanes.into_iter().fold(T::zero(), |sum, lane| sum + lane))
+    }
+}
+
+impl<T: Real> Group<T> {
+    /// The points that stand for it, from its left end on.
+    fn points(&self) -> [T; POINTS] {
+        let z = &Table::of(POINTS).z;
+        std::array::from_fn(|m| self.half * T::of(1.0 + z[m]))
+    }
+
+    /// Whether the parts are to be looked at one by one.
+    pub fn is_near(&self, x: T) -> bool {
+        x > self.near[0] && x < self.near[1]
+    }
+
+    /// Whether it has no groups of its own.
+    pub fn is_few(&self) -> bool {
+        self.parts.len() <= FEW
+    }
+
+    /// What the errors of the panels make of the integral at most, but for the factor of dθ.
+    pub fn doubt(&self, x: T) -> T {
+        let away = (self.left - x).max(x - (self.left + self.half + self.half));
+        self.tail / away
+    }
+
+    /// The cosine series of g, where the group is all of a contact, and its terms.
+    pub fn cosines(&self) -> (Row<T>, usize) {
+        let (mut series, share) = ([T::zero(); MOST], T::count(POINTS) * T::frac_1_pi());
+        series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
+        (series.map(|a| share * a), POINTS)
+    }
+
+    /// `∫ g(t)/(t - x) dθ`
+    pub fn integral(&self, x: T) -> T {
+        let (offset, points) = (self.left - x, self.points());
+        let terms: [T; POINTS] = std::array::from_fn(|m| self.weights[m] / (offset + points[m]));
+        terms.into_iter().fold(T::zero(), |sum, term| sum + term)
+    }
+}

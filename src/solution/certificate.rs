@@ -1,0 +1,226 @@
+//! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
+//!
+//! All of the gap is sampled, as panels of its slope: the contact first, and once more in short cells
+//! to see whether the panels, or those of the solver, have missed anything, and whether its limits
+//! balance the bodies; then the way from either edge to the ends of the
+//! bodies. The signs are those of pieces: bounds on a Chebyshev series by
+//! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
+//! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
+//!
+//! Several contacts at once are looked at [one after the other](several), and the gaps between them.
+
+mod inside;
+mod missed;
+mod outside;
+mod series_bounds;
+mod several;
+mod opening_integral;
+
+use crate::contact::Found;
+use crate::gap::{Cost, Gap, Sampler};
+use crate::quadrature::panels::{self, PanelSet, Panel};
+use crate::quadrature::{Integrator, LoadCase, Quadrature};
+use crate::{ContactError, Interval, Panels, Real};
+use inside::Inside;
+use missed::Cells;
+use outside::{OpeningRate, OutsideOf};
+use opening_integral::OpeningIntegral;
+
+/// Evaluations, and samples, after which the certificate is given up.
+const MOST_EVALUATIONS: usize = 1 << 20;
+
+/// The share of the bodies' range that a cell may be long, and have no fewer than eight nodes.
+const SHARE: f64 = 1.0 / 4096.0;
+
+/// A proof that a solution is a contact.
+///
+/// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
+/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
+/// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
+/// wherever the slope of the gap is not a polynomial of low degree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate<T> {
+    /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
+    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
+    /// own limits and load; with the reciprocal of the root of a distance at an edge that is not free. `None` where the slope of the
+    /// gap rises throughout the one contact, which says that `P > 0`, and between adhesive edges.
+    pub pressure: Option<Extremum<T>>,
+    /// The least gap at a place outside where the bodies approach each other again, a length, negative
+    /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
+    /// contacts has but one largest value.
+    pub gap: Option<Extremum<T>>,
+    /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
+    pub spacing: T,
+    /// What it has cost.
+    pub cost: Cost,
+}
+
+/// A place and a value there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremum<T> {
+    /// Where.
+    pub x: T,
+    /// The value.
+    pub value: T,
+}
+
+fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactError<T> {
+    ContactError::Undecided { x, evaluations, samples }
+}
+
+/// Looks at a contact, whatever quadrature it was found with.
+pub(crate) fn certify<T: Real>(
+    gap: &Gap<'_, T>,
+    kappa: T,
+    found: &ContactState<T>,
+    solver: &dyn Integrator<T>,
+) -> Result<Certificate<T>, ContactError<T>> {
+    if let Some(solved) = panels::several(solver).filter(|several| several.contacts().len() > 1) {
+        return several::certify(gap, kappa, found, solved);
+    }
+    let ContactState { interval: on, strengths, free, adhesive, ends, .. } = *found;
+    let share = share(found);
+    let mean = T::of(0.5) * found.load.abs() / on.half_width();
+
+    let mut cover = PanelSet::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
+    let range = gap.range();
+    let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+    cover.look_at_ends(gap, sampled);
+    cover.extend(gap, sampled)?;
+    let view = OpeningIntegral::new(&cover.panels, on);
+
+    // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
+    let at_end = [on.left <= ends[0], on.right >= ends[1]];
+    let at_corner = [0, 1].map(|i| !free[i] && !adhesive[i] && at_end[i]);
+    // With adhesion there may be no load.
+    let pressed = strengths.iter().fold(mean, |max, strength| max.max(strength.abs()));
+    // Where both edges are at fault it is the right one that is named.
+    for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
+        let lifts = at_corner[i] && strengths[i] < -share * pressed;
+        if lifts {
+            let (interval, load) = (on, found.load);
+            let pressure = -T::one() / T::zero();
+            return Err(ContactError::Tension { x, pressure, interval, load });
+        }
+    }
+    let ends = followed(ends, on);
+    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let mut more = heights(gap, sampled)?;
+    let cells = missed::compare(gap, [&cover, &solver], sampled, spacing, view.steepest())?;
+    more += cells.cost;
+    balanced(kappa, found, &cells)?;
+    let pressure = if adhesive != [false; 2] || rises(&cover.panels, on, share * view.steepest()) {
+        None
+    } else {
+        let mut integrator = Panels::FULL.integrator()?;
+        integrator.prepare(gap, on)?;
+        more += integrator.cost();
+        let load_case = LoadCase { kappa, load: found.load, free };
+        let (hull, allowed) = (on, share * mean);
+        let inside = Inside { integrator: &*integrator, gap, load_case, on, hull, allowed };
+        let Extremum { x, value } = inside.least(&mut more)?;
+        Some(Extremum { x, value: value / mean })
+    };
+
+    let bearing = |i: usize| {
+        let counts = adhesive[i] || at_corner[i];
+        if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
+    };
+    let both = [bearing(0), bearing(1)];
+    let allowed = share * view.steepest() * on.half_width();
+    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
+    for right in [false, true] {
+        let i = usize::from(right);
+        if at_corner[i] {
+            continue;
+        }
+        let mut side = OutsideOf::new(&view, right, both, allowed);
+        side.follow(gap, ends[i], spacing, &mut cover, MOST_EVALUATIONS)?;
+        side.part_again();
+        worst = nearer(worst, side.worst);
+        closest = nearer(closest, side.closest);
+    }
+    if let Some(Extremum { x, value: gap }) = worst {
+        let (interval, load) = (on, found.load);
+        return Err(ContactError::Overlap { x, gap, interval, load });
+    }
+    Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + more })
+}
+
+/// What is taken for nothing beside what is usual in the contact.
+fn share<T: Real>(found: &ContactState<T>) -> T {
+    let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+    let error = T::of(16.0) * found.error.unwrap_or(T::zero());
+    rounding.max(error).min(T::of(0.01))
+}
+
+/// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.
+fn followed<T: Real>(ends: [T; 2], on: Interval<T>) -> [T; 2] {
+    let reach = T::of(1e6) * on.half_width();
+    let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
+    [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)]
+}
+
+/// The lower one.
+fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Option<Extremum<T>> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
+        (one, other) => one.or(other),
+    }
+}
+
+/// Heights that are not numbers are those of no body, however sound the slopes are.
+fn heights<T: Real>(gap: &Gap<'_, T>, on: Interval<T>) -> Result<Cost, ContactError<T>> {
+    let mut sampler = Sampler::default();
+    for x in [on.left, on.centre(), on.right] {
+        sampler.height(gap, x)?;
+    }
+    Ok(sampler.cost)
+}
+
+/// Whether free edges are as free by the cells as the limits were found to be.
+fn balanced<T: Real>(kappa: T, found: &ContactState<T>, cells: &Cells<T>) -> Result<(), ContactError<T>> {
+    let ContactState { interval: on, load, free, .. } = *found;
+    let (stiffness, m) = (kappa * on.half_width(), cells.moments(on));
+    let size = load.abs().max(stiffness * m.size);
+    let error = found.error.unwrap_or(T::zero());
+    let said = found.force.unwrap_or(T::of(3.0) * size * error);
+    let rounding = T::of(64.0) * T::epsilon() * size;
+    let rounding = rounding * (T::one() + on.left.abs().max(on.right.abs()) / on.half_width());
+    // An estimate may be off by as much; a tolerance is kept.
+    let open = T::of(16.0) * m.error + cells.doubt;
+    let allowed = T::of(10.0) * said + stiffness * open + rounding;
+    let by_force = T::frac_1_pi() / on.half_width();
+    // Where both are at fault it is the right one that is named.
+    let edges = [(on.left, -T::one()), (on.right, T::one())];
+    for ((x, sign), free) in edges.into_iter().zip(free).rev() {
+        let missed = load - stiffness * (m.first + sign * m.mean);
+        let met = missed.abs() <= allowed;
+        if free && !met {
+            let [strength, allowed] = [missed, allowed].map(|force| force * by_force);
+            return Err(ContactError::Unbalanced { x, strength, allowed });
+        }
+    }
+    Ok(())
+}
+
+/// Whether the slope of the gap rises over the contact, up to rounding and errors that do not matter.
+fn rises<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+    let mut before: Option<[T; 2]> = None;
+    for panel in panels {
+        let part = Interval { left: panel.x[0].max(on.left), right: panel.x[1].min(on.right) };
+        let (series, n) = panel.over(part);
+        let size = series[..n].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let error = panel.tail + T::of(16.0) * T::epsilon() * size;
+        let jumps_down =
+            |[value, doubt]: [T; 2]| panel.value(part.left) - value < -T::of(4.0) * (error + doubt);
+        if error > allowed || before.is_some_and(jumps_down) {
+            return false;
+        }
+        if !series_bounds::rises(&series[..n], error) {
+            return false;
+        }
+        before = Some([panel.value(part.right), error]);
+    }
+    true
+}

@@ -1,0 +1,305 @@
+//! The certificate of several contacts.
+//!
+//! Each is compared with short cells, as one alone is. By those cells all limits must meet their conditions:
+//! what is left of these is turned into steps of the limits. In each contact the pressure is bounded from
+//! below; and from each limit the gap is followed to the end of the bodies, or half the way to the next
+//! contact. There the pressure pulls with Φ/κ, which falls with x as P ≥ 0: where the bodies are steeper than
+//! at the limit, the gap grows.
+
+use super::inside::Inside;
+use super::missed::{Solved, compare};
+use super::outside::{OpeningRate, OutsideOf};
+use super::opening_integral::extremes;
+use super::{
+    Certificate, MOST_EVALUATIONS, Extremum, SHARE, followed, heights, nearer, share, undecided,
+};
+use crate::contact::Found;
+use crate::gap::{Cost, Gap};
+use crate::numerics::LinearSystem;
+use crate::quadrature::panels::{self, PanelSet, Several, System};
+use crate::quadrature::{Integrator, LoadCase, Quadrature};
+use crate::{ContactError, Interval, Panels, Real};
+
+/// Points at which the pressure of a contact is summed up, at first and at most.
+const POINTS: [usize; 2] = [32, 2048];
+
+/// A limit, with the pressure of all contacts.
+struct Limit<'s, T: Real> {
+    several: &'s Several<T>,
+    contact: usize,
+    system: &'s System<T>,
+    on: Interval<T>,
+    /// The slope of the gap there.
+    slope: T,
+    steepest: T,
+}
+
+impl<T: Real> OpeningRate<T> for Limit<'_, T> {
+    fn on(&self) -> Interval<T> {
+        self.on
+    }
+
+    fn slopes(&self) -> [T; 2] {
+        [self.slope; 2]
+    }
+
+    fn steepest(&self) -> T {
+        self.steepest
+    }
+
+    fn pull(&self, distance: T, right: bool) -> T {
+        self.several.pull(self.system, self.contact, right, distance)
+    }
+}
+
+/// Looks at several contacts.
+pub(super) fn certify<T: Real>(
+    gap: &Gap<'_, T>,
+    kappa: T,
+    found: &ContactState<T>,
+    solved: &Several<T>,
+) -> Result<Certificate<T>, ContactError<T>> {
+    let ContactState { interval: hull, load, strengths, free, ends, .. } = *found;
+    let contacts = solved.contacts();
+    let (last, range, share) = (contacts.len() - 1, gap.range(), share(found));
+    let half = T::of(0.5);
+    // Where both edges are at fault it is the right one that is named.
+    let pressed =
+        strengths.iter().fold(half * load.abs() / hull.half_width(), |max, k| max.max(k.abs()));
+    for (i, x) in [hull.left, hull.right].into_iter().enumerate().rev() {
+        if !free[i] && strengths[i] < -share * pressed {
+            let (interval, pressure) = (hull, -T::one() / T::zero());
+            return Err(ContactError::Tension { x, pressure, interval, load });
+        }
+    }
+
+    let corners = free.map(|free| !free);
+    let mut integrator = Panels::FULL.integrator()?;
+    let Some(own) = panels::several_mut(&mut *integrator) else {
+        return Err(undecided(hull.left, Cost::default()));
+    };
+    let (mut own_system, mut system) = (System::new(), System::new());
+    own.set(gap, contacts, corners, ends)?;
+    own.system(load / kappa, &mut own_system);
+    own.press();
+    let mut cost = own.cost();
+    let ends = followed(ends, hull);
+    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let (mut cells, mut doubt, mut steepest) = (Vec::new(), T::zero(), T::zero());
+    for (i, &on) in contacts.iter().enumerate() {
+        let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
+        cost += heights(gap, on)?;
+        let [least, most] = extremes(&own.cover(i).panels, on);
+        let steep = least.abs().max(most.abs());
+        let assumed = Solved(solved.cover(i));
+        let here = compare(gap, [own.cover(i), &assumed], on, spacing, steep)?;
+        cost += here.cost;
+        (doubt, steepest) = (doubt.max(here.doubt), steepest.max(steep));
+        cells.push(here.panels);
+    }
+    let mut by_cells = Several::sampled(T::epsilon().sqrt(), cells.into_iter());
+    by_cells.set(gap, contacts, corners, found.ends)?;
+    by_cells.system(load / kappa, &mut system);
+    cost += by_cells.cost();
+    balanced(kappa, found, &by_cells, &system, doubt)?;
+
+    let mut pressure: Option<Extremum<T>> = None;
+    for (i, &on) in contacts.iter().enumerate() {
+        let free = [i > 0 || free[0], i < last || free[1]];
+        let load_case = LoadCase { kappa, load, free };
+        let mean = half * borne(&*integrator, gap, &load_case, on)?.abs() / on.half_width();
+        let allowed = share * mean;
+        let inside = Inside { integrator: &*integrator, gap, load_case, on, hull, allowed };
+        let Extremum { x, value } = inside.least(&mut cost)?;
+        pressure = nearer(pressure, Some(Extremum { x, value: value / mean }));
+    }
+
+    let Some(own) = panels::several(&*integrator) else { return Err(undecided(hull.left, cost)) };
+    let mut cover = PanelSet::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
+    let allowed = share * steepest * hull.half_width();
+    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
+    // Where the bodies come closer up to the middle of a gap, from its left.
+    let mut falling: Option<Extremum<T>> = None;
+    for (i, &on) in contacts.iter().enumerate() {
+        for right in [false, true] {
+            let outer = if right { i == last } else { i == 0 };
+            let side = usize::from(right);
+            if outer && corners[side] {
+                continue;
+            }
+            let end = match (outer, right) {
+                (true, _) => ends[side],
+                (false, true) => half * on.right + half * contacts[i + 1].left,
+                (false, false) => half * contacts[i - 1].right + half * on.left,
+            };
+            let slope = own.cover(i).slope(if right { on.right } else { on.left });
+            let slope = slope.unwrap_or(T::zero());
+            let limit =
+                Limit { several: own, system: &own_system, contact: i, on, slope, steepest };
+            let mut side = OutsideOf::new(&limit, right, [T::zero(); 2], allowed);
+            side.follow(gap, end, spacing, &mut cover, MOST_EVALUATIONS)?;
+            if outer {
+                side.part_again();
+            } else if right {
+                falling = side.falling;
+            } else if falling.is_some() && side.falling.is_some() {
+                side.part_again();
+            }
+            (worst, closest) = (nearer(worst, side.worst), nearer(closest, side.closest));
+        }
+    }
+    if let Some(Extremum { x, value: gap }) = worst {
+        return Err(ContactError::Overlap { x, gap, interval: hull, load });
+    }
+    Ok(Certificate { pressure, gap: closest, spacing, cost: cover.cost + cost })
+}
+
+/// The load of one contact, to a thousandth or so: a pressure may be infinite at kinks.
+fn borne<T: Real>(
+    integrator: &dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    load_case: &LoadCase<T>,
+    on: Interval<T>,
+) -> Result<T, ContactError<T>> {
+    let [mut points, most] = POINTS;
+    let mut before: Option<T> = None;
+    loop {
+        let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(points);
+        let x: Vec<T> = (0..points).map(|i| on.at_angle(angle(i))).collect();
+        let mut pressures = vec![T::zero(); points];
+        integrator.pressures(gap, load_case, &x, &mut pressures, &mut Cost::default())?;
+        let term = |sum, (&x, &pressure): (&T, &T)| {
+            if pressure.is_finite() { sum + pressure * on.chebyshev_weight(x) } else { sum }
+        };
+        let sum = T::pi() * x.iter().zip(&pressures).fold(T::zero(), term) / T::count(points);
+        let converged = |before: T| (sum - before).abs() <= T::of(1e-4) * sum.abs();
+        if points >= most || before.is_some_and(converged) {
+            return Ok(sum);
+        }
+        (before, points) = (Some(sum), 2 * points);
+    }
+}
+
+/// Whether the limits are by the cells where they were found to be: the steps that their conditions still ask
+/// for, as strengths at the limits, are within what the solver said and what the cells leave open.
+fn balanced<T: Real>(
+    kappa: T,
+    found: &ContactState<T>,
+    cells: &Several<T>,
+    system: &System<T>,
+    doubt: T,
+) -> Result<(), ContactError<T>> {
+    let n = system.residual.len();
+    let mut linear = LinearSystem::new();
+    let (mut steps, mut open) = (Vec::new(), vec![T::zero(); n]);
+    if linear.factor(&system.jacobian, n) {
+        let mut unit = vec![T::zero(); n];
+        for (k, &error) in system.open.iter().enumerate() {
+            unit.fill(T::zero());
+            unit[k] = error;
+            linear.solve(&unit, &mut steps);
+            open.iter_mut().zip(&steps).for_each(|(open, step)| *open += step.abs());
+        }
+        linear.solve(&system.residual, &mut steps);
+    } else {
+        // No strength meets this.
+        steps.resize(n, T::one() / T::zero());
+    }
+    let contacts = cells.contacts();
+    let limits = (0..contacts.len()).flat_map(|i| [(i, false), (i, true)]);
+    let is_free = |&(i, right): &(usize, bool)| {
+        if right { i + 1 < contacts.len() || found.free[1] } else { i > 0 || found.free[0] }
+    };
+    let mut fault = Ok(());
+    for (((i, right), step), open) in limits.filter(is_free).zip(steps).zip(open) {
+        let on = contacts[i];
+        let x = if right { on.right } else { on.left };
+        let rounding = T::of(64.0) * T::epsilon() * (x.abs() + on.half_width());
+        let said = T::of(10.0) * found.error.unwrap_or(T::zero()) * on.half_width();
+        let by_limit = kappa * cells.strength_by_limit(system, i, right);
+        let strength = by_limit * step.abs();
+        // An estimate may be off by as much; a tolerance is kept.
+        let allowed = by_limit * (said + T::of(16.0) * open + rounding) + kappa * doubt;
+        let met = strength <= allowed;
+        // Of those at fault it is the rightmost that is named, as of two.
+        if !met {
+            fault = Err(ContactError::Unbalanced { x, strength, allowed });
+        }
+    }
+    fault
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Shape;
+    use crate::profile::{Curve, CurvePoint, Flat};
+    use crate::search::Newton as Inversion;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    const LOAD: f64 = 1.0;
+
+    /// What the conditions of two contacts make of `x⁴ - 2x²` less so many times `exp(-((x - at)/width)²)`.
+    fn certified([height, at, width]: [f64; 3]) -> Result<Certificate<f64>, ContactError<f64>> {
+        let body = Curve::new([-2.5, 2.5], move |k: f64| {
+            let s = (k - at) / width;
+            let bump = height * (-s * s).exp();
+            let (y, dy) = (k.powi(4) - 2.0 * k * k - bump, 4.0 * k.powi(3) - 4.0 * k);
+            CurvePoint { x: k, y, dx: 1.0, dy: dy + 2.0 * s / width * bump }
+        });
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
+        let (kappa, ends, corners) = (FRAC_PI_2, gap.range(), [false; 2]);
+        let mut several = Several::new(16.0 * f64::EPSILON);
+        let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
+        let d = (LOAD / PI).sqrt();
+        let [from, to] = [(1.0 - d).sqrt(), (1.0 + d).sqrt()];
+        let mut limits = [-to, -from, from, to];
+        for _ in 0..30 {
+            let [one, two, three, four] = limits;
+            let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
+            several.set(&gap, &on, corners, ends)?;
+            several.system(LOAD / kappa, &mut system);
+            assert!(linear.factor(&system.jacobian, 4));
+            linear.solve(&system.residual, &mut steps);
+            for (limit, step) in limits.iter_mut().zip(&steps) {
+                *limit -= step.clamp(-0.02, 0.02);
+            }
+        }
+        assert!(steps.iter().all(|step| step.abs() < 1e-12), "{steps:?}");
+        let found = ContactState {
+            interval: Interval { left: limits[0], right: limits[3] },
+            load: LOAD,
+            strengths: [0.0; 2],
+            free: [true; 2],
+            adhesive: [false; 2],
+            error: Some(1e-14),
+            force: None,
+            trend: None,
+            tilt: 0.0,
+            ends,
+        };
+        certify(&gap, kappa, &found, &several)
+    }
+
+    /// Solutions of the equations that the bodies do not have.
+    #[test]
+    fn what_is_no_contact() {
+        certified([0.0, 0.0, 1.0]).unwrap();
+        certified([-1e-3, 1.0, 0.1]).unwrap();
+        let error = certified([-0.3, 1.0, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Tension { x, pressure, .. }
+                if (x - 1.0).abs() < 0.02 && pressure < 0.0),
+            "{error}"
+        );
+        let near = certified([0.3, 0.1, 0.1]).unwrap().gap.unwrap();
+        assert!((near.x - 0.1).abs() < 0.02 && near.value > 0.0, "{near:?}");
+        let error = certified([0.6, 0.1, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Overlap { x, gap, .. }
+                if (x - 0.1).abs() < 0.02 && gap < 0.0),
+            "{error}"
+        );
+    }
+}

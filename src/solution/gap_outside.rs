@@ -1,0 +1,82 @@
+//! The gap between the loaded bodies beside the contact.
+//!
+//! With `h(x)` the gap before loading and `e` the nearer edge, the two elastic surfaces leave between
+//! them
+//!
+//! ```text
+//! gap(x)  = h(x) - h(e) - 1/κ ∫ P(s) ln((x - s)/(e - s)) ds
+//! gap'(x) = g(x) - 1/κ ∫ P(s)/(x - s) ds
+//! ```
+//!
+//! (Johnson, *Contact Mechanics*, 1985, Eqs. 2.24 and 2.25 for one half-plane, added up for two).
+
+use crate::gap::Sampler;
+use crate::integral::Integrals;
+use crate::{ContactError, Interval, Real, Solution};
+
+impl<T: Real> Solution<'_, T> {
+    /// The distance between the loaded bodies at `x` outside the contact, measured along y: a length,
+    /// zero at both edges. Negative where the bodies would overlap.
+    ///
+    /// Next to an edge it is a small difference: its absolute error is rounding of the heights Y of
+    /// the bodies, and of `F/κ`.
+    ///
+    /// # Errors
+    /// [`ContactError::InvalidPosition`] strictly inside the contact; [`ContactError::OutsideBodies`] beyond
+    /// either body, and for NaN; those of [`pressure`](Self::pressure), of sampling the gap, and
+    /// [`ContactError::Integral`].
+    pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
+        let (edge, _) = self.nearest_edge(x)?;
+        let beyond = x - edge;
+        if beyond.is_zero() {
+            return Ok(T::zero());
+        }
+        let mut sampler = Sampler::default();
+        let [from, to] = self.gap().range();
+        let at_edge = sampler.height(self.gap(), edge.max(from).min(to))?;
+        let bodies = sampler.height(self.gap(), x)? - at_edge;
+        let [pushed] = Integrals::new(self)?
+            .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
+        Ok(bodies - pushed / self.scale())
+    }
+
+    /// The slope of that gap: how fast it opens towards larger x. Zero at a free edge, infinite at one
+    /// where the pressure is.
+    ///
+    /// # Errors
+    /// As [`gap_at`](Self::gap_at), and [`ContactError::Singular`] at an edge that is not free.
+    pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
+        let (edge, free) = self.nearest_edge(x)?;
+        if x == edge {
+            return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
+        }
+        let bodies = Sampler::default().slope(self.gap(), x)?;
+        let pull = |distance: T, strength: T| [strength / distance];
+        let [pull] = Integrals::new(self)?.over(x, pull)?;
+        Ok(bodies - pull / self.scale())
+    }
+
+    /// The edge nearest to a point outside the contacts, and whether it is free.
+    fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
+        let (contacts, range) = (self.intervals(), self.gap().range());
+        let next = contacts.partition_point(|on| on.right <= x);
+        if let Some(&interval) = contacts.get(next).filter(|on| on.contains(x)) {
+            return Err(ContactError::InvalidPosition { x, inside: false, interval });
+        }
+        let Interval { left, right } = self.hull();
+        // An edge may have been rounded to beyond the end of a body that it lies at.
+        if x != left && x != right && !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
+        }
+        let [free_left, free_right] = self.found().free;
+        let before = next.checked_sub(1).map(|i| contacts[i].right);
+        let after = contacts.get(next).map(|on| on.left);
+        Ok(match (before, after) {
+            (Some(before), Some(after)) => {
+                (if x - before <= after - x { before } else { after }, true)
+            }
+            (Some(before), None) => (before, free_right),
+            (None, after) => (after.unwrap_or(left), free_left),
+        })
+    }
+}

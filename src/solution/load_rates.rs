@@ -1,0 +1,195 @@
+//! What follows from a solved contact besides its pressure: computed when asked for.
+
+use crate::integral::Integrals;
+use crate::quadrature::panels::LoadResponse;
+use crate::{ContactError, Interval, Real, Solution};
+
+/// The exact derivatives of a contact by its load per unit length F, all else being the same.
+///
+/// With the limits changing or not, the derivative of the pressure solves the equation of a flat
+/// punch, `PV∫ P_F(s)/(x - s) ds = 0`, under a unit load. In one contact it is
+///
+/// ```text
+/// ∂P/∂F = 1/(π sqrt((x + b)(a - x)))
+/// ```
+///
+/// (Johnson, *Contact Mechanics*, 1985, Eq. 2.64). The limits follow from `K_a = 0`, `K_b = 0`, that
+/// is `F = κ L (m₁ ± m₀)` (see [`quadrature`](crate::quadrature)), at each edge that is free:
+///
+/// ```text
+/// dF/da = κ ( m₀/2 + L/π ∫ g'(x) (1 + cos θ) dθ),   dF/db = κ (-m₀/2 + L/π ∫ g'(x) (1 - cos θ) dθ)
+/// ```
+///
+/// with θ from 0 to π. The limits of several contacts follow from their equations, linearised, and the
+/// pressure from theirs. It grows everywhere and all contacts widen (Buyarov and Rakhmanov, *Sb. Math.* 190,
+/// 1999, 791). Where contacts are born or merge the limits have no derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadRates<T> {
+    /// da/dF, length² per force; zero at a fixed edge.
+    pub a: T,
+    /// db/dF.
+    pub b: T,
+    /// The same of all limits: how fast the left and the right one of each contact move in x.
+    pub limits: Vec<[T; 2]>,
+    punch: Touching<T>,
+}
+
+/// What the flat punch covers.
+#[derive(Clone, Debug, PartialEq)]
+enum Touching<T> {
+    One(Interval<T>),
+    Several(LoadResponse<T>),
+}
+
+impl<T: Real> LoadRates<T> {
+    /// Of one contact.
+    fn of_one([left, right]: [T; 2], on: Interval<T>) -> Self {
+        Self { a: right, b: -left, limits: vec![[left, right]], punch: Touching::One(on) }
+    }
+
+    /// ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
+    ///
+    /// # Errors
+    /// [`ContactError::Singular`] at the edges, where it is infinite; [`ContactError::InvalidPosition`] for
+    /// NaN.
+    pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
+        let contacts = match &self.punch {
+            Touching::One(on) => std::slice::from_ref(on),
+            Touching::Several(punch) => punch.contacts(),
+        };
+        let i = contacts.partition_point(|on| on.right < x);
+        match contacts.get(i) {
+            Some(on) if on.contains(x) => Ok(match &self.punch {
+                Touching::One(on) => T::frac_1_pi() / on.chebyshev_weight(x),
+                Touching::Several(punch) => punch.pressure(i, x),
+            }),
+            Some(on) if x == on.left || x == on.right => Err(ContactError::Singular { x }),
+            // NaN is nowhere.
+            Some(&interval) if x >= interval.left || x.partial_cmp(&x).is_none() => {
+                Err(ContactError::InvalidPosition { x, inside: true, interval })
+            }
+            _ => Ok(T::zero()),
+        }
+    }
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// Mean pressure: F over the widths of all contacts, `F/(a + b)` of a single one.
+    pub fn mean_pressure(&self) -> T {
+        let half = |sum: T, on: &Interval<T>| sum + on.half_width();
+        self.load() / (T::of(2.0) * self.intervals().iter().fold(T::zero(), half))
+    }
+
+    /// Moment of the pressure about x = 0, `∫ x P dx`: force. Its error is rounding of F times the
+    /// largest x of the contact; beside a kink of the slope up to 1e-12 of F L.
+    ///
+    /// # Errors
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
+    /// [`ContactError::Overflow`].
+    pub fn moment(&self) -> Result<T, ContactError<T>> {
+        let interval = self.hull();
+        let moment = interval.half_width() * self.moment_by_half_width()?;
+        if moment.is_finite() { Ok(moment) } else { Err(ContactError::Overflow { interval }) }
+    }
+
+    /// Centre of pressure, `∫ x P dx/F`: where the load acts.
+    ///
+    /// # Errors
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`]; [`ContactError::InvalidLoad`]
+    /// where F is zero.
+    pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
+        let load = self.load();
+        if load.is_zero() {
+            return Err(ContactError::InvalidLoad { load });
+        }
+        Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
+    }
+
+    /// A force: a moment may be beyond the numbers where the centre of pressure is not.
+    fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
+        let on = self.hull();
+        let (centre, half_width) = (on.centre(), on.half_width());
+        let share = |distance: T, strength: T| [-(distance / half_width) * strength];
+        let [about_centre] = Integrals::new(self)?.over(centre, share)?;
+        Ok(centre / half_width * self.load() + about_centre)
+    }
+
+    /// The derivatives of pressure and limits by the load.
+    ///
+    /// # Errors
+    /// [`ContactError::NoLoadDerivative`] with adhesion, with edges by the paper's Eq. (6), and with a
+    /// quadrature that does not know the derivatives of its integrals ([`Midpoint`](crate::Midpoint))
+    /// unless both limits are given; where contacts are born or merge.
+    pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
+        let found = self.found();
+        let (on, kappa) = (found.interval, self.scale());
+        let refuse = |why| Err(ContactError::NoLoadDerivative { why });
+        if found.adhesive != [false; 2] {
+            return refuse("an adhesive edge moves with a singular pressure");
+        }
+        if let Some(several) = self.several() {
+            let Some((mut limits, punch)) = several.rates(self.load() / kappa) else {
+                return refuse("two contacts are about to merge, or one is about to vanish");
+            };
+            limits.iter_mut().flatten().for_each(|rate| *rate /= kappa);
+            let [b, a] = [-limits[0][0], limits[limits.len() - 1][1]];
+            return Ok(LoadRates { a, b, limits, punch: Touching::Several(punch) });
+        }
+        if found.free == [false; 2] {
+            return if found.error.is_none() {
+                Ok(LoadRates::of_one([T::zero(); 2], on))
+            } else {
+                refuse("the limits were sought by Eq. (6), not by free edges")
+            };
+        }
+        let Some(trend) = found.trend else {
+            return refuse("the quadrature has no derivatives of its integrals; use Panels");
+        };
+        let half_width = on.half_width();
+        let mean = if found.free == [true; 2] {
+            T::zero()
+        } else {
+            let [at_b, at_a] = found.strengths;
+            T::frac_pi_2() * (at_b - at_a) / kappa
+        };
+        let rate = |free: bool, sign: T| {
+            let slope = half_width * (trend.by_0 + sign * trend.by_1);
+            let stiffness = kappa * (T::of(0.5) * sign * mean + slope);
+            if free { T::one() / stiffness } else { T::zero() }
+        };
+        let [free_b, free_a] = found.free;
+        Ok(LoadRates::of_one([-rate(free_b, -T::one()), rate(free_a, T::one())], on))
+    }
+
+    /// `PV∫ P(s)/(x - s) ds - κ g(x)` at a place strictly inside the contact: by how much the
+    /// pressure fails the integral equation, the paper's Eq. (3). A pressure.
+    ///
+    /// The integral is taken from values of P alone, by a quadrature that has nothing in common
+    /// with those that gave them, and g from the curves themselves. At a breakpoint g is that of its left
+    /// side; where a slope jumps there the integral is infinite.
+    ///
+    /// # Errors
+    /// [`ContactError::InvalidPosition`] for an x not strictly inside; those of
+    /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
+    pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
+        let Some(interval) = self.contact_with(x) else {
+            return Err(ContactError::InvalidPosition { x, inside: true, interval: self.hull() });
+        };
+        let integrals = Integrals::new(self)?;
+        let mut at_x = [T::zero()];
+        integrals.pressure.values(&[x], &mut at_x)?;
+        if !at_x[0].is_finite() {
+            return Err(ContactError::Singular { x });
+        }
+        let at_x = at_x[0] * interval.chebyshev_weight(x);
+        // PV∫ ds/((x - s) w(s)) is zero.
+        // In the contact with x only: the others are regular.
+        let difference = |own, distance: T, strength: T| {
+            [(if own { strength - at_x } else { strength }) / distance]
+        };
+        let size = at_x.abs() / interval.half_width();
+        let [sum] = integrals.over_as_of(size, x, difference)?;
+        let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;
+        Ok(sum - self.scale() * slope)
+    }
+}

@@ -1,0 +1,282 @@
+//! Integrals of the pressure times a kernel that may be steep above one point of the contact.
+//!
+//! ```text
+//! ∫ P(s) K(x - s) ds = ∫ P w K(x - s) dθ,   s = c + L cos θ,   w = sqrt((s + b)(a - s))
+//! ```
+//!
+//! `P w` is bounded at every kind of edge. The angle is split at the breakpoints and at the point of the
+//! contact nearest to x, and each panel is halved until Gauss's rule of 16 nodes agrees with itself
+//! on the two halves to `ε^(3/4)` of the integral of the absolute value. Where the integrand is
+//! smooth the result is then good to rounding; beside a kink, where the panels shrink towards it,
+//! to about the tolerance.
+//!
+//! Angles are counted from that of x, so that the distance `x - s` keeps its relative accuracy
+//! however close the two are, and with it a kernel as narrow as wanted.
+//!
+//! Most panels are the same whatever x is. `P w` at their nodes, and at those of their halves, is kept:
+//! among a thousand breakpoints only the panels next to x ask for pressures again.
+
+mod graded_rule;
+
+use crate::quadrature::Gauss;
+use crate::{ContactError, Interval, Pressure, Real, Solution};
+use std::sync::OnceLock;
+use graded_rule::GradedRule;
+
+/// Nodes of a panel.
+const NODES: usize = 16;
+
+/// Panels beyond those between the breakpoints before an integral is given up.
+const MOST_PANELS: usize = 20_000;
+
+/// The pressure of all contacts, ready to be integrated.
+pub(crate) struct Integrals<'p, T: Real> {
+    pub pressure: Pressure<'p, T>,
+    /// The contacts, from left to right.
+    contacts: Vec<One<T>>,
+}
+
+/// One of the contacts.
+struct One<T> {
+    on: Interval<T>,
+    /// The breakpoints inside, rising.
+    breakpoints: Vec<T>,
+    /// Whether `P w` vanishes at the left and at the right limit.
+    free: [bool; 2],
+    /// `P w` on the panels between the breakpoints, from the right one on.
+    kept: OnceLock<Vec<Kept<T>>>,
+}
+
+/// `P w` at the nodes of a panel, of its right half and of its left one, each from right to left.
+type Kept<T> = [[T; NODES]; 3];
+
+impl<'p, T: Real> Integrals<'p, T> {
+    pub fn new(solution: &'p Solution<'_, T>) -> Result<Self, ContactError<T>> {
+        let contacts = solution.intervals();
+        let last = contacts.len() - 1;
+        let free = solution.found().free;
+        let one = |(i, &on): (usize, &Interval<T>)| {
+            let breakpoints = solution.gap().breakpoints(on).collect();
+            // Between two contacts all limits are free.
+            let free = [i > 0 || free[0], i < last || free[1]];
+            One { on, breakpoints, free, kept: OnceLock::new() }
+        };
+        let contacts = contacts.iter().enumerate().map(one).collect();
+        Ok(Self { pressure: solution.pressure()?, contacts })
+    }
+
+    /// The breakpoints inside the contacts, rising.
+    pub fn breakpoints(&self) -> impl Iterator<Item = T> {
+        self.contacts.iter().flat_map(|one| one.breakpoints.iter().copied())
+    }
+
+    /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
+    pub fn over<const N: usize>(
+        &self,
+        x: T,
+        kernel: impl Fn(T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        self.over_as_of(T::zero(), x, |_, distance, strength| kernel(distance, strength))
+    }
+
+    /// The same to no more than the tolerance of an integral of this size: for a kernel that may be
+    /// the rounding of a difference and nothing else. It is told whether s lies in the contact with x.
+    pub fn over_as_of<const N: usize>(
+        &self,
+        least: T,
+        x: T,
+        kernel: impl Fn(bool, T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        self.sum(&self.contacts, tolerance(), least, x, kernel)
+    }
+
+    /// The same over one contact alone, by its number: to rounding beside a kink, too, if that can be had.
+    pub fn over_one<const N: usize>(
+        &self,
+        contact: usize,
+        x: T,
+        kernel: impl Fn(T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        let (one, kernel) =
+            (&self.contacts[contact..=contact], |_, x, strength| kernel(x, strength));
+        let fine = tolerance::<T>().min(T::of(64.0) * T::epsilon());
+        match self.sum(one, fine, T::zero(), x, kernel) {
+            Err(ContactError::Integral { .. }) => self.sum(one, tolerance(), T::zero(), x, kernel),
+            result => result,
+        }
+    }
+
+    fn sum<const N: usize>(
+        &self,
+        contacts: &[One<T>],
+        tolerance: T,
+        least: T,
+        x: T,
+        kernel: impl Fn(bool, T, T) -> [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        let mut pending = Vec::new();
+        let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
+        let mut views = Vec::with_capacity(contacts.len());
+        for one in contacts {
+            views.push((one, GradedRule::new(one.on, x), one.kept(&self.pressure)?));
+        }
+        let panel = |i: usize, ends: [T; 2], known: Option<usize>, part: usize| {
+            let (one, graded_rule, kept) = &views[i];
+            let bounded = match known {
+                Some(known) => graded_rule.seen(&kept[known], part),
+                None => one.bounded(&self.pressure, graded_rule, ends)?,
+            };
+            let kernel = |distance, strength| kernel(one.on.contains(x), distance, strength);
+            Ok::<_, ContactError<T>>(GradedPanel::new(graded_rule, ends, &bounded, &kernel))
+        };
+        for (i, (one, graded_rule, _)) in views.iter().enumerate() {
+            for (ends, known) in graded_rule.panels(&one.breakpoints) {
+                let whole = panel(i, ends, known, 0)?;
+                add(&mut size, &whole.size);
+                pending.push((i, whole, known));
+            }
+        }
+        // Below the least normal number, which is about that, there are fewer digits.
+        let least = T::max_value().map_or(least, |max| least.max(max.recip()));
+        let mut left = MOST_PANELS;
+        while let Some((contact, whole, known)) = pending.pop() {
+            let [from, to] = whole.ends;
+            let middle = T::of(0.5) * (from + to);
+            let halves = [
+                panel(contact, [from, middle], known, 1)?,
+                panel(contact, [middle, to], known, 2)?,
+            ];
+            let (one, graded_rule, _) = &views[contact];
+            let noise = one.noise(graded_rule.place(middle, one.free).0);
+            let mut agreed = true;
+            let mut refined = [T::zero(); N];
+            for i in 0..N {
+                refined[i] = halves[0].sum[i] + halves[1].sum[i];
+                size[i] += halves[0].size[i] + halves[1].size[i] - whole.size[i];
+                let allowed = tolerance * size[i].max(least) + noise * whole.size[i];
+                agreed &= (refined[i] - whole.sum[i]).abs() <= allowed;
+            }
+            if agreed {
+                add(&mut total, &refined);
+                continue;
+            }
+            if left == 0 {
+                return Err(ContactError::Integral { x, panels: MOST_PANELS });
+            }
+            left -= 1;
+            pending.extend(halves.map(|half| (contact, half, None)));
+        }
+        Ok(total)
+    }
+}
+
+impl<T: Real> One<T> {
+    /// Taken from whichever edge is nearer.
+    fn kept(&self, pressure: &Pressure<'_, T>) -> Result<&[Kept<T>], ContactError<T>> {
+        if let Some(kept) = self.kept.get() {
+            return Ok(kept);
+        }
+        let views = [self.on.left, self.on.right].map(|x| GradedRule::new(self.on, x));
+        let ends = [0, 1].map(|i| views[i].ends(&self.breakpoints));
+        let count = self.breakpoints.len() + 1;
+        let keep = |i: usize| {
+            let j = count - 1 - i;
+            let seen = [[ends[0][j], ends[0][j + 1]], [ends[1][i], ends[1][i + 1]]];
+            let nearer = usize::from(seen[0][1] >= seen[1][1]);
+            let (graded_rule, [from, to]) = (&views[nearer], seen[nearer]);
+            let middle = T::of(0.5) * (from + to);
+            let bounded = |ends| self.bounded(pressure, graded_rule, ends);
+            let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
+            Ok([0, 1, 2].map(|part| graded_rule.seen(&kept, part)))
+        };
+        let kept = (0..count).map(keep).collect::<Result<_, ContactError<T>>>()?;
+        Ok(self.kept.get_or_init(|| kept))
+    }
+
+    /// What the rounding of s makes of the pressure beside a breakpoint, where it may go like a
+    /// logarithm: no halving mends that.
+    fn noise(&self, s: T) -> T {
+        let Interval { left, right } = self.on;
+        let mut distance = right - left;
+        let next = self.breakpoints.partition_point(|&breakpoint| breakpoint < s);
+        for breakpoint in &self.breakpoints[next.saturating_sub(1)..self.breakpoints.len().min(next + 1)] {
+            distance = distance.min((s - *breakpoint).abs());
+        }
+        let rounding = T::of(0.25) * T::epsilon() * s.abs();
+        if distance > rounding { rounding / distance } else { T::one() }
+    }
+
+    /// `P w` at the nodes of a panel.
+    fn bounded(
+        &self,
+        pressure: &Pressure<'_, T>,
+        graded_rule: &GradedRule<T>,
+        ends: [T; 2],
+    ) -> Result<[T; NODES], ContactError<T>> {
+        let (mut s, mut share) = ([T::zero(); NODES], [T::zero(); NODES]);
+        for (i, turn) in turns(ends).into_iter().enumerate() {
+            (s[i], share[i]) = graded_rule.place(turn, self.free);
+        }
+        let mut bounded = [T::zero(); NODES];
+        pressure.values(&s, &mut bounded)?;
+        for i in 0..NODES {
+            bounded[i] *= share[i] * graded_rule.on.chebyshev_weight(s[i]);
+        }
+        Ok(bounded)
+    }
+}
+
+/// The share of an integral to which its panels must agree with their halves.
+fn tolerance<T: Real>() -> T {
+    T::epsilon().powf(T::of(0.75))
+}
+
+fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
+    for (sum, &term) in sum.iter_mut().zip(terms) {
+        *sum += term;
+    }
+}
+
+/// The angles of the nodes of a panel, each from the nearer end, since either may be at x.
+fn turns<T: Real>([from, to]: [T; 2]) -> [T; NODES] {
+    let half = T::of(0.5) * (to - from);
+    let nodes = Gauss::sixteen().nodes;
+    std::array::from_fn(|i| {
+        let node = T::of(nodes[i]);
+        let from_left = node < T::zero();
+        if from_left { from + half * (T::one() + node) } else { to - half * (T::one() - node) }
+    })
+}
+
+/// A range of angles with the integrals over it, and those of the absolute values.
+struct GradedPanel<T, const N: usize> {
+    ends: [T; 2],
+    sum: [T; N],
+    size: [T; N],
+}
+
+impl<T: Real, const N: usize> GradedPanel<T, N> {
+    fn new(
+        graded_rule: &GradedRule<T>,
+        ends: [T; 2],
+        bounded: &[T; NODES],
+        kernel: &impl Fn(T, T) -> [T; N],
+    ) -> Self {
+        let half = T::of(0.5) * (ends[1] - ends[0]);
+        let weights = Gauss::sixteen().weights;
+        let mut panel = Self { ends, sum: [T::zero(); N], size: [T::zero(); N] };
+        for (i, turn) in turns(ends).into_iter().enumerate() {
+            // A node may have been rounded to the breakpoint where the pressure is infinite.
+            if !bounded[i].is_finite() {
+                continue;
+            }
+            let terms = kernel(graded_rule.distance(turn), bounded[i]);
+            let weight = T::of(weights[i]) * half;
+            for (k, term) in terms.into_iter().enumerate() {
+                panel.sum[k] += weight * term;
+                panel.size[k] += weight * term.abs();
+            }
+        }
+        panel
+    }
+}

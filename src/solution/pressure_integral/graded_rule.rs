@@ -1,0 +1,123 @@
+//! A contact as seen from a point.
+
+use super::{Kept, NODES};
+use crate::{Interval, Real};
+
+/// The contact as seen from x: angles are counted from the point nearest to x, away from the edge
+/// nearest to x.
+pub(super) struct GradedRule<T> {
+    pub on: Interval<T>,
+    /// Whether that is the right edge.
+    right: bool,
+    /// The angle between that edge and the nearest point, up to π/2.
+    theta: T,
+    /// How far outside the contact x is.
+    beyond: T,
+    /// How far inside, and x itself.
+    inward: T,
+    x: T,
+}
+
+impl<T: Real> GradedRule<T> {
+    pub fn new(on: Interval<T>, x: T) -> Self {
+        let right = x > on.centre();
+        let inward = if right { on.right - x } else { x - on.left };
+        let beyond = (-inward).max(T::zero());
+        let mut graded_rule = Self { on, right, theta: T::zero(), beyond, inward, x };
+        if inward > T::zero() {
+            graded_rule.theta = graded_rule.angle(x);
+        }
+        graded_rule
+    }
+
+    /// The angle of a point of the contact from the edge.
+    fn angle(&self, x: T) -> T {
+        let angle = self.on.angle(x);
+        if self.right {
+            angle
+        } else {
+            let Interval { left, right } = self.on;
+            T::of(2.0) * (x - left).sqrt().atan2((right - x).sqrt())
+        }
+    }
+
+    /// The edges and the breakpoints, from the edge on. A breakpoint at the nearest point is that point.
+    pub fn ends(&self, breakpoints: &[T]) -> Vec<T> {
+        let turn = |&breakpoint: &T| {
+            let turn = self.angle(breakpoint) - self.theta;
+            if turn.abs() > T::of(16.0) * T::epsilon() { turn } else { T::zero() }
+        };
+        let mut ends = Vec::with_capacity(breakpoints.len() + 2);
+        ends.push(-self.theta);
+        if self.right {
+            ends.extend(breakpoints.iter().rev().map(turn));
+        } else {
+            ends.extend(breakpoints.iter().map(turn));
+        }
+        ends.push(T::pi() - self.theta);
+        ends
+    }
+
+    /// The panels between them, with their numbers from the right; that in which the nearest point
+    /// lies is divided there, and has none.
+    pub fn panels(&self, breakpoints: &[T]) -> Vec<([T; 2], Option<usize>)> {
+        let (zero, last) = (T::zero(), breakpoints.len());
+        let mut panels = Vec::with_capacity(last + 2);
+        for (i, ends) in self.ends(breakpoints).windows(2).enumerate() {
+            let [from, to] = [ends[0], ends[1]];
+            if from < zero && to > zero {
+                panels.extend([([from, zero], None), ([zero, to], None)]);
+            } else if from < to {
+                panels.push(([from, to], Some(if self.right { i } else { last - i })));
+            }
+        }
+        panels
+    }
+
+    /// What is kept of a panel (0), or of its nearer (1) or farther half (2), as seen from here.
+    pub fn seen(&self, kept: &Kept<T>, part: usize) -> [T; NODES] {
+        if self.right {
+            return kept[part];
+        }
+        let mut seen = kept[[0, 2, 1][part]];
+        seen.reverse();
+        seen
+    }
+
+    /// `x - s` for a point s of the contact.
+    pub fn distance(&self, turn: T) -> T {
+        let half_turn = T::of(0.5) * turn;
+        let width = self.on.right - self.on.left;
+        let distance = self.beyond + width * (self.theta + half_turn).sin() * half_turn.sin();
+        if self.right { distance } else { -distance }
+    }
+
+    /// A point s strictly inside the contact, and by how much the distance of s from the nearer edge,
+    /// if free, was rounded: `P w` goes with it there.
+    pub fn place(&self, turn: T, free: [bool; 2]) -> (T, T) {
+        let half = T::of(0.5);
+        let Interval { left, right } = self.on;
+        let width = right - left;
+        let half_angle = half * (self.theta + turn);
+        let rounding = T::epsilon() * left.abs().max(right.abs());
+        let near = half_angle < T::frac_pi_4();
+        let inward = width * if near { half_angle.sin() } else { half_angle.cos() }.powi(2);
+        let at_right = near == self.right;
+        let distance = self.distance(turn);
+        // From whichever of x and the edge is nearer.
+        let s = if distance.abs() < half * self.inward {
+            self.x - distance
+        } else if at_right {
+            right - inward
+        } else {
+            left + inward
+        };
+        let s = s.max(left + rounding).min(right - rounding);
+        let share = match (at_right, free) {
+            (true, [_, true]) => inward / (right - s),
+            (false, [true, _]) => inward / (s - left),
+            _ => T::one(),
+        };
+        (s, share)
+    }
+}

@@ -1,0 +1,141 @@
+//! Where the stress is largest.
+
+use super::{Stress, StressPeak, Subsurface, checked_ratio};
+use crate::{ContactError, Interval, Real};
+
+/// Abscissae and depths of the first look.
+const COLUMNS: usize = 33;
+const ROWS: usize = 32;
+
+/// The depths looked at, in half-widths; the least stands for the surface.
+const SHALLOWEST: f64 = 1e-6;
+const DEEPEST: f64 = 4.0;
+
+impl<T: Real> Subsurface<'_, T> {
+    /// The largest shear stress in the plane, as far as a grid of 33 abscissae, from half a half-width
+    /// beyond either edge, and 32 depths from the surface to four half-widths shows which maximum is
+    /// the largest. Its value has nearly all digits, its place half of them.
+    ///
+    /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
+    /// the depth goes to zero: then the depth is about a millionth of the half-width.
+    ///
+    /// It takes some thousand stresses, each of them time for each piece of the bodies in the contact,
+    /// but pressures only next to its place: three seconds for a thousand pieces.
+    ///
+    /// # Errors
+    /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and
+    /// with friction also where the slope of the gap jumps; those of [`at`](Self::at).
+    pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+        self.check_edges()?;
+        if !self.friction.is_zero() {
+            self.check_breakpoints()?;
+        }
+        self.largest(|stress| Ok(stress.max_shear()))
+    }
+
+    /// The largest equivalent stress of von Mises, found in the same way.
+    ///
+    /// # Errors
+    /// As [`max_shear`](Self::max_shear), and without friction, too, where the slope of the gap jumps,
+    /// unless ν is 1/2; [`ContactError::InvalidPoissonRatio`].
+    pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
+        let poisson = checked_ratio(poisson)?;
+        self.check_edges()?;
+        if !(self.friction.is_zero() && poisson == T::of(0.5)) {
+            self.check_breakpoints()?;
+        }
+        self.largest(|stress| stress.von_mises(poisson))
+    }
+
+    /// Refuses edges at which all stress is infinite.
+    fn check_edges(&self) -> Result<(), ContactError<T>> {
+        let (found, Interval { left, right }) = (self.solution.found(), self.hull());
+        let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
+        // Where both are it is the right one that is named.
+        for (i, x) in [left, right].into_iter().enumerate().rev() {
+            if !found.free[i] && found.strengths[i].abs() > least {
+                return Err(ContactError::Singular { x });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses breakpoints at which the pressure is infinite.
+    fn check_breakpoints(&self) -> Result<(), ContactError<T>> {
+        let breakpoints: Vec<_> = self.integrals.breakpoints().collect();
+        let mut pressures = vec![T::zero(); breakpoints.len()];
+        self.integrals.pressure.values(&breakpoints, &mut pressures)?;
+        match breakpoints.iter().zip(&pressures).find(|(_, pressure)| !pressure.is_finite()) {
+            Some((&x, _)) => Err(ContactError::Singular { x }),
+            None => Ok(()),
+        }
+    }
+
+    fn largest(
+        &self,
+        value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
+    ) -> Result<StressPeak<T>, ContactError<T>> {
+        let mut best: Option<StressPeak<T>> = None;
+        for &on in self.solution.intervals() {
+            let peak = self.largest_below(on, &value)?;
+            if best.is_none_or(|best| peak.value > best.value) {
+                best = Some(peak);
+            }
+        }
+        best.ok_or(ContactError::InvalidLoad { load: self.solution.load() })
+    }
+
+    /// Below one contact.
+    fn largest_below(
+        &self,
+        on: Interval<T>,
+        value: &impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
+    ) -> Result<StressPeak<T>, ContactError<T>> {
+        let (centre, half_width) = (on.centre(), on.half_width());
+        // By places in half-widths, the depth by its logarithm.
+        let [shallowest, deepest] = [SHALLOWEST, DEEPEST].map(|depth| T::of(depth.ln()));
+        let peak = |[along, down]: [T; 2]| {
+            let depth = if down > shallowest { half_width * down.exp() } else { T::zero() };
+            let x = centre + half_width * along;
+            match self.at(x, depth) {
+                Ok(stress) => Ok(StressPeak { x, depth, value: value(stress)? }),
+                // Shear that is bounded, or an edge whose strength is nothing but rounding.
+                Err(ContactError::Singular { .. }) => Ok(StressPeak { x, depth, value: -T::one() }),
+                Err(error) => Err(error),
+            }
+        };
+        let step = [3.0 / (COLUMNS - 1) as f64, (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64];
+        let [mut across, mut deeper] = step.map(T::of);
+        let mut place = [T::zero(); 2];
+        let mut best = StressPeak { x: centre, depth: half_width, value: -T::one() };
+        for column in 0..COLUMNS {
+            for row in 0..ROWS {
+                let along = T::of(-1.5) + across * T::count(column);
+                let here = [along, shallowest + deeper * T::count(row)];
+                let found = peak(here)?;
+                if found.value > best.value {
+                    (place, best) = (here, found);
+                }
+            }
+        }
+        // Uphill by ever smaller steps, until rounding hides the top.
+        let least = T::of(0.1) * T::epsilon().sqrt();
+        while across.max(deeper) > least {
+            let mut moved = false;
+            for [dx, dy] in [[across, T::zero()], [T::zero(), deeper]] {
+                for sign in [T::one(), -T::one()] {
+                    let down = (place[1] + sign * dy).max(shallowest).min(deepest);
+                    let here = [place[0] + sign * dx, down];
+                    let found = peak(here)?;
+                    if found.value > best.value {
+                        (place, best, moved) = (here, found, true);
+                    }
+                }
+            }
+            if !moved {
+                (across, deeper) = (T::of(0.5) * across, T::of(0.5) * deeper);
+            }
+        }
+        Ok(best)
+    }
+}
