@@ -337,7 +337,7 @@ fn judge_all(path: &str) {
     let found = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     println!("task\tprogram\tsetting\terror\tlimit_error\tevaluations\tmicroseconds");
     for line in found.lines() {
-        judge(line).unwrap_or_else(|| eprintln!("not a result: {:.60}", line));
+        judge(line).unwrap_or_else(|| eprintln!("not a result: {line:.60}"));
     }
     for task in TASKS.iter().filter(|task| ["T2", "T3a", "T4", "T5"].contains(&task.name)) {
         for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {

@@ -58,6 +58,18 @@
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
 
+#![cfg_attr(
+    not(test),
+    warn(
+        unused_qualifications,
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_sign_loss,
+        clippy::print_stderr,
+        clippy::print_stdout
+    )
+)]
+
 #[cfg(feature = "autodiff")]
 pub mod autodiff;
 pub mod contact;

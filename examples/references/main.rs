@@ -10,9 +10,10 @@
 //! highest floor, that is, what rounding and the noise of the formulas leave open; the cost.
 //! A file passes if every error is at most 1e-12 or, where that is more, 20 times the floor at
 //! that very point; one with several contacts (`contact-reference-2`), by the tolerances that it gives, of
-//! the limits as shares of the width and of the pressure as one of the largest; one of which only a
-//! contact in several places is known, if boundary elements agree. Where an error is due, it
-//! must be of the variant that the file names, if it names one. The program fails if a file does.
+//! the limits as shares of the width and of the pressure as one of the largest. One whose solution in one
+//! interval is no contact passes if that solution is found and then denied by the error that the file names,
+//! and if boundary elements agree with the contacts in several places. Where an error is due, it
+//! must be of the variant that the file names. The program fails if a file does.
 
 #[path = "../../tests/common/boundary_elements.rs"]
 mod boundary_elements;
@@ -25,7 +26,7 @@ mod report;
 
 use bodies::{Body, BodyError};
 use boundary_elements::Oracle;
-use linecontact::{Contact, ContactError, Control, Cost, Edge};
+use linecontact::{Contact, ContactError, Control, Cost, Edge, Interval};
 use reference::{Kind, Reference, Several};
 use report::{Answer, Report};
 use std::error::Error;
@@ -67,7 +68,7 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
         Reference::read(&file).ok_or("not a reference file, or of a kind unknown here")?;
     let failed = |error: String, variant: String| {
         let expected = match reference.kind {
-            Kind::Error => reference.error.as_ref().is_none_or(|name| is_in(name, &variant)),
+            Kind::Error => reference.error.as_ref().is_some_and(|name| is_in(name, &variant)),
             _ => false,
         };
         let unlike = reference.error.as_ref().filter(|_| !expected);
@@ -92,13 +93,12 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
         Err(error) => return failed(error.to_string(), format!("{error:?}")),
     };
     if let Some(oracle) = oracle {
-        return Ok(Report::of_elements(
-            &name,
-            &reference,
-            &answer,
-            &oracle,
-            &reference.breakpoints,
-        ));
+        let elements =
+            Report::of_elements(&name, &reference, &answer, &oracle, &reference.breakpoints);
+        return Ok(match one_interval(&name, &bodies, &reference) {
+            Ok(one) => one.and(elements),
+            Err(why) => Report::of_error(&name, reference.kind_name, false, why),
+        });
     }
     if let Some(several) = &reference.several {
         return Ok(Report::of_several(&name, &reference, several, &answer));
@@ -114,6 +114,45 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     let rounded = &reference.rounded_breakpoints;
     let noise = noise::measure([&*bodies[0], &*bodies[1]], on, &places, rounded, weight)?;
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
+}
+
+/// The equations for one interval, whose solution is in the file, next to it: solved, and then denied by
+/// the error that the file names.
+fn one_interval(name: &str, bodies: &[Body<f64>; 2], wanted: &Reference) -> Result<Report, String> {
+    let said = |error: ContactError<f64>| format!("as one interval: {error}");
+    let (on, error) = wanted.limits.zip(wanted.error.as_ref()).ok_or("no limits, or no error")?;
+    let wide = 0.01 * on.half_width();
+    let start = Interval { left: on.left - wide, right: on.right + 0.5 * wide };
+    let contact = Contact::new(&*bodies[0], &*bodies[1]).map_err(said)?.kappa(wanted.kappa);
+    let contact = contact.single_interval(true).start(start);
+    // One load may have several such solutions, a width has one load.
+    let load = wanted.c / PI;
+    let control = if wanted.one_of_several {
+        Control::HalfWidth(on.half_width())
+    } else {
+        Control::Load(load)
+    };
+    let solution = contact.solve(control).map_err(said)?;
+    let pressure = solution.pressure().map_err(said)?;
+    let at = |x| pressure.estimate(x, &mut Cost::default()).map_err(|error| error.to_string());
+    let places: Vec<_> = wanted.points.iter().map(|point| point.x).collect();
+    let pressures = places.iter().map(|&x| Ok(at(x)?.value)).collect();
+    let cost = solution.cost() + pressure.cost();
+    let answer = Answer { contacts: solution.intervals().to_vec(), pressures, cost };
+    let both = [&*bodies[0], &*bodies[1]];
+    let noise = noise::measure(both, on, &places, &wanted.rounded_breakpoints, |_| 1.0);
+    let noise = noise.map_err(|error| error.to_string())?;
+    let mut report = Report::of_answer(name, wanted, &answer, &noise);
+    let off = (solution.load() / load - 1.0).abs();
+    if off.is_nan() || off > 1e-12 {
+        report.fail(format!("load: off {off:.1e}"));
+    }
+    match solution.certify() {
+        Ok(_) => report.fail(format!("certified as one interval (expected: {error})")),
+        Err(denied) if is_in(error, &format!("{denied:?}")) => {}
+        Err(denied) => report.fail(format!("{denied} (expected: {error})")),
+    }
+    Ok(report)
 }
 
 /// Whether a word is in what an error shows of itself: `Profile { body: Upper, source: TurnsBack { .. } }`.

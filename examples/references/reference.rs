@@ -45,6 +45,8 @@ pub struct Reference {
     pub limits: Option<Interval<f64>>,
     /// What is known of several contacts.
     pub several: Option<Several>,
+    /// Whether the limits are one of several solutions in one interval under the same load.
+    pub one_of_several: bool,
     /// The variant of the error that must come, where the file names it.
     pub error: Option<String>,
     /// The breakpoints of both bodies.
@@ -116,6 +118,7 @@ impl Reference {
             c: number(&file["C"]).or_else(|| Some(PI * number(&file["F"])?))?,
             limits,
             several,
+            one_of_several: file["all_single_interval_roots"].is_array(),
             error: file["expected_error"].as_str().map(str::to_owned),
             breakpoints,
             rounded_breakpoints,
@@ -133,15 +136,31 @@ fn scale(text: &str) -> Option<f64> {
     }
 }
 
-/// Whether a decimal is a number of 64 bits, which has no more than 1074 places. (One with an exponent
-/// is taken for one that is not.)
+/// A decimal without an exponent.
+fn plain(text: &str) -> Option<String> {
+    let Some((decimal, exponent)) = text.split_once(['e', 'E']) else {
+        return Some(text.to_owned());
+    };
+    let (sign, digits) = decimal.strip_prefix('-').map_or(("", decimal), |digits| ("-", digits));
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let (digits, places) = (format!("{whole}{part}"), exponent.parse::<i16>().ok()?);
+    let point = i32::try_from(whole.len()).ok()? + i32::from(places);
+    let zeros = |count: i32| "0".repeat(usize::try_from(count).unwrap_or(0));
+    let missing = point - i32::try_from(digits.len()).ok()?;
+    let all = format!("{}{digits}{}", zeros(1 - point), zeros(missing));
+    let (whole, part) = all.split_at(usize::try_from(point.max(1)).ok()?);
+    let whole = Some(whole.trim_start_matches('0')).filter(|text| !text.is_empty()).unwrap_or("0");
+    Some(format!("{sign}{whole}.{part}"))
+}
+
+/// Whether a decimal is a number of 64 bits, which has no more than 1074 places.
 fn is_exact(value: &Value) -> bool {
     let trimmed = |text: &str| match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text.to_owned(),
     };
     let exact = number(value).map(|x| trimmed(&format!("{x:.1074}")));
-    exact == value.as_str().map(trimmed)
+    exact == value.as_str().and_then(plain).map(|text| trimmed(&text))
 }
 
 /// A decimal in a string, correctly rounded, or a number as it is.
@@ -157,10 +176,28 @@ mod tests {
     #[test]
     fn breakpoints_that_are_rounded() {
         let is_exact = |text: &str| is_exact(&Value::from(text));
-        for text in ["0.25", "-1.0", "0", "3", "0.0009765625", "100.000"] {
+        for text in [
+            "0.25",
+            "-1.0",
+            "0",
+            "3",
+            "0.0009765625",
+            "100.000",
+            "-5.0e-01",
+            "1.25e2",
+            "3e+1",
+            "2.5E-1",
+        ] {
             assert!(is_exact(text), "{text}");
         }
-        for text in ["0.1", "-0.3333333333333333333333333333", "0.99", "9007199254740993"] {
+        for text in [
+            "0.1",
+            "-0.3333333333333333333333333333",
+            "0.99",
+            "9007199254740993",
+            "1.0e-1",
+            "3.3e0",
+        ] {
             assert!(!is_exact(text), "{text}");
         }
     }

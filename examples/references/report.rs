@@ -143,8 +143,16 @@ impl Report {
         report
     }
 
+    /// With what another comparison of the same file says.
+    pub fn and(mut self, other: Self) -> Self {
+        self.ok &= other.ok;
+        self.cost = other.cost;
+        self.remarks.extend(other.remarks);
+        self
+    }
+
     /// Not as it must be, and why.
-    fn fail(&mut self, remark: String) {
+    pub fn fail(&mut self, remark: String) {
         self.ok = false;
         self.remarks.push(remark);
     }
@@ -176,8 +184,10 @@ impl Report {
             let floor = floor(reference, i, on, noise);
             (largest, highest) = (largest.max(error), highest.max(floor));
             let (allowed, x) = (allowed(floor), point.x);
-            if error / allowed > worst {
-                worst = error / allowed;
+            // What is allowed may be infinite, an error that is infinite as well is none the less one.
+            let share = if error.is_finite() { error / allowed } else { f64::INFINITY };
+            if share > worst {
+                worst = share;
                 self.ok = false;
                 let why = got.as_ref().err().map_or(String::new(), |why| format!("; {why}"));
                 remark = Some(format!("P({x:?}): off {error:.1e}, allowed {allowed:.1e}{why}"));

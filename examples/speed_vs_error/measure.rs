@@ -1,5 +1,6 @@
 //! One contact, solved one way: what it costs, and how far off it is.
 
+use crate::common::NanSafe;
 use crate::methods::{self, Way};
 use crate::scenes::Scene;
 use linecontact::{Contact, ContactError, Cost, Solution};
@@ -21,7 +22,7 @@ pub struct Outcome {
 impl Outcome {
     /// The largest error of what is asked for: both limits and the pressure inside.
     pub fn error(&self) -> f64 {
-        self.limits.into_iter().fold(self.pressure[0], f64::max)
+        self.limits.into_iter().fold(self.pressure[0], NanSafe::nan_max)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{CurvePoint, ParametricProfile, ProfileError, interval};
 use crate::Real;
+use std::fmt;
 
 /// Steps in `k` at which the check looks at `X` and `X'`.
 const STEPS: usize = 32;
@@ -15,6 +16,13 @@ pub struct Piece<'a, T> {
     pub k: [T; 2],
     /// The curve there; `X` is finite and rises from one to the other.
     pub ends: [CurvePoint<T>; 2],
+}
+
+impl<T: fmt::Debug> fmt::Debug for Piece<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { k, ends, .. } = self;
+        f.debug_struct("Piece").field("k", k).field("ends", ends).finish_non_exhaustive()
+    }
 }
 
 impl<'a, T: Real> Piece<'a, T> {

@@ -48,6 +48,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// Moved by `along` in the direction of `X` and by `across` in that of `Y`.
+    #[must_use]
     pub fn shifted(mut self, along: T, across: T) -> Self {
         self = self.asked("a shift of a placement", along, true).asked(
             "a shift of a placement",
@@ -60,6 +61,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// Left and right exchanged: `X` becomes `-X`, without any rounding.
+    #[must_use]
     pub fn mirrored(mut self) -> Self {
         self.matrix[0] = self.matrix[0].map(|entry| -entry);
         self.shift[0] = -self.shift[0];
@@ -67,6 +69,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// Turned upside down: `Y` becomes `-Y`, without any rounding. Mirrored and flipped is half a turn.
+    #[must_use]
     pub fn flipped(mut self) -> Self {
         self.matrix[1] = self.matrix[1].map(|entry| -entry);
         self.shift[1] = -self.shift[1];
@@ -74,6 +77,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// Turned by an angle in radians, from the X axis towards the Y axis.
+    #[must_use]
     pub fn rotated(self, angle: T) -> Self {
         let (sin, cos) = angle.sin_cos();
         let turn = |[x, y]: [T; 2]| [cos * x - sin * y, sin * x + cos * y];
@@ -84,6 +88,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// All lengths multiplied by a factor; a negative one adds half a turn.
+    #[must_use]
     pub fn scaled(self, factor: T) -> Self {
         let times = |row: [T; 2]| row.map(|entry| entry * factor);
         let scaled = Self { matrix: self.matrix.map(times), shift: times(self.shift), ..self };

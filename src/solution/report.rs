@@ -89,11 +89,13 @@ impl Report {
     }
 
     /// The trials, the last of which has led to the solution.
+    #[must_use]
     pub fn trials(&self) -> &[Trial] {
         &self.trials[..self.count]
     }
 
     /// Whether the solution was checked, and is the contact as far as the checks can see.
+    #[must_use]
     pub fn is_checked(&self) -> bool {
         self.trials().last().is_some_and(|trial| trial.verdict == Verdict::Passed)
     }

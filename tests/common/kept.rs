@@ -13,6 +13,12 @@ pub fn counts_agree(kept: f64, found: f64) -> bool {
     (found - kept).abs() <= SLACK * kept
 }
 
+/// An estimate that shrinks is no better for it.
+#[allow(dead_code)]
+pub fn estimates_agree(kept: f64, found: f64) -> bool {
+    found <= ERROR_FACTOR * kept && kept <= ERROR_FACTOR * found
+}
+
 /// Only more is a fault.
 pub fn errors_agree(kept: f64, found: f64) -> bool {
     found <= (ERROR_FACTOR * kept).max(ERROR_FLOOR) || kept.is_nan() && found.is_nan()

@@ -252,6 +252,21 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
+/// Errors of which NaN is the largest: `max` would lose it.
+pub trait NanSafe: Real {
+    fn nan_max(self, other: Self) -> Self {
+        let is_nan = self.partial_cmp(&self).is_none();
+        if is_nan || self > other { self } else { other }
+    }
+}
+
+impl<T: Real> NanSafe for T {}
+
+/// The largest of all errors, 0 of none; NaN if one of them is.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, NanSafe::nan_max)
+}
+
 /// The exact pressure of the paper's Example 1.
 pub fn example_1_exact(x: f64) -> f64 {
     -(2.0 * x + (1.0 - x * x) * ((1.0 + x) / (1.0 - x)).ln()) / (PI * PI * (1.0 - x * x).sqrt())

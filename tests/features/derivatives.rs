@@ -53,7 +53,7 @@ impl ParametricProfile<Dual64> for Bent<'_> {
     }
 }
 
-fn bent<'f>(form: &'f dyn ClosedForm<Dual64>, reach: Dual64) -> Piecewise<Dual64, Bent<'f>> {
+fn bent(form: &dyn ClosedForm<Dual64>, reach: Dual64) -> Piecewise<Dual64, Bent<'_>> {
     let mut ends = vec![-reach];
     ends.extend(form.breakpoints().into_iter().filter(|x| x.re.abs() < reach.re));
     ends.push(reach);

@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common;
+use crate::common::NanSafe;
 
 use approx::assert_relative_eq;
 use common::{Counting, graph, paper, power, reference, scenes};
@@ -86,10 +87,10 @@ fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
             // At x = 0, a breakpoint, see below.
             for &[x, exact] in known.points.iter().filter(|[x, _]| *x != 0.0) {
                 let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
-                worst = worst.max((got - exact).abs() / largest);
+                worst = worst.nan_max((got - exact).abs() / largest);
             }
             let (got, want) = (solution.hull(), known.limits);
-            let limits = (got.left - want.left).abs().max((got.right - want.right).abs());
+            let limits = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
             let limits = limits / want.half_width();
             println!(
                 "{:26} tolerance {tolerance:.0e}: limits {limits:.1e} P {worst:.1e}, {:?}",

@@ -6,10 +6,10 @@
 use crate::common;
 
 mod answers;
+mod closed_forms;
 mod liars;
 mod panics;
 mod profiles;
-mod references;
 mod scene;
 mod searches;
 
@@ -123,7 +123,7 @@ impl Table {
             Ok(_) if took > most => self.wrong.push(format!("{row}: {took} evaluations")),
             // What an error says is said in a line or three.
             Ok(Err(wrong)) if message(&wrong).len() > 500 => {
-                self.wrong.push(format!("{row}: {}", message(&wrong)))
+                self.wrong.push(format!("{row}: {}", message(&wrong)));
             }
             Ok(_) => {}
         }

@@ -2,6 +2,7 @@
 //! random scenes, always the same ones.
 #![allow(missing_docs)]
 
+use crate::common::NanSafe;
 use crate::integrals;
 mod scene;
 
@@ -76,7 +77,7 @@ impl Answer {
         let half_width = 0.5 * (self.right - self.left);
         let rounding = 4.0 * EPSILON * (self.left.abs().max(self.right.abs()) + half_width);
         let allowed = 2.0 * (self.error + other.error) + rounding;
-        let off = (self.left - other.left).abs().max((self.right - other.right).abs());
+        let off = (self.left - other.left).abs().nan_max((self.right - other.right).abs());
         if off.is_nan() || off > allowed {
             return Err(format!(
                 "limits off by {:e} L, allowed {:e} L",
@@ -122,7 +123,7 @@ fn rounded(scene: &Scene, common: f64) -> Answer {
     let size = common + scene.size(wanted.left).max(scene.size(wanted.right));
     let tilt = 1e-6 * (scene.slope(wanted.right) - scene.slope(wanted.left));
     let tilted = changed(scene, wanted.load, scene.tilted(tilt).bodies());
-    let off = (tilted.left - wanted.left).abs().max((tilted.right - wanted.right).abs());
+    let off = (tilted.left - wanted.left).abs().nan_max((tilted.right - wanted.right).abs());
     Answer { error: wanted.error + 2.0 * EPSILON * size * off / tilt, ..wanted }
 }
 

@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{Oracle, height, solve};
+use crate::common::NanSafe;
 use crate::common::{graph, join, paper, parabola, several};
 
 use linecontact::reference::{
@@ -25,8 +26,8 @@ fn errors(form: &dyn ClosedForm<f64>, oracle: &Oracle) -> [f64; 3] {
             [(got.left, want.left, error[0]), (got.right, want.right, error[1])]
         {
             let off = (got - want).abs();
-            admitted = admitted.max(off / error.max(1e-12 * width));
-            wide = wide.max(off / width);
+            admitted = admitted.nan_max(off / error.max(1e-12 * width));
+            wide = wide.nan_max(off / width);
         }
         for i in 1..60 {
             let x = want.at_angle(PI * f64::from(i) / 60.3);
@@ -38,7 +39,7 @@ fn errors(form: &dyn ClosedForm<f64>, oracle: &Oracle) -> [f64; 3] {
                 continue;
             }
             peak = peak.max(exact);
-            pressure = pressure.max((oracle.at(x) - exact).abs());
+            pressure = pressure.nan_max((oracle.at(x) - exact).abs());
         }
     }
     [admitted, wide, pressure / peak]

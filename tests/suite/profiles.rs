@@ -154,8 +154,12 @@ fn breakpoints_are_checked() {
         PiecewiseError::Overlap { breakpoint: 1, left: 1.0, right: 0.75 }
     );
     assert_eq!(
-        join(vec![first(), line(0.0, 1.0, 0.0, 1e-9)]),
-        PiecewiseError::Jump { breakpoint: 0, x: 0.0, left: 0.0, right: 1e-9 }
+        join(vec![first(), line(0.0, 1.0, 0.0, 1e-13)]),
+        PiecewiseError::Jump { breakpoint: 0, x: 0.0, left: 0.0, right: 1e-13 }
+    );
+    assert_eq!(
+        join(vec![first(), line(0.0, 1.0, 1e-13, 0.0)]),
+        PiecewiseError::Gap { breakpoint: 0, left: 0.0, right: 1e-13 }
     );
     // The wrong order is an overlap.
     assert!(matches!(

@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common;
+use crate::common::NanSafe;
 use crate::forms;
 
 use common::{graph, scenes};
@@ -145,11 +146,11 @@ fn rates_are_those_of_solves() {
         let rates = solution.load_rates().unwrap();
         let a = difference(|load| solve(load).a(), load);
         let b = difference(|load| solve(load).b(), load);
-        let mut worst = (rates.a - a).abs().max((rates.b - b).abs()) / a.abs();
+        let mut worst = (rates.a - a).abs().nan_max((rates.b - b).abs()) / a.abs();
         for share in [0.2, 0.5, 0.83] {
             let x = -solution.b() + share * (solution.a() + solution.b());
             let p = difference(|load| solve(load).pressure().unwrap().at(x).unwrap(), load);
-            worst = worst.max((rates.pressure(x).unwrap() / p - 1.0).abs());
+            worst = worst.nan_max((rates.pressure(x).unwrap() / p - 1.0).abs());
         }
         println!("{name:24} rates {:.3e} {:.3e}: error {worst:.1e}", rates.a, rates.b);
         assert!(worst < 1e-9, "{name}: {worst}");
@@ -195,12 +196,12 @@ fn the_gap_of_hertz() {
         let beyond = 0.3 * 10f64.powf(-6.0 + 0.115 * f64::from(i));
         for x in [0.3 + beyond, -0.3 - beyond] {
             let g = (solution.gap_at(x).unwrap() - form.gap(x)).abs() / x.powi(2);
-            gap = gap.max(g);
+            gap = gap.nan_max(g);
             let want = (x * x - 0.09).sqrt().copysign(x) / 2.0;
             // What rounding leaves open of the limits is magnified next to an edge.
             let magnified = (beyond / 0.3).sqrt().min(1.0);
             let error = (solution.gap_slope(x).unwrap() - want).abs();
-            slope = slope.max(magnified * error / x.abs());
+            slope = slope.nan_max(magnified * error / x.abs());
         }
     }
     println!("gap {gap:.1e}, slope {slope:.1e}");
@@ -280,7 +281,7 @@ fn the_equation_is_met() {
         let mut worst = 0.0f64;
         for i in 0..12 {
             let x = on.at_angle(PI * (f64::from(i) + 0.37) / 12.0);
-            worst = worst.max((solution.residual(x).unwrap() / size).abs());
+            worst = worst.nan_max((solution.residual(x).unwrap() / size).abs());
         }
         println!("{:32} residual {worst:.1e} of the mean pressure", scene.name);
         // Where x itself is rounded.

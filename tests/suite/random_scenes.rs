@@ -5,6 +5,7 @@
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{Oracle, solve};
+use crate::common::NanSafe;
 use crate::common::{Profile, intervals};
 
 use linecontact::{
@@ -437,7 +438,7 @@ fn the_load_where_it_acts() {
         let narrowest = due.iter().map(Interval::half_width).fold(f64::INFINITY, f64::min);
         let error = |solution: &Solution<f64>| solution.limits_error().unwrap_or(0.0);
         for (on, due) in on.iter().zip(&due) {
-            let off = (on.left - due.left).abs().max((on.right - due.right).abs());
+            let off = (on.left - due.left).abs().nan_max((on.right - due.right).abs());
             let allowed = 1e-7 + 100.0 * (error(&solution) + error(&known));
             let off = off / narrowest;
             assert!(off <= allowed, "{number} {:?}: off {off:e} of {allowed:e}", scene.kind);

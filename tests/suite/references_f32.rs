@@ -2,8 +2,8 @@
 //!
 //! What the formulas leave uncertain is measured by evaluating each in `f32` and in `f64` at the
 //! same `k`: the difference of the slopes, and that of `X` times the bend. A file passes if its
-//! errors, as shares of the half-width and of the largest pressure, are at most 1e-5 or, where
-//! that is more, 20 times that noise as a share of the slope, and of what rounding makes of each
+//! errors, as shares of the half-width and of the largest pressure, are at most 1.5e-6 or, where
+//! that is more, 5 times that noise as a share of the slope, and of what rounding makes of each
 //! pressure (`points_amplification`).
 #![allow(missing_docs)]
 
@@ -17,14 +17,20 @@ mod noise;
 #[path = "../../examples/references/reference.rs"]
 mod reference;
 
+use crate::common::NanSafe;
 use bodies::Body;
 use linecontact::profile::Piece;
 use linecontact::{Contact, ContactError, Control, Cost, Interval, ParametricProfile};
 use reference::{Kind, Reference};
 use serde_json::Value;
 
-const WANTED: f64 = 1e-5;
-const MARGIN: f64 = 20.0;
+const WANTED: f64 = 1.5e-6;
+const MARGIN: f64 = 5.0;
+/// The share of that to which limits are held.
+const OF_LIMITS: f64 = 0.3;
+
+/// Rounded over eight units of x in the last place: `f32` does not tell its pressure.
+const BEYOND: [&str; 1] = ["rounded_punch_1e-6"];
 
 /// The smooth pieces of a body.
 fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
@@ -65,7 +71,7 @@ fn noise(single: &Body<f32>, double: &Body<f64>, on: Interval<f64>) -> f64 {
             let of_slope = (f64::from(slope_32) - slope(k)).abs();
             let rise = slope(k + step) - slope(k - step);
             let bend = rise / (double.curve.x(k + step) - double.curve.x(k - step));
-            worst = worst.max(of_slope + bend.abs() * of_x);
+            worst = worst.nan_max(of_slope + bend.abs() * of_x);
         }
     }
     worst
@@ -82,6 +88,8 @@ fn steepest(bodies: &[Body<f64>; 2], on: Interval<f64>) -> f64 {
         })
     };
     let places = (1..20).map(|i| on.left + 0.1 * f64::from(i) * on.half_width());
+    // Where all of these are on a flat, only the edges have a slope.
+    let places = places.chain([on.left, on.right]);
     places.fold(0.0, |most, x| most.max((slope(&bodies[1], x) - slope(&bodies[0], x)).abs()))
 }
 
@@ -114,7 +122,7 @@ fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, S
     let double = bodies::bodies::<f64>(file).map_err(|error| format!("bodies: {error}"))?;
     let [lower, upper] = [0, 1].map(|i| noise(&single[i], &double[i], on));
     let floor = (lower + upper) / steepest(&double, on) + rounding;
-    if floor.is_nan() || MARGIN * floor > 0.3 {
+    if floor.is_nan() || 20.0 * floor > 0.3 {
         return Err(format!("skipped: the formulas are off by {floor:.0e} of the slope"));
     }
     let allowed = |floor: f64| WANTED.max(MARGIN * floor);
@@ -125,7 +133,8 @@ fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, S
         contact.solve(Control::Load(want.c as f32 / std::f32::consts::PI)).map_err(said)?;
     let estimate = solution.limits_error().ok_or("limits were sought")?;
     let edge = |got: f32, exact: f64| (f64::from(got) - exact).abs() / on.half_width();
-    let of_limits = edge(solution.a(), on.right).max(edge(-solution.b(), on.left)) / allowed(floor);
+    let of_limits =
+        edge(solution.a(), on.right).nan_max(edge(-solution.b(), on.left)) / allowed(floor);
     let pressure = solution.pressure().map_err(|error| error.to_string())?;
     let largest = want.points.iter().fold(0.0f64, |most, point| most.max(point.pressure.abs()));
     let mut of_pressure = 0.0f64;
@@ -141,7 +150,7 @@ fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, S
                 let (x, value) = (point.x, got.value);
                 println!("    P({x}), z = {z:.1e}: {value:?} is off by {error:.1e} of the largest");
             }
-            of_pressure = of_pressure.max(error / allowed(floor + rounded));
+            of_pressure = of_pressure.nan_max(error / allowed(floor + rounded));
         }
     }
     Ok(Errors { of_limits, of_pressure, floor, estimate: estimate.into() })
@@ -175,7 +184,7 @@ fn check(wanted: impl Fn(&str) -> bool) -> usize {
         let (Kind::Contact, Some(on)) = (want.kind, want.limits) else { continue };
         match errors(&file, &want, on) {
             Ok(Errors { of_limits, of_pressure, floor, estimate }) => {
-                let ok = of_limits <= 1.0 && of_pressure <= 1.0;
+                let ok = of_limits <= OF_LIMITS && of_pressure <= 1.0;
                 println!(
                     "{name:30} {of_limits:7.4} {of_pressure:7.4} {floor:8.1e} {estimate:8.1e} {ok}"
                 );
@@ -198,8 +207,8 @@ fn check(wanted: impl Fn(&str) -> bool) -> usize {
 
 #[test]
 fn contacts_in_single_precision() {
-    let solved = check(|name| !FAILING.contains(&name));
-    assert!(solved >= 19, "{solved}");
+    let solved = check(|name| !FAILING.contains(&name) && !BEYOND.contains(&name));
+    assert!(solved >= 23, "{solved}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! pressures, and differences of solves.
 #![allow(missing_docs)]
 
+use crate::common::NanSafe;
 use crate::common::{Profile, graph, several};
 use crate::forms::KAPPA;
 
@@ -130,12 +131,12 @@ fn what_each_contact_bears() {
             let on = solution.intervals()[i];
             assert_eq!(region.interval, on);
             assert_eq!(region.half_width(), on.half_width());
-            worst[0] = worst[0].max((region.load / load - 1.0).abs());
+            worst[0] = worst[0].nan_max((region.load / load - 1.0).abs());
             let own = sum(&solution, on, |_| 1.0);
             assert!((region.load / own - 1.0).abs() < 1e-13, "{name}");
             let centre = sum(&solution, on, |x| x - on.centre()) / own;
             let got = region.centre_of_pressure().unwrap() - on.centre();
-            worst[1] = worst[1].max((got - centre).abs() / on.half_width());
+            worst[1] = worst[1].nan_max((got - centre).abs() / on.half_width());
             let mean = region.load / (on.right - on.left);
             assert!((region.mean_pressure() / mean - 1.0).abs() < 1e-14);
             (total, moment) = (total + region.load, moment + region.moment());
@@ -291,8 +292,8 @@ fn rates_of_all_limits() {
                 difference(|load| scene.solve(load).intervals()[i].right, load),
             ];
             let size = contacts[i].half_width() / load;
-            worst[0] = worst[0].max((left - want[0]).abs() / size);
-            worst[0] = worst[0].max((right - want[1]).abs() / size);
+            worst[0] = worst[0].nan_max((left - want[0]).abs() / size);
+            worst[0] = worst[0].nan_max((right - want[1]).abs() / size);
             let corner = i == 0 && scene.edges[0] != Edge::Free;
             assert!(*left < 0.0 || corner && *left == 0.0, "{name}");
             assert!(*right > 0.0, "{name}");
@@ -303,7 +304,7 @@ fn rates_of_all_limits() {
                 let x = on.left + share * (on.right - on.left);
                 let want =
                     difference(|load| scene.solve(load).pressure().unwrap().at(x).unwrap(), load);
-                worst[1] = worst[1].max((rates.pressure(x).unwrap() / want - 1.0).abs());
+                worst[1] = worst[1].nan_max((rates.pressure(x).unwrap() / want - 1.0).abs());
             }
             let terms = (0..200).map(|i| {
                 let x = on.at_angle(PI * (f64::from(i) + 0.5) / 200.0);
@@ -392,10 +393,10 @@ fn the_gap_between_contacts_and_beside_them() {
                 let x = from + (to - from) * f64::from(i) / 16.0;
                 let [v, rise] = chebyshev(&form, x);
                 let gap = form.form().gap(v) / n;
-                worst[0] = worst[0].max((solution.gap_at(x).unwrap() - gap).abs() / heights);
+                worst[0] = worst[0].nan_max((solution.gap_at(x).unwrap() - gap).abs() / heights);
                 let slope = (v * v - 0.09).sqrt().copysign(v) / 0.7 * rise / n;
                 let size = form.slope(x).abs().max(0.3 / 0.7);
-                worst[1] = worst[1].max((solution.gap_slope(x).unwrap() - slope).abs() / size);
+                worst[1] = worst[1].nan_max((solution.gap_slope(x).unwrap() - slope).abs() / size);
             }
         }
         println!("{count}, {share}: gap {:.1e}, slope {:.1e}", worst[0], worst[1]);
@@ -427,7 +428,7 @@ fn the_equation_is_met_in_each_contact() {
         for on in solution.intervals() {
             for i in 0..8 {
                 let x = on.at_angle(PI * (f64::from(i) + 0.37) / 8.0);
-                worst = worst.max(solution.residual(x).unwrap().abs() / mean);
+                worst = worst.nan_max(solution.residual(x).unwrap().abs() / mean);
             }
         }
         println!("{:24} residual {worst:.1e} of the mean pressure", scene.name);
@@ -472,7 +473,7 @@ fn the_stress_below_is_the_sum_of_all() {
                     (got.sigma_y, a[0] + mu * a[1]),
                     (got.tau_xy, a[1] + mu * a[2]),
                 ] {
-                    worst = worst.max((got + 2.0 / PI * want).abs() / top);
+                    worst = worst.nan_max((got + 2.0 / PI * want).abs() / top);
                 }
             }
         }
@@ -593,9 +594,10 @@ fn in_single_precision_estimates_are_honest() {
         let said = solution.limits_error().unwrap();
         let mut off = 0.0f32;
         for (got, want) in got.iter().zip(&want) {
-            let error =
-                (got.interval.left - want.left).abs().max((got.interval.right - want.right).abs());
-            off = off.max(error / want.half_width());
+            let error = (got.interval.left - want.left)
+                .abs()
+                .nan_max((got.interval.right - want.right).abs());
+            off = off.nan_max(error / want.half_width());
             let bears = got.load * (solution.intervals().len() as f32) / load - 1.0;
             assert!(bears.abs() < 1e-3f32.max(10.0 * said), "{i}: {bears:e}");
         }

@@ -1,6 +1,7 @@
 //! The shapes that are built in, and where they are put.
 #![allow(missing_docs, clippy::excessive_precision)] // Values are given to 20 digits.
 
+use crate::common::NanSafe;
 use approx::assert_relative_eq;
 use linecontact::profile::{Crowning, Ellipse, Involute, Line, Parabola, Placed, Placement};
 use linecontact::profile::{rounded_punch, wedge};
@@ -22,7 +23,7 @@ fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f
     let (got, l, pressure) = (solution.hull(), want.half_width(), solution.pressure().unwrap());
     let off = |x: f64| (pressure.at(x).unwrap() / form.pressure(x, 1.0) - 1.0).abs();
     let at = |i: i32| want.at_angle(PI * (f64::from(i) + 0.1) / 20.0);
-    let worst = (1..19).map(at).map(off).fold(0.0, f64::max);
+    let worst = (1..19).map(at).map(off).fold(0.0, NanSafe::nan_max);
     [(got.left - want.left).abs() / l, (got.right - want.right).abs() / l, worst]
 }
 

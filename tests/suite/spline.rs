@@ -1,6 +1,7 @@
 //! Profiles from measured points.
 #![allow(missing_docs)]
 
+use crate::common::NanSafe;
 use approx::assert_relative_eq;
 use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
@@ -94,7 +95,7 @@ fn two_derivatives_are_continuous_and_the_error_falls_like_the_third_power() {
             let x = from + (to - from) * f64::from(i) / 1000.0;
             (spline.at(x).dy - x.cos()).abs()
         };
-        (0..=1000).map(off).fold(0.0, f64::max)
+        (0..=1000).map(off).fold(0.0, NanSafe::nan_max)
     };
     let [coarse, fine] = [error(40), error(160)];
     assert!(coarse / fine > 40.0, "{coarse:e} {fine:e}"); // 4³ = 64

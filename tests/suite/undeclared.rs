@@ -3,6 +3,7 @@
 #![allow(missing_docs)]
 
 use crate::common;
+use crate::common::NanSafe;
 
 use approx::assert_relative_eq;
 use common::{graph, join, parabola, reference};
@@ -12,7 +13,7 @@ use std::f64::consts::PI;
 
 fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, most: usize) {
     let (got, cost) = (solution.hull(), solution.cost());
-    let error = (got.left - want.left).abs().max((got.right - want.right).abs());
+    let error = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
     let (error, estimate) = (error / want.half_width(), solution.limits_error().unwrap());
     println!("error {error:.1e}, said to be {estimate:.1e}, {cost:?}");
     assert!(error <= tolerance, "{got:?} is not {want:?}");
@@ -177,7 +178,7 @@ fn check_noise(powers: std::ops::Range<i32>) {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
         let (on, cost) = (solution.hull(), solution.cost());
-        let error = (on.left + l).abs().max((on.right - l).abs()) / l;
+        let error = (on.left + l).abs().nan_max((on.right - l).abs()) / l;
         let estimate = solution.limits_error().unwrap();
         assert!(error <= 10.0 * noise / l, "noise {noise:e}: {on:?}");
         assert!(estimate >= 0.1 * noise / l && estimate <= 100.0 * noise / l, "{estimate:e}");
@@ -322,7 +323,7 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
                 (solution.hull(), solution.limits_error().unwrap())
             };
             let ((got, error), (want, _)) = (solve(&whole), solve(&parts));
-            let off = (got.left - want.left).abs().max((got.right - want.right).abs());
+            let off = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
             let off = off / want.half_width();
             assert!(off <= error + 1e-14, "{steep} {at} {start}: off {off:e}, said {error:e}");
         }
@@ -352,7 +353,7 @@ fn a_shape_common_to_both_bodies() {
     let (plain, _) = solve(0.0);
     for common in [0.152, 1.0, 30.0] {
         let (got, error) = solve(common);
-        let off = (got.left - plain.left).abs().max((got.right - plain.right).abs());
+        let off = (got.left - plain.left).abs().nan_max((got.right - plain.right).abs());
         let off = off / plain.half_width();
         assert!(off <= error, "{common}: off {off:e}, said {error:e}");
     }

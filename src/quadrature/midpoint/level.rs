@@ -123,6 +123,11 @@ impl<T: Real> Level<T> {
             nalgebra::try_convert::<T, f64>(place - self.first).unwrap_or(f64::NAN).round();
         let delta = (place - self.first) - T::of(nearest);
         let index = Some(nearest).filter(|&i| i >= 0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is none or more"
+        )]
         let index = index.map(|i| i as usize).filter(|&i| i < self.h.len());
         let near = index.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
 

@@ -2,6 +2,7 @@
 #![allow(missing_docs, clippy::excessive_precision)]
 
 use crate::common;
+use crate::common::NanSafe;
 
 use common::{Profile, graph, join};
 use linecontact::search::Brent;
@@ -44,7 +45,7 @@ fn an_edge_just_beyond_a_jump_of_the_slope() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         for pressed in [Control::HalfWidth(half_width), Control::Load(load)] {
             let solution = contact.solve(pressed).unwrap();
-            let off = (solution.a() - a).abs().max((solution.b() - b).abs()) / half_width;
+            let off = (solution.a() - a).abs().nan_max((solution.b() - b).abs()) / half_width;
             let allowed = solution.limits_error().unwrap() + 1e-15;
             assert!(off <= allowed && allowed < 2e-13, "{pressed:?}: {off:e}, {allowed:e}");
             let off = (solution.load() / load - 1.0).abs();
@@ -297,7 +298,7 @@ fn limits_by_the_midpoint_rule_with_a_kink() {
         });
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
         let solution = contact.solve(Control::Load(l * m1)).unwrap();
-        let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
+        let off = (solution.a() - l).abs().nan_max((solution.b() - l).abs()) / l;
         let estimate = solution.limits_error().unwrap();
         assert!(off <= 3.0 * estimate && estimate < 1e-3, "{z}: {off:e}, {estimate:e}");
     }
@@ -397,7 +398,7 @@ fn limits_beside_a_jump_that_is_not_declared() {
             let contact = Contact::new(&Flat, &*body).unwrap();
             for contact in [contact.clone(), contact.edges(Edge::Fixed(-l), Edge::Free)] {
                 let solution = contact.solve(Control::Load(load)).unwrap();
-                let off = (solution.a() - l).abs().max((solution.b() - l).abs()) / l;
+                let off = (solution.a() - l).abs().nan_max((solution.b() - l).abs()) / l;
                 let estimate = solution.limits_error().unwrap();
                 assert!(off <= 3.0 * estimate + 1e-15, "{jump} {x0}: {off:e}, {estimate:e}");
             }
@@ -515,7 +516,8 @@ fn a_narrow_step_far_from_the_middle_of_the_bodies() {
                     let calls = calls.load(Ordering::Relaxed);
                     assert!(calls < 20_000, "{height} {width} {control:?}: {calls} evaluations");
                     let on = solution.hull();
-                    let off = (on.centre() - x0).abs().max((on.half_width() - half_width).abs());
+                    let off =
+                        (on.centre() - x0).abs().nan_max((on.half_width() - half_width).abs());
                     let allowed = 1e-10 + solution.limits_error().unwrap();
                     assert!(off <= allowed * half_width, "{height} {width} {control:?}: {on:?}");
                     let off = (solution.load() / load - 1.0).abs();

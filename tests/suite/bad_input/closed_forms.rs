@@ -64,7 +64,7 @@ fn parameters_and_places() {
                         Err(_) => wrong.push(format!("{row}: panics")),
                         Ok(Ok(())) if !value.is_finite() => wrong.push(format!("{row}: accepted")),
                         Ok(Err(ReferenceError::Parameter { must: "", .. })) => {
-                            wrong.push(format!("{row}: says nothing"))
+                            wrong.push(format!("{row}: says nothing"));
                         }
                         Ok(_) => {}
                     }
