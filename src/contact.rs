@@ -72,6 +72,11 @@ pub struct Contact<'b, T: Real> {
 /// What is prescribed of the contact: the load, or another number for which the load comes out
 /// ([`Solution::load`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
     Load(T),

@@ -138,6 +138,7 @@ impl<'b, T: Real> Surface<'b, T> {
 
 /// What sampling the gap has cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
     /// Values of the gap slope `g(x)`.
     pub samples: usize,

@@ -5,6 +5,7 @@ use crate::real::same;
 
 /// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval<T> {
     /// `-b`.
     pub left: T,

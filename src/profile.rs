@@ -35,6 +35,8 @@ mod piecewise;
 mod placed;
 mod rounded_punch;
 mod spline;
+#[cfg(feature = "serde")]
+mod stored;
 
 pub use convexity::Convexity;
 pub use crowning::Crowning;
@@ -59,6 +61,7 @@ use thiserror::Error;
 
 /// A point of a curve with the derivatives by the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CurvePoint<T> {
     /// `X(k)`, along the contact.
     pub x: T,

@@ -185,6 +185,7 @@ pub struct LoadCase<T> {
 
 /// A value and how far it can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate<T> {
     /// The value.
     pub value: T,

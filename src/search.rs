@@ -126,6 +126,11 @@ pub struct Root<T> {
 
 /// When a search stops. The default asks for all that the number type can give.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct StoppingCriteria {
     /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
     pub absolute: f64,

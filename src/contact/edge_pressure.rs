@@ -12,6 +12,11 @@ use crate::{ContactError, Interval, Real};
 /// between the two: a distance below a segment's width 2L/N gains nothing.
 /// [`Edge::Free`](crate::Edge::Free) has neither flaw, and costs a twentieth or less.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct EdgePressure<T> {
     /// A, the pressure wanted at `a - ε_a`; a pressure.
     pub at_a: T,

@@ -5,6 +5,11 @@ use crate::{Interval, Real};
 
 /// What becomes of one edge of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum Edge<T> {
     /// A smooth body: the limit is where the pressure ends at zero.
     Free,

@@ -8,6 +8,7 @@ use crate::Real;
 /// convex, and so they touch in one interval: the solver then takes no heights to look for others. A wrong
 /// word is found out by [`Solution::certify`](crate::Solution::certify).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Convexity {
     /// Nothing is known: the solver looks.
     #[default]

@@ -6,6 +6,7 @@ use crate::Real;
 /// A flat surface, `Y = 0`, as long as the number type allows. Costs nothing: its slope is
 /// known everywhere, so nothing is inverted or evaluated for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flat;
 
 impl<T: Real> ParametricProfile<T> for Flat {

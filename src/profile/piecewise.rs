@@ -29,13 +29,26 @@ use thiserror::Error;
 /// assert!(wedge.is_ok());
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Piecewise<T, P>",
+        bound(
+            deserialize = "T: Real + serde::Deserialize<'de>, P: ParametricProfile<T> + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
     tolerance: T,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     /// `k` and the curve at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     /// The smooth pieces: part, and piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     convexity: Convexity,
 }
 

@@ -7,6 +7,8 @@
 mod points;
 mod slopes;
 mod smooth;
+#[cfg(feature = "serde")]
+mod stored;
 
 pub use points::SplineError;
 
@@ -27,6 +29,11 @@ use crate::Real;
 /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct Fit<T> {
     /// Standard deviation of the heights, in their own unit: what the measuring machine adds to
     /// them. Of all curves that are off the points by this much (root of the mean square) the
@@ -71,12 +78,21 @@ impl<T: Real> Default for Fit<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "stored::Spline<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
 }
 
 /// The spline between two knots.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Cubic<T> {
     x: [T; 2],
     /// Of `Y` by the distance from the left knot, the constant first.

@@ -38,6 +38,11 @@ use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Midpoint {
     /// N, the segments of the coarsest level; each level has twice those of the one before.
     pub segments: usize,
@@ -50,6 +55,7 @@ pub struct Midpoint {
 
 /// The powers of the segment width in which the error expands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exponents {
     /// 2, 4, 6, ...: as the paper has it; right where `sqrt(1 - t²) g` is smooth at the edges.
     Even,

@@ -39,6 +39,7 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate<T> {
     /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
     /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
@@ -57,6 +58,7 @@ pub struct Certificate<T> {
 
 /// A place and a value there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremum<T> {
     /// Where.
     pub x: T,

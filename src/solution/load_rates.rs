@@ -23,6 +23,7 @@ use crate::{ContactError, Interval, Real, Solution};
 /// pressure from theirs. It grows everywhere and all contacts widen (Buyarov and Rakhmanov, *Sb. Math.* 190,
 /// 1999, 791). Where contacts are born or merge the limits have no derivative.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LoadRates<T> {
     /// da/dF, length² per force; zero at a fixed edge.
     pub a: T,
@@ -30,6 +31,7 @@ pub struct LoadRates<T> {
     pub b: T,
     /// The same of all limits: how fast the left and the right one of each contact move in x.
     pub limits: Vec<[T; 2]>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     punch: Touching<T>,
 }
 

@@ -10,6 +10,7 @@ const POINTS: usize = 64;
 
 /// A largest pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peak<T> {
     /// Where it is.
     pub x: T,

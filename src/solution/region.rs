@@ -6,6 +6,7 @@ use crate::{ContactError, Interval, Real};
 
 /// One of the intervals in which the bodies touch, and what acts there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRegion<T> {
     /// From its left limit to its right one.
     pub interval: Interval<T>,

@@ -53,6 +53,7 @@ use crate::{ContactError, Interval, Real, Solution};
 
 /// Stress in plane strain: a pressure; tension is positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stress<T> {
     /// σ_x, along the surface.
     pub sigma_x: T,
@@ -116,6 +117,7 @@ pub struct Subsurface<'p, T: Real> {
 
 /// A largest stress and its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StressPeak<T> {
     /// Abscissa.
     pub x: T,
