@@ -149,6 +149,13 @@ pub struct Cost {
     pub heights: usize,
 }
 
+impl std::fmt::Display for Cost {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { samples, evaluations, heights } = self;
+        write!(f, "{evaluations} evaluations, {samples} samples, {heights} heights")
+    }
+}
+
 impl std::ops::Add for Cost {
     type Output = Self;
     fn add(mut self, other: Self) -> Self {

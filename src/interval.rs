@@ -2,6 +2,7 @@
 
 use crate::Real;
 use crate::real::same;
+use std::fmt::{Display, Formatter, LowerExp, Result};
 
 /// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,5 +62,26 @@ impl<T: Real> Interval<T> {
         } else {
             self.left + width * half.cos().powi(2)
         }
+    }
+}
+
+/// `[left, right]`; a precision is that of both ends.
+impl<T: Display> Display for Interval<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str("[")?;
+        self.left.fmt(f)?;
+        f.write_str(", ")?;
+        self.right.fmt(f)?;
+        f.write_str("]")
+    }
+}
+
+impl<T: LowerExp> LowerExp for Interval<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str("[")?;
+        self.left.fmt(f)?;
+        f.write_str(", ")?;
+        self.right.fmt(f)?;
+        f.write_str("]")
     }
 }

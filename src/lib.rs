@@ -85,7 +85,7 @@ pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::stress;
 pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
-pub use solution::{ContactRegion, Report, Solution, Start, Trial, Verdict};
+pub use solution::{ContactRegion, Report, Solution, Start, Summary, Trial, Verdict};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;
