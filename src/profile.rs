@@ -60,6 +60,18 @@ use std::sync::Arc;
 use thiserror::Error;
 
 /// A point of a curve with the derivatives by the parameter.
+///
+/// ```
+/// use linecontact::{Curve, CurvePoint, ParametricProfile};
+///
+/// // A circle of radius 2 by its angle.
+/// let arc = Curve::new([-1.0, 1.0], |k: f64| {
+///     let (sin, cos) = k.sin_cos();
+///     CurvePoint { x: 2.0 * sin, y: 2.0 - 2.0 * cos, dx: 2.0 * cos, dy: 2.0 * sin }
+/// });
+/// let CurvePoint { dx, dy, .. } = arc.at(0.3);
+/// assert!((dy / dx - 0.3f64.tan()).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CurvePoint<T> {

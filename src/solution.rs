@@ -55,6 +55,19 @@ pub use summary::Summary;
 /// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
 /// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
 /// cheap.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// println!("{solution}"); // [-0.2, 0.2], and more
+/// assert!((solution.hull().half_width() / 0.2 - 1.0).abs() < 1e-14); // L² = 2 F R/κ
+/// let largest = solution.peak()?.pressure;
+/// assert!((largest / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2 F/(π L)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone)]
 pub struct Solution<'b, T: Real> {
     gap: Gap<'b, T>,

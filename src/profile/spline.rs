@@ -112,6 +112,18 @@ impl<T: Real> Spline<T> {
 
     /// The spline through the points, or near them.
     ///
+    /// ```
+    /// use linecontact::profile::{Fit, Spline};
+    /// use linecontact::{Contact, Control, Flat};
+    ///
+    /// let points = (-40..=40).map(|i| 0.025 * f64::from(i)).map(|x| [x, x * x / 2.0]);
+    /// let points: Vec<[f64; 2]> = points.collect();
+    /// let body = Spline::fitted(&points, Fit { noise: 1e-7, ..Fit::default() })?;
+    /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+    /// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-4); // of the parabola, sqrt(2 F R/κ)
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`SplineError`], with the row of the point at fault.
     pub fn fitted(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {

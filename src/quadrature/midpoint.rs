@@ -37,6 +37,18 @@ use std::any::Any;
 use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat, Midpoint};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?.quadrature(&Midpoint::DEFAULT);
+/// let solution = contact.solve(Control::Load(0.02))?;
+/// let exact = 0.04 / (0.2 * std::f64::consts::PI); // 2 F/(π L)
+/// assert!((solution.pressure()?.at(0.0)? / exact - 1.0).abs() < 1e-11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -38,6 +38,18 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
 /// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
+///
+/// ```
+/// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+///
+/// // Y = X⁴/4: P = κ/π (x² + L²/2) sqrt(L² - x²)
+/// let quartic =
+///     Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k.powi(4) / 4.0, dx: 1.0, dy: k.powi(3) });
+/// let solution = Contact::new(&Flat, &quartic)?.solve(Control::HalfWidth(0.5))?;
+/// let certificate = solution.certify()?;
+/// println!("{certificate}");
+/// # Ok::<(), linecontact::ContactError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate<T> {

@@ -7,6 +7,19 @@ use crate::Real;
 const MOST: usize = 12;
 
 /// The starts that a solve has tried, in their order, and what became of each.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat, Start, Trial, Verdict};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let report = solution.report();
+/// assert!(report.is_checked());
+/// // Bodies that bulge towards each other touch in one interval, and one start is enough.
+/// assert_eq!(report.trials(), [Trial { start: Start::Middle, verdict: Verdict::Passed }]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
