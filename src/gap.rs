@@ -164,7 +164,7 @@ pub struct Cost {
 impl std::fmt::Display for Cost {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { samples, evaluations, heights } = self;
-        write!(f, "{evaluations} evaluations, {samples} samples, {heights} heights")
+        write!(f, "{samples} samples by {evaluations} evaluations, and {heights} for heights")
     }
 }
 

@@ -42,12 +42,15 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// ```
 /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 ///
-/// // Y = X⁴/4: P = κ/π (x² + L²/2) sqrt(L² - x²)
-/// let quartic =
-///     Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k.powi(4) / 4.0, dx: 1.0, dy: k.powi(3) });
-/// let solution = Contact::new(&Flat, &quartic)?.solve(Control::HalfWidth(0.5))?;
-/// let certificate = solution.certify()?;
-/// println!("{certificate}");
+/// let hollow = Curve::new([-1.0, 1.0], |k: f64| {
+///     let k2 = k * k;
+///     CurvePoint { x: k, y: k2 * (k2 / 4.0 - 0.05), dx: 1.0, dy: k * (k2 - 0.1) }
+/// });
+/// let solution = Contact::new(&Flat, &hollow)?.solve(Control::HalfWidth(0.6))?;
+/// let pressure = solution.certify()?.pressure.unwrap();
+/// // 2 κ L²/(π F) (L²/2 - 0.1) at x = 0
+/// let exact = 0.72 * 0.08 / (std::f64::consts::PI * solution.load());
+/// assert!((pressure.value / exact - 1.0).abs() < 1e-6);
 /// # Ok::<(), linecontact::ContactError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

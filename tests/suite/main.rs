@@ -22,6 +22,7 @@ mod closed_forms;
 mod closed_forms_solved;
 mod controls;
 mod corners;
+mod display;
 mod doubts;
 mod edges;
 mod errors;
