@@ -20,6 +20,23 @@
 //!
 //! Each lies at the origin, touching it from above where it bulges. [`Placed`] moves, turns, mirrors,
 //! flips and scales one; [`Piecewise::placed`] does so with a joined one.
+//!
+//! With the feature `serde` these shapes can be kept in files, under the names of their parameters
+//! (`radius`, `along`, `across`, `slope`, `base_radius`, `origin`, `depth`, `half_length`, `domain`,
+//! `angles`). One that is read is made by its constructor, and refused as by that:
+//!
+//! ```
+//! # #[cfg(feature = "serde")] {
+//! use linecontact::profile::Parabola;
+//!
+//! let read = |text| serde_json::from_str::<Parabola<f64>>(text);
+//! let body = read(r#"{"radius": 2.0, "domain": [-1.0, 1.0]}"#)?;
+//! assert_eq!(body, Parabola::new(2.0, [-1.0, 1.0])?);
+//! let refused = read(r#"{"radius": 0.0, "domain": [-1.0, 1.0]}"#).unwrap_err();
+//! assert_eq!(refused.to_string(), "the radius is 0.0: it must be finite and not zero");
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod convexity;
 mod crowning;
