@@ -27,6 +27,7 @@ use crate::solution::{ContactState, Report, Solution, Start, Verdict, certify};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
 use equations::Equations;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use topology::Sought;
 pub(crate) use topology::Workspace;
@@ -60,6 +61,8 @@ pub(crate) use topology::Workspace;
 pub struct Contact<'b, T: Real> {
     gap: Gap<'b, T>,
     kappa: T,
+    /// Whether nobody has set κ.
+    kappa_is_default: bool,
     edges: [Edge<T>; 2],
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
@@ -90,6 +93,7 @@ pub struct Contact<'b, T: Real> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
+#[non_exhaustive]
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
     Load(T),
@@ -134,13 +138,13 @@ impl<T: Real> ContactState<T> {
         let kappa = conditions.kappa;
         let mean_pressure = load / interval.half_width();
         let tilt = conditions.tilt(interval, m);
-        let mean = m.mean + tilt;
+        let mean = m.m0 + tilt;
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = [strength(m.first - mean), strength(m.first + mean)];
+        let strengths = [strength(m.m1 - mean), strength(m.m1 + mean)];
         let free = conditions.edges.map(|edge| edge.is_free());
         let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
         let ends = [interval.left, interval.right];
-        let (force, trend) = (None, m.trend);
+        let (force, trend) = (None, m.derivatives);
         Self { interval, load, strengths, free, adhesive, error, force, trend, tilt, ends }
     }
 
@@ -210,6 +214,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(Self {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
+            kappa_is_default: true,
             edges: [Edge::Free; 2],
             edge_pressure: None,
             start: None,
@@ -223,7 +228,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the paper's
     /// Eq. (3).
     pub fn kappa(self, kappa: T) -> Self {
-        Self { kappa, ..self }
+        Self { kappa, kappa_is_default: false, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
@@ -232,7 +237,7 @@ impl<'b, T: Real> Contact<'b, T> {
         self.kappa(T::frac_pi_2() * modulus)
     }
 
-    /// What becomes of the two edges, at `-b` and at `a`. Default: both are [`Edge::Free`].
+    /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
         Self { edges: [left, right], edge_pressure: None, ..self }
     }
@@ -267,9 +272,28 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { quadrature, ..self }
     }
 
-    /// Whether a solution must be a contact in all of the bodies: then solving ends with
-    /// [`Solution::certify`], and its errors. Default: no, since that samples all of the bodies, which
-    /// takes far longer than the contact itself.
+    /// A function that watches a solve, and may end it: it is told the cost so far and the span of `x` last
+    /// sampled, each time that the bodies are sampled and before each new set of contacts is tried. Where it
+    /// answers `ControlFlow::Break` the solve ends with [`ContactError::Cancelled`].
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, ContactError, Control, Flat};
+    /// use std::ops::ControlFlow;
+    ///
+    /// let parabola = Parabola::new(1.0, [-1.0, 1.0])?;
+    /// let stop = |_, _| ControlFlow::Break(());
+    /// let contact = Contact::new(&Flat, &parabola)?.watch(&stop);
+    /// let error = contact.solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
+    /// assert!(matches!(error, ContactError::Cancelled { .. }));
+    /// # Ok::<(), ContactError<f64>>(())
+    /// ```
+    pub fn watch(self, watch: &'b (dyn Fn(Cost, Interval<T>) -> ControlFlow<()> + Sync)) -> Self {
+        Self { gap: self.gap.with_watch(watch), ..self }
+    }
+
+    /// If true, `solve` also runs [`Solution::certify`], and fails with its errors. Default: false, since the
+    /// certificate samples all of the bodies, which takes far longer than the contact itself.
     pub fn certified(self, certified: bool) -> Self {
         Self { certified, ..self }
     }
@@ -326,6 +350,16 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Finds the limits with an integrator that has been reset, from the contacts in the workspace.
     pub(crate) fn find(
+        &self,
+        integrator: &mut dyn Integrator<T>,
+        workspace: &mut Workspace<T>,
+        control: Control<T>,
+    ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
+        let found = self.find_by(integrator, workspace, control);
+        found.map_err(|error| error.with_stiffness(self.kappa_is_default))
+    }
+
+    fn find_by(
         &self,
         integrator: &mut dyn Integrator<T>,
         workspace: &mut Workspace<T>,

@@ -1,7 +1,8 @@
 //! What can go wrong with a scene, and how to mend it.
 
+use crate::profile::SplineError;
 use crate::search::SearchError;
-use crate::{Edge, Interval, ProfileError, Real};
+use crate::{Edge, Interval, PiecewiseError, ProfileError, Real};
 use std::fmt;
 use thiserror::Error;
 
@@ -23,9 +24,31 @@ impl fmt::Display for Body {
     }
 }
 
-/// Why a contact could not be solved. Every variant says where, and with what values.
+/// Why a contact could not be solved, or a question to its solution not be answered. Every variant says where,
+/// and with what values; [`kind`](Self::kind) says which of the two it is, or whether the input is at fault.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum ContactError<T: Real> {
+    /// A body could not be made.
+    #[error(transparent)]
+    Shape(#[from] ProfileError<T>),
+    /// A body could not be joined from its pieces.
+    #[error(transparent)]
+    Pieces(#[from] PiecewiseError<T>),
+    /// A body could not be made of its points.
+    #[error(transparent)]
+    Points(#[from] SplineError<T>),
+    /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
+    #[error(
+        "cancelled after {evaluations} evaluations of the curves, the last from x = {:?} to {:?}",
+        last.left, last.right
+    )]
+    Cancelled {
+        /// Evaluations of the curves by then.
+        evaluations: usize,
+        /// The span of `x` sampled last.
+        last: Interval<T>,
+    },
     /// A profile is at fault.
     #[error("{body} body: {source}")]
     Profile {
@@ -102,8 +125,8 @@ pub enum ContactError<T: Real> {
     /// they do not open on both sides of a point of first contact.
     #[error(
         "no point of first contact: the slope f₂' - f₁' is {:?} at x = {:?} and {:?} at x = {:?}, but a \
-         gap falls on its left and rises on its right; swap the bodies, or widen their domains",
-        slope[0], x[0], slope[1], x[1]
+         gap falls on its left and rises on its right; {}",
+        slope[0], x[0], slope[1], x[1], how_to_touch(*slope)
     )]
     NoFirstContact {
         /// Two abscissae.
@@ -115,7 +138,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "the contact would leave the bodies at x = {end:?}: up to there they carry {carried:?} of the \
          load {load:?}, with half-width {half_width:?} and peak pressure {peak:?}; extend the domain \
-         or lower the load"
+         or lower the load{}", hint(*kappa_is_default)
     )]
     DomainTooShort {
         /// The end that the contact reaches first.
@@ -129,12 +152,14 @@ pub enum ContactError<T: Real> {
         half_width: T,
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
+        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        kappa_is_default: bool,
     },
     /// A contact of this half-width reaches beyond a body.
     #[error(
         "a contact of half-width {wanted:?} would leave the bodies at x = {end:?}: there is room for \
          {half_width:?}, which carries {load:?} with peak pressure {peak:?}; extend the domain or lower \
-         the half-width"
+         the half-width{}", hint(*kappa_is_default)
     )]
     HalfWidthTooLarge {
         /// The half-width asked for.
@@ -147,18 +172,23 @@ pub enum ContactError<T: Real> {
         load: T,
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
+        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        kappa_is_default: bool,
     },
     /// The contacts reach the end of the bodies, where nothing is said of a corner, and no load is known under
     /// which one of them just comes there: as where the gap falls towards the end, which touches all at once.
     #[error(
         "under the load {load:?} the contact reaches the end of the bodies at x = {end:?}: extend the \
-         domain, lower the load, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there"
+         domain, lower the load, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there{}",
+        hint(*kappa_is_default)
     )]
     EndReached {
         /// The end that it reaches.
         end: T,
         /// The load asked for.
         load: T,
+        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        kappa_is_default: bool,
     },
     /// No position of a contact of some width balances the pressures at its two edges.
     #[error(
@@ -371,7 +401,8 @@ pub enum ContactError<T: Real> {
     },
     /// A moment, or the place where the load acts, was asked for where the bodies cannot be turned.
     #[error(
-        "a moment, or the place where the load acts, can be given with the default quadrature Panels and          search, between edges that are Free, Fixed or FreeUntil: {why}"
+        "a moment, or the place where the load acts, can be given with the default quadrature Panels and \
+         search, between edges that are Free, Fixed or FreeUntil: {why}"
     )]
     TiltNotSupported {
         /// What stands in the way.
@@ -379,7 +410,9 @@ pub enum ContactError<T: Real> {
     },
     /// No tilt is found under which the load acts at the place asked for: the contact would leave the bodies.
     #[error(
-        "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt          {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load          inward, lower it, or extend the domain", ends[0], ends[1]
+        "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt \
+         {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load \
+         inward, lower it, or extend the domain", ends[0], ends[1]
     )]
     TiltNotFound {
         /// Load per unit length asked for.
@@ -417,7 +450,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "the peak pressure {wanted:?} takes a wider contact than there is room for: with half-width \
          {half_width:?}, up to x = {end:?}, it is {found:?} under the load {load:?}; extend the domains \
-         or lower the peak"
+         or lower the peak{}", hint(*kappa_is_default)
     )]
     PeakTooHigh {
         /// The peak pressure asked for.
@@ -430,6 +463,8 @@ pub enum ContactError<T: Real> {
         end: T,
         /// The load that it carries.
         load: T,
+        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        kappa_is_default: bool,
     },
     /// The pressure has no largest value to be set.
     #[error(
@@ -526,7 +561,84 @@ pub enum ContactError<T: Real> {
     },
 }
 
+/// What may be missing where a contact turns out too wide.
+fn hint(kappa_is_default: bool) -> &'static str {
+    if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
+}
+
+/// What to do about slopes on the left and on the right that are not those of a gap that closes.
+fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
+    let zero = T::zero();
+    if left.is_zero() && right.is_zero() {
+        "these bodies are parallel: they touch everywhere at once, or nowhere"
+    } else if left >= zero && right <= zero {
+        "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
+         a convex body a smaller radius than the hollow that it lies in"
+    } else {
+        "this gap leads down to an end of the bodies: widen their domains, or tilt one of them"
+    }
+}
+
+/// What a [`ContactError`] is about: what was given, the solve, or a question to its solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A body, an edge, a load or a setting is not what it must be. The same call fails again.
+    Input,
+    /// No contact was found, or what was found is none. Another load, domain or start may help.
+    Solve,
+    /// The contact is known, but not what was asked of it there.
+    Evaluation,
+}
+
 impl<T: Real> ContactError<T> {
+    /// What this error is about.
+    #[must_use]
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Shape(_)
+            | Self::Pieces(_)
+            | Self::Points(_)
+            | Self::Profile { .. }
+            | Self::NoCommonRange { .. }
+            | Self::InvalidLoad { .. }
+            | Self::InvalidKappa { .. }
+            | Self::InvalidLimits { .. }
+            | Self::InvalidEdgePressure { .. }
+            | Self::InvalidSegments { .. }
+            | Self::InvalidTolerance { .. }
+            | Self::InvalidAdhesion { .. }
+            | Self::InvalidMoment { .. }
+            | Self::InvalidPoissonRatio { .. }
+            | Self::InvalidFriction { .. }
+            | Self::InconsistentHeights { .. }
+            | Self::BothLimitsGiven { .. }
+            | Self::TiltNotSupported { .. }
+            | Self::PeakEdge { .. }
+            | Self::EdgePressureLoad => ErrorKind::Input,
+            Self::Singular { .. }
+            | Self::AboveSurface { .. }
+            | Self::InvalidPosition { .. }
+            | Self::NoLoadDerivative { .. }
+            | Self::LengthMismatch { .. }
+            | Self::Integral { .. }
+            | Self::Unresolved { .. } => ErrorKind::Evaluation,
+            _ => ErrorKind::Solve,
+        }
+    }
+
+    /// The same error, with what is known of the stiffness.
+    pub(crate) fn with_stiffness(mut self, is_default: bool) -> Self {
+        if let Self::DomainTooShort { kappa_is_default, .. }
+        | Self::HalfWidthTooLarge { kappa_is_default, .. }
+        | Self::EndReached { kappa_is_default, .. }
+        | Self::PeakTooHigh { kappa_is_default, .. } = &mut self
+        {
+            *kappa_is_default = is_default;
+        }
+        self
+    }
+
     /// Whether a search for one contact may fail like this because the bodies touch in several places.
     pub(crate) fn may_be_several(&self) -> bool {
         matches!(

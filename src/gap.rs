@@ -22,8 +22,12 @@ use crate::profile::{Convexity, Piece};
 use crate::real::same;
 use crate::search::LimitSearch;
 use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What a user watches a solve with: see [`Contact::watch`](crate::Contact::watch).
+pub(crate) type Watch<'b, T> = &'b (dyn Fn(Cost, crate::Interval<T>) -> ControlFlow<()> + Sync);
 
 /// Evaluations of smooth bodies after which a search is given up: thousands of times what one takes.
 const MOST_EVALUATIONS: usize = 1 << 20;
@@ -44,6 +48,7 @@ pub struct Gap<'b, T: Real> {
     convex: bool,
     /// By how much body 2 is turned counter-clockwise: what is added to the slope, and times x to the height.
     tilt: T,
+    watch: Option<Watch<'b, T>>,
 }
 
 /// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
@@ -207,11 +212,30 @@ impl<'b, T: Real> Gap<'b, T> {
             return Err(ContactError::NoCommonRange { lower, upper });
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
-        Ok(Self { bodies, inversion, range, number, convex, tilt: T::zero() })
+        Ok(Self { bodies, inversion, range, number, convex, tilt: T::zero(), watch: None })
     }
 
     pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
         Self { inversion, ..self }
+    }
+
+    pub(crate) fn with_watch(self, watch: Watch<'b, T>) -> Self {
+        Self { watch: Some(watch), ..self }
+    }
+
+    /// Tells who watches how far the solve is, and whether it may go on.
+    #[inline]
+    pub(crate) fn check_watch(
+        &self,
+        cost: Cost,
+        last: crate::Interval<T>,
+    ) -> Result<(), ContactError<T>> {
+        match self.watch {
+            Some(watch) if watch(cost, last).is_break() => {
+                Err(ContactError::Cancelled { evaluations: cost.evaluations + cost.heights, last })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The same bodies, so turned: the samples of one are those of the other.
@@ -366,6 +390,7 @@ impl<'b, T: Real> Gap<'b, T> {
         more: usize,
         last: crate::Interval<T>,
     ) -> Result<(), ContactError<T>> {
+        self.check_watch(cost, last)?;
         let evaluations = cost.evaluations.max(cost.samples);
         if evaluations <= MOST_EVALUATIONS {
             return Ok(());

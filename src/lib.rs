@@ -2,7 +2,7 @@
 //!
 //! Two bodies are pressed together with a load per unit length. This crate finds where they
 //! touch, the interval `[-b, a]` of `x` or several, and the pressure `P(x)` between them, for elastic
-//! half-planes without friction. Neither curve's parameter can or need be eliminated.
+//! half-planes without friction. Curves stay parametric: no y = f(x) is needed.
 //!
 //! ```text
 //! PV∫ P(s)/(x - s) ds = κ (f₂'(x) - f₁'(x)),   -b < x < a,      ∫ P ds = F
@@ -79,7 +79,7 @@ mod solver;
 mod sweep;
 
 pub use contact::{Contact, Control, Edge, EdgePressure};
-pub use error::{Body, ContactError};
+pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
@@ -88,7 +88,9 @@ pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::stress;
 pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
-pub use solution::{ContactRegion, Report, Solution, Start, Summary, Trial, Verdict};
+pub use solution::{
+    ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,
+};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;

@@ -18,7 +18,7 @@
 //! | [`rounded_punch`] | a flat between two half parabolas | joined |
 //! | [`Spline`] | through measured points, or near them | `X`, joined |
 //!
-//! Each lies at the origin, touching it from above where it bulges. [`Placed`] moves, turns, mirrors,
+//! Each vertex is at the origin; convex shapes open upwards. [`Placed`] moves, turns, mirrors,
 //! flips and scales one; [`Piecewise::placed`] does so with a joined one.
 //!
 //! With the feature `serde` these shapes can be kept in files, under the names of their parameters
@@ -137,8 +137,8 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
     fn domain(&self) -> [T; 2];
 
     /// The point at `k`, with both derivatives: one call, so that what they share is
-    /// computed once. At an end of the domain the derivatives are those from inside: one that is not
-    /// (`signum` at 0, say) is searched for what it seems to hide, for some hundreds of evaluations.
+    /// computed once. At an end of the domain the derivatives are those from inside. A wrong one there
+    /// (`signum` at 0, say) costs hundreds of evaluations.
     fn at(&self, k: T) -> CurvePoint<T>;
 
     /// The slope `dY/dX` at `x`, where it can be had without inverting `X(k) = x`: the body
@@ -264,6 +264,7 @@ fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
 
 /// What is wrong with a smooth curve.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum ProfileError<T: Real> {
     /// A parameter has a value for which there is no such shape.
     #[error("{name} is {value:?}: it must be {must}")]

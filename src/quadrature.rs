@@ -77,7 +77,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     fn reset(&mut self, same_bodies: bool);
 
     /// Takes samples over a span of x in which the contact is expected, in place of those that
-    /// it has: as many as it takes, or (`rough`) only a few, for a first estimate of the limits.
+    /// it has: as many as it takes, or (`coarse`) only a few, for a first estimate of the limits.
     /// Returns about how large an error of the slope is left, as a fraction of it; `None` (the
     /// default) says that this integrator samples each interval as it comes.
     ///
@@ -87,18 +87,17 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         &mut self,
         _gap: &Gap<'_, T>,
         _on: Interval<T>,
-        _rough: bool,
+        _coarse: bool,
     ) -> Result<Option<T>, ContactError<T>> {
         Ok(None)
     }
 
-    /// Is told the limits that are given, at -b and at a, before it takes samples up to there: between
-    /// the last of those and a given limit it would not see what the bodies do. By default nothing
-    /// comes of it.
-    fn hold(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
+    /// Announces prescribed limits, at -b and at a, before samples are taken up to there: what the bodies do
+    /// between the last sample and such a limit would go unseen. Default: no-op.
+    fn prescribe_limits(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
 
-    /// The span over which samples are at hand. `None` (the default) if none are kept.
-    fn covered(&self) -> Option<Interval<T>> {
+    /// The interval over which samples are at hand. `None` (the default) if none are kept.
+    fn sampled_interval(&self) -> Option<Interval<T>> {
         None
     }
 
@@ -113,7 +112,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     }
 
     /// Forgets the samples, but not the cost.
-    fn forget(&mut self) {}
+    fn clear_samples(&mut self) {}
 
     /// The edge integrals over an interval.
     ///
@@ -122,7 +121,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>)
     -> Result<Moments<T>, ContactError<T>>;
 
-    /// Turns to the pressure over an interval, without sampling what the edge integrals have not.
+    /// Prepares pressures over an interval from the samples at hand.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -210,20 +209,20 @@ pub struct Estimate<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments<T> {
     /// `m₀ = (1/π) ∫ g dθ`, zero where the two edges are equally strong.
-    pub mean: T,
+    pub m0: T,
     /// `m₁ = (1/π) ∫ g cos θ dθ`; `L m₁` is the load of a contact with two free edges.
-    pub first: T,
+    pub m1: T,
     /// `m₂ = (1/π) ∫ g cos 2θ dθ`, where that is known: the moment of the pressure about the centre is
     /// `κ L² (m₂ - m₀)/2`.
-    pub second: Option<T>,
+    pub m2: Option<T>,
     /// `(1/π) ∫ |g| dθ`, against which the rounding of the other two is measured.
-    pub size: T,
+    pub l1_norm: T,
     /// Estimated error of the first two.
     pub error: T,
     /// The largest `|X(k) - x|` that the inversions have left; a length.
     pub inversion: T,
     /// How they change with the limits, where that is known.
-    pub trend: Option<MomentDerivatives<T>>,
+    pub derivatives: Option<MomentDerivatives<T>>,
 }
 
 /// `(1/π) ∫ g'(x) cosⁱθ dθ`: with centre c and half-width L, `∂m₀/∂c` is the first, `∂m₀/∂L` and

@@ -6,8 +6,8 @@ use num_traits::FromPrimitive;
 /// A real number the solver can work in: `f32`, `f64`, with the feature `autodiff` dual numbers, and
 /// any other `Copy` type that is a [`nalgebra::RealField`], by an empty `impl`.
 ///
-/// What a number carries besides its value, as a dual number its derivatives, has to be told: the
-/// solver looks at the value for its decisions, and at all parts for whether it is done.
+/// A dual number must override [`COMPONENTS`](Self::COMPONENTS), [`DERIVATIVE_ORDER`](Self::DERIVATIVE_ORDER) and
+/// [`component`](Self::component). The solver decides by the value, and stops when all components have converged.
 #[diagnostic::on_unimplemented(
     message = "the solver does not work in numbers of type `{Self}`",
     label = "not a `Real`",

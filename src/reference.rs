@@ -148,6 +148,7 @@ pub trait ClosedForm<T: Real>: Debug + Send + Sync {
 
 /// Why there is no such contact.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum ReferenceError<T: Real> {
     /// A parameter has a value for which the form does not hold.
     #[error("{name} is {value:?}: it must be {must}")]

@@ -21,12 +21,14 @@
 mod bisection;
 mod bracket_state;
 mod brent;
+mod fallible;
 mod newton;
 mod roots_adapter;
 mod secant;
 
 pub use bisection::Bisection;
 pub use brent::Brent;
+pub use fallible::{TryFindError, try_find, try_find_with_slope};
 pub use newton::Newton;
 pub use secant::Secant;
 
@@ -197,6 +199,7 @@ impl Default for StoppingCriteria {
 
 /// Why a search found no root.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum SearchError<T: Real> {
     /// The bracket has a NaN or infinite end, or its ends are the wrong way round.
     #[error("[{lo:?}, {hi:?}] is no bracket: give two finite ends in rising order")]

@@ -17,6 +17,8 @@ mod region;
 
 mod quality;
 
+mod steepness;
+
 mod summary;
 
 mod moment;
@@ -44,6 +46,7 @@ pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
 pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
+pub use steepness::STEEPEST_HALF_PLANE;
 pub use summary::Summary;
 
 /// A solved contact: its limits, and on request its pressure.

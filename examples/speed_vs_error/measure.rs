@@ -71,7 +71,7 @@ fn of_limits(scene: &Scene, solution: &Solution<f64>) -> [f64; 2] {
 /// batches, of one where a solve takes long.
 pub fn micros(scene: &Scene, way: &Way) -> Result<f64, ContactError<f64>> {
     let (x, mut p) = (scene.grid(), [0.0; 101]);
-    let mut solve = || {
+    let mut solve = || -> Result<(), ContactError<f64>> {
         let contact = contact(black_box(scene), black_box(way))?;
         contact.solve(scene.load())?.pressure()?.at_many(&x, &mut p)?;
         black_box(&p);

@@ -9,7 +9,7 @@ use super::edges::{Conditions, Edge};
 use super::equations::Equations;
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
-use crate::search::{Bracket, Brent, LimitSearch};
+use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
 use crate::{ContactError, Interval, Real};
 
@@ -38,19 +38,40 @@ impl<T: Real> Capacity<T> {
     /// The error for a load that is more than the bodies bear.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;
-        ContactError::DomainTooShort { end, carried, load, half_width: on.half_width(), peak }
+        ContactError::DomainTooShort {
+            end,
+            carried,
+            load,
+            half_width: on.half_width(),
+            peak,
+            kappa_is_default: false,
+        }
     }
 
     /// The error for a width that the bodies have no room for.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::HalfWidthTooLarge { wanted, half_width: on.half_width(), end, load, peak }
+        ContactError::HalfWidthTooLarge {
+            wanted,
+            half_width: on.half_width(),
+            end,
+            load,
+            peak,
+            kappa_is_default: false,
+        }
     }
 
     /// The error for a peak higher than that of any contact there is room for.
     pub fn peak_too_high(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::PeakTooHigh { wanted, half_width: on.half_width(), found: peak, end, load }
+        ContactError::PeakTooHigh {
+            wanted,
+            half_width: on.half_width(),
+            found: peak,
+            end,
+            load,
+            kappa_is_default: false,
+        }
     }
 }
 
@@ -132,8 +153,8 @@ impl<T: Real> Pinned<'_, T> {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
                 let [lo, hi] = if side == 0 { [one, other] } else { [other, one] };
                 let bracket = Bracket::new(lo.0, hi.0).values(lo.1, hi.1);
-                let mut f = |x| self.shift(on(x)).unwrap_or(T::of(f64::NAN));
-                let root = Brent::DEFAULT.find(&mut f, &bracket).ok()?;
+                let shift = |x| self.shift(on(x)).ok_or(());
+                let root = try_find(&Brent::DEFAULT, shift, &bracket).ok()?;
                 return Some((on(root.x), side));
             }
             (wide, at_wide) = (narrow, at_narrow);
@@ -144,9 +165,10 @@ impl<T: Real> Pinned<'_, T> {
     /// Positive: the contact must move to the right.
     fn shift(&mut self, on: Interval<T>) -> Option<T> {
         // Panels much wider than a contact would not see what is narrow in it.
-        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered =
+            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(2.0 * NARROWER) * on.half_width() {
-            self.integrator.forget();
+            self.integrator.clear_samples();
         }
         let (equations, gap) = (&self.equations, &self.contact.gap);
         let residual = equations.residual(gap, on, self.integrator, &mut Cost::default()).ok()?;

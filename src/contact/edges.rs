@@ -104,13 +104,13 @@ impl<T: Real> Conditions<T> {
         let half_width = on.half_width();
         let by_load = load / (self.kappa * half_width);
         match self.edges.map(|edge| edge.limit()) {
-            [None, None] => -m.mean,
-            [Some(_), None] => by_load - m.first - m.mean,
-            [None, Some(_)] => m.first - by_load - m.mean,
+            [None, None] => -m.m0,
+            [Some(_), None] => by_load - m.m1 - m.m0,
+            [None, Some(_)] => m.m1 - by_load - m.m0,
             [Some(_), Some(_)] => {
-                let second = m.second.unwrap_or(T::zero());
+                let second = m.m2.unwrap_or(T::zero());
                 let away = (on.centre() - at) / half_width;
-                second - m.mean + (by_load + by_load) * away
+                second - m.m0 + (by_load + by_load) * away
             }
         }
     }
@@ -125,7 +125,7 @@ impl<T: Real> Conditions<T> {
             self.edges.iter().zip(self.edge_strengths(half_width)).zip(signs)
         {
             if edge.limit().is_none() {
-                sum += self.kappa * half_width * (m.first + sign * m.mean) - pull - pull;
+                sum += self.kappa * half_width * (m.m1 + sign * m.m0) - pull - pull;
                 count += 1;
             }
         }

@@ -141,12 +141,12 @@ impl<T: Real> Equations<T> {
                 let m = integrator.moments(gap, on)?;
                 let stiffness = conditions.kappa * on.half_width();
                 let rounding = rounding(on);
-                let carried = stiffness * m.first;
-                let balance = stiffness * m.mean;
+                let carried = stiffness * m.m1;
+                let balance = stiffness * m.m0;
                 let pull = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
                 let half = T::of(0.5);
                 // Beside a corner the two may cancel, and little load be left.
-                let both = m.first.abs() + m.mean.abs();
+                let both = m.m1.abs() + m.m0.abs();
                 // Only the free edges count.
                 let (at_a, at_b, needed, borne, sum) = match self.limits() {
                     [Some(_), None] => {
@@ -160,7 +160,7 @@ impl<T: Real> Equations<T> {
                     _ => {
                         let (at_a, at_b) = (load + pull[1] - carried, load + pull[0] - carried);
                         let needed = load + half * (pull[0] + pull[1]);
-                        (at_a - balance, at_b + balance, needed, carried, m.first.abs())
+                        (at_a - balance, at_b + balance, needed, carried, m.m1.abs())
                     }
                 };
                 let ratio = needed / borne;
@@ -177,7 +177,7 @@ impl<T: Real> Equations<T> {
                     at_a,
                     at_b,
                     // The estimated error errs on the safe side.
-                    floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.size),
+                    floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.l1_norm),
                     carried: Some(borne),
                     size: stiffness * sum,
                     growth,

@@ -2,7 +2,7 @@
 //! positive. Every single contact of a gap whose slope rises contains it.
 
 use crate::gap::{Gap, Sampler, Side};
-use crate::search::{Bracket, Brent, LimitSearch, SearchError};
+use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
 use crate::{ContactError, Interval, Real};
 
 /// Two abscissae and the slope of the gap there.
@@ -114,18 +114,10 @@ fn zero<T: Real>(
     gap: &Gap<'_, T>,
     Signs { x, slope }: Signs<T>,
 ) -> Result<T, ContactError<T>> {
-    let mut failed = None;
-    let mut f = |x| {
-        sampler.slope(gap, x).unwrap_or_else(|error| {
-            failed = Some(error);
-            T::of(f64::NAN)
-        })
-    };
     let bracket = Bracket::new(x[0], x[1]).values(slope[0], slope[1]);
-    let root = Brent::default().find(&mut f, &bracket);
-    match root {
+    match try_find(&Brent::default(), |x| sampler.slope(gap, x), &bracket) {
         // Any point of a bracket this tight lies in the contact.
-        Ok(root) | Err(SearchError::Budget { best: root }) => Ok(root.x),
-        Err(_) => Err(failed.unwrap_or(ContactError::NoFirstContact { x, slope })),
+        Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => Ok(root.x),
+        Err(error) => Err(error.or_else(|_| ContactError::NoFirstContact { x, slope })),
     }
 }

@@ -29,7 +29,7 @@ use super::equations::{Equations, Residual};
 use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Integrator;
-use crate::search::{Bracket, LimitSearch, SearchError};
+use crate::search::{Bracket, LimitSearch, try_find};
 use crate::{ContactError, Interval, Real};
 use centre::Centred;
 use derivatives::differentiate;
@@ -196,9 +196,10 @@ impl<'s, T: Real> NestedSearch<'s, T> {
 
     fn attempt(&mut self, on: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
         // Panels much wider than the contact are not as good as they look.
-        let covered = self.integrator.covered().map_or(T::zero(), |covered| covered.half_width());
+        let covered =
+            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(WIDEST) * on.half_width() {
-            self.integrator.forget();
+            self.integrator.clear_samples();
         }
         let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;
         if !residual.is_finite() {
@@ -215,43 +216,22 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         condition: fn(&Residual<T>) -> T,
         mut attempt: impl FnMut(&mut Self, T) -> Result<TrialContact<T>, ContactError<T>>,
     ) -> Result<TrialContact<T>, ContactError<T>> {
-        let mut failed = None;
         let strategy = self.strategy;
         let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
         let [mut lo, mut hi] = [bracket.lo, bracket.hi];
-        let on = best.on;
-        let inside = |x: T| {
-            if x >= bracket.lo && x <= bracket.hi {
-                return Ok(());
-            }
-            let source = SearchError::LeftBracket { x, lo: bracket.lo, hi: bracket.hi };
-            Err(ContactError::LimitSearch { best: on, source })
+        let function = |unknown| {
+            let trial = attempt(self, unknown)?;
+            *best = nearer(trial, *best, condition);
+            let value = condition(&trial.residual);
+            *(if (value > T::zero()) == falls { &mut lo } else { &mut hi }) = unknown;
+            Ok(if hi - lo <= resolution { T::zero() } else { value })
         };
-        let found = strategy.find(
-            &mut |unknown| match inside(unknown).and_then(|()| attempt(self, unknown)) {
-                Ok(trial) => {
-                    *best = nearer(trial, *best, condition);
-                    let value = condition(&trial.residual);
-                    if (value > T::zero()) == falls {
-                        lo = unknown
-                    } else {
-                        hi = unknown
-                    }
-                    if hi - lo <= resolution { T::zero() } else { value }
-                }
-                Err(error) => {
-                    // A value that is not finite ends any search.
-                    failed = Some(error);
-                    T::of(f64::NAN)
-                }
-            },
-            bracket,
-        );
-        match (failed, found) {
-            (Some(error), _) => Err(error),
-            (None, Ok(_)) => Ok(*best),
-            (None, Err(source)) => Err(ContactError::LimitSearch { best: best.on, source }),
+        match try_find(strategy, function, bracket) {
+            Ok(_) => Ok(*best),
+            Err(error) => {
+                Err(error.or_else(|source| ContactError::LimitSearch { best: best.on, source }))
+            }
         }
     }
 

@@ -123,7 +123,7 @@ pub(super) fn converge<T: Real>(
         let Some(system) = Linearised::new(conditions, on, load, &m) else {
             return Ok(Outcome::LeftBracket);
         };
-        let step = system.step(on, load, conditions.kappa * half_width * m.first);
+        let step = system.step(on, load, conditions.kappa * half_width * m.m1);
         let too_far = |last: &&mut Step<T>| {
             last.share > T::of(LEAST_SHARE) && (step.is_none() || last.grew_to(&system, on))
         };
@@ -446,11 +446,11 @@ impl<T: Real> Linearised<T> {
     #[inline(always)]
     fn new(conditions: &Conditions<T>, on: Interval<T>, load: T, m: &Moments<T>) -> Option<Self> {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-        let trend = m.trend?;
+        let trend = m.derivatives?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
         let [pull_b, pull_a] = conditions.edge_strengths(half_width);
-        let scale = load.abs() + stiffness * m.size + pull_a + pull_b;
+        let scale = load.abs() + stiffness * m.l1_norm + pull_a + pull_b;
         if !(scale > zero && scale.is_finite()) {
             return None;
         }
@@ -470,7 +470,7 @@ impl<T: Real> Linearised<T> {
                 (residual, [away, own], one)
             }
             (None, None) => {
-                let carried = m.first + sign * m.mean;
+                let carried = m.m1 + sign * m.m0;
                 let residual = (load + pull + pull) * by_scale - weight * carried;
                 let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
                 let width = -weight * carried + pull * by_scale
@@ -583,16 +583,13 @@ struct Turning<T> {
 
 impl<T: Real> Turning<T> {
     fn new(conditions: &Conditions<T>, at: T, on: Interval<T>, m: &Moments<T>) -> Option<Self> {
-        let (half, trend, second) = (T::of(0.5), m.trend?, m.second?);
+        let (half, trend, second) = (T::of(0.5), m.derivatives?, m.m2?);
         let (load, half_width) = (conditions.load(), on.half_width());
         let stiffness = conditions.kappa * half_width;
         let by_width = stiffness * half_width;
         // κ L m₁.
-        let carried = [
-            stiffness * m.first,
-            by_width * trend.by_1,
-            stiffness * m.first + by_width * trend.by_2,
-        ];
+        let carried =
+            [stiffness * m.m1, by_width * trend.by_1, stiffness * m.m1 + by_width * trend.by_2];
         let left = load - carried[0];
         let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
         let (acting, load) = if both_free {

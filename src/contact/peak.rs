@@ -10,7 +10,7 @@ use super::edges::{Conditions, Edge, Given};
 use super::single_contact::Single;
 use crate::gap::{CoarseHeights, Cost};
 use crate::quadrature::{Estimate, Integrator, LoadCase, complete};
-use crate::search::{Bracket, Newton};
+use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::solution::ContactState;
 use crate::solution::largest_pressure;
 use crate::{ContactError, Interval, Real};
@@ -217,32 +217,27 @@ fn enclosed<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     let wanted = trials.wanted;
     let strategy = trials.contact.search.unwrap_or(&Newton::DEFAULT);
-    let (mut best, mut failed): (Option<(T, ContactState<T>)>, _) = (None, None);
-    let mut f = |load| match trials.at(Given::Load(load)) {
-        Ok((found, pressure, rate)) => {
-            let missed = pressure - wanted;
-            if best.is_none_or(|(least, _)| missed.abs() <= least) {
-                best = Some((missed.abs(), found));
-            }
-            (missed, rate)
+    let mut best: Option<(T, ContactState<T>)> = None;
+    let function = |load| {
+        let (found, pressure, rate) = trials.at(Given::Load(load))?;
+        let missed = pressure - wanted;
+        if best.is_none_or(|(least, _)| missed.abs() <= least) {
+            best = Some((missed.abs(), found));
         }
-        Err(error) => {
-            failed = Some(error);
-            (T::of(f64::NAN), T::zero())
-        }
+        Ok((missed, rate))
     };
-    let root = strategy.find_with_slope(&mut f, bracket);
-    match (failed, root, best) {
-        (Some(error), _, _) => Err(error),
+    let root = try_find_with_slope(strategy, function, bracket);
+    match (root, best) {
+        (Err(TryFindError::Function(error)), _) => Err(error),
         // A strategy may have left something, or more than it says.
-        (None, Ok(_), Some((missed, found))) => {
+        (Ok(_), Some((missed, found))) => {
             let error = found.error.map(|error| error + missed / wanted);
             Ok(ContactState { error, ..found })
         }
-        (None, Err(source), Some((_, found))) => {
+        (Err(TryFindError::Search(source)), Some((_, found))) => {
             Err(ContactError::LimitSearch { best: found.interval, source })
         }
-        (None, _, None) => Err(ContactError::NoPeak {
+        (_, None) => Err(ContactError::NoPeak {
             wanted,
             half_width: trials.last.map_or(T::zero(), |on| on.half_width()),
             found: T::of(f64::NAN),

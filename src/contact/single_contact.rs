@@ -142,7 +142,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 return Err(ContactError::OutsideBodies { x, range });
             }
         }
-        self.integrator.hold(gap, limits);
+        self.integrator.prescribe_limits(gap, limits);
         let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
         // A search of one limit at a time knows no tilt.
         let turns = matches!(self.conditions.given, Given::Centre { .. });
@@ -215,7 +215,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 ) => Err(error),
                 result => Ok(result.unwrap_or(None)),
             };
-            if let Some(covered) = self.integrator.covered() {
+            if let Some(covered) = self.integrator.sampled_interval() {
                 let wide = |converged: &Converged<T>| {
                     converged.on.half_width() >= T::of(0.3) * covered.half_width()
                 };
@@ -229,7 +229,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 return Ok(Some(converged));
             }
             // The last contact was no help.
-            self.integrator.forget();
+            self.integrator.clear_samples();
         }
         let (guess, doubt) = match self.initial_guess()? {
             Some(guess) => guess,
@@ -263,7 +263,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
 
     /// By one limit at a time.
     fn by_nested_search(&mut self) -> Result<ContactState<T>, ContactError<T>> {
-        self.integrator.forget();
+        self.integrator.clear_samples();
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
         let equations = Equations::Strength { conditions, load: conditions.load() };
         let start = self.start_if_known();
@@ -293,13 +293,13 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
         super::check_within(on, range, if sought { rounding } else { T::zero() })?;
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
-        self.integrator.hold(gap, conditions.edges.map(|edge| edge.limit()));
+        self.integrator.prescribe_limits(gap, conditions.edges.map(|edge| edge.limit()));
         // What was sampled for the last load serves for the next.
         let serves = |covered: Interval<T>| {
             let within = covered.left <= on.left && covered.right >= on.right;
             within && on.half_width() >= T::of(0.3) * covered.half_width()
         };
-        if !self.integrator.covered().is_some_and(serves) {
+        if !self.integrator.sampled_interval().is_some_and(serves) {
             self.integrator.sample_over(gap, self.around(on, T::of(ABOUT)), false)?;
         }
         let m = self.integrator.moments(gap, on)?;
@@ -307,7 +307,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
         let Some(load) = conditions.balance(on, &m) else {
             return Ok(ContactState::new(conditions, on, conditions.load(), None, &m));
         };
-        let error = Some(relative_error(on, &m, m.first.abs() + m.mean.abs()));
+        let error = Some(relative_error(on, &m, m.m1.abs() + m.m0.abs()));
         Ok(ContactState::new(conditions, on, load, error, &m))
     }
 
@@ -342,7 +342,7 @@ impl<'s, 'b, T: Real> Single<'s, 'b, T> {
                 return Ok(None);
             };
             // Panels much wider than the contact are not as good as they look.
-            let covered = self.integrator.covered().unwrap_or(span);
+            let covered = self.integrator.sampled_interval().unwrap_or(span);
             if converged.on.half_width() >= T::of(0.8) * covered.half_width() {
                 return Ok(Some(converged));
             }

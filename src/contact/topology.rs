@@ -327,6 +327,7 @@ impl<T: Real> Search<'_, '_, T> {
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
         self.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
+            gap.check_watch(*self.cost, Interval { left: from, right: to })?;
             if start == Start::ActiveSet {
                 // More cells find no contact under more than the bodies bear; once they may help.
                 if let Some(end) = self.runs_out {
@@ -428,9 +429,11 @@ impl<T: Real> Search<'_, '_, T> {
             start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
         }
         // What one contact alone has failed by says more than that it was not found.
-        let runs_out = self
-            .runs_out
-            .map(|side| ContactError::EndReached { end: ends[side], load: conditions.load() });
+        let runs_out = self.runs_out.map(|side| ContactError::EndReached {
+            end: ends[side],
+            load: conditions.load(),
+            kappa_is_default: false,
+        });
         // Unless that is what it would bear alone.
         let says = |fault: &ContactError<T>| match fault {
             ContactError::NoEquilibrium { .. } => false,

@@ -18,7 +18,7 @@ pub(crate) use curve_samples::CurveSample;
 use super::{Cost, Gap, Side};
 use crate::profile::{Piece, first_turn};
 use crate::real::is_finite;
-use crate::search::{Bracket, SearchError};
+use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
@@ -304,43 +304,25 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         }
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
         let bracket = bracket.guess(newton(left, right, target));
-        let (mut best, mut failed) = (None, None);
-        let (low, high) = (lo.k, hi.k);
-        let astray = |k: T| {
-            let source = SearchError::LeftBracket { x: k, lo: low, hi: high };
-            ContactError::Inversion { body, x: target, source }
-        };
-        let mut f = |k: T| {
-            if !(k >= low && k <= high) {
-                failed = Some(astray(k));
-                return (T::of(f64::NAN), T::zero());
-            }
+        let mut best = None;
+        let function = |k: T| {
             cost.evaluations += 1;
-            let curve_sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
-            if let Err(error) = self.check(i, &curve_sample) {
-                failed = Some(error);
-                return (T::of(f64::NAN), curve_sample.dx);
-            }
-            best = Some(curve_sample);
-            (
-                if self.is_near(i, &curve_sample) { T::zero() } else { curve_sample.x - target },
-                curve_sample.dx,
-            )
+            let sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
+            self.check(i, &sample)?;
+            best = Some(sample);
+            let off = if self.is_near(i, &sample) { T::zero() } else { sample.x - target };
+            Ok((off, sample.dx))
         };
-        match (self.gap.inversion().find_with_slope(&mut f, &bracket), failed) {
-            (_, Some(error)) => Err(error),
-            (Ok(root), None) if !(root.x >= low && root.x <= high) => Err(astray(root.x)),
-            (Ok(root), None) => match best.filter(|best| best.k == root.x) {
-                Some(curve_sample) => Ok(curve_sample),
-                None => {
-                    cost.evaluations += 1;
-                    let curve_sample =
-                        self.or_end(CurveSample::new(root.x, self.piece.curve.at(root.x)));
-                    self.check(i, &curve_sample).map(|()| curve_sample)
-                }
-            },
-            (Err(source), None) => Err(ContactError::Inversion { body, x: target, source }),
+        let root = try_find_with_slope(self.gap.inversion(), function, &bracket);
+        let root = root.map_err(|error| {
+            error.or_else(|source| ContactError::Inversion { body, x: target, source })
+        })?;
+        if let Some(sample) = best.filter(|best| best.k == root.x) {
+            return Ok(sample);
         }
+        cost.evaluations += 1;
+        let sample = self.or_end(CurveSample::new(root.x, self.piece.curve.at(root.x)));
+        self.check(i, &sample).map(|()| sample)
     }
 
     #[inline(always)]

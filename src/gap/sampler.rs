@@ -6,7 +6,7 @@
 
 use super::{Cost, Gap, Side};
 use crate::profile::{Convexity, Piece};
-use crate::search::{Bracket, Root, SearchError};
+use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
 
 /// Takes values of the gap's slope, and keeps count.
@@ -102,7 +102,8 @@ impl<T: Real> Sampler<T> {
         Ok(heights[1] - heights[0])
     }
 
-    fn body_slope(
+    /// The slope of one of the bodies.
+    pub(crate) fn body_slope(
         &mut self,
         gap: &Gap<'_, T>,
         body: Body,
@@ -160,33 +161,24 @@ impl<T: Real> Sampler<T> {
             let ends = [(piece.k[0], ends[0] - x), (piece.k[1], ends[1] - x)];
             let [(lo, f_lo), (hi, f_hi)] =
                 if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
-            let mut strayed = None;
-            let mut f = |k: T| {
-                if !(k >= lo && k <= hi) {
-                    strayed = Some(k);
-                    return (T::of(f64::NAN), T::zero());
-                }
+            let function = |k: T| {
                 let here = at(k);
                 last = Some(here);
                 turned = turned.or(last.filter(turns));
-                (here.point.x - x, here.point.dx)
+                Ok((here.point.x - x, here.point.dx))
             };
             let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
-            let root = gap.inversion().find_with_slope(&mut f, &bracket);
-            let outside = |root: &Root<T>| !(root.x >= lo && root.x <= hi);
-            let strayed = strayed.or(root.ok().filter(outside).map(|root| root.x));
-            match (root, strayed) {
-                (_, Some(k)) => {
-                    let source = SearchError::LeftBracket { x: k, lo, hi };
-                    return Err(ContactError::Inversion { body, x, source });
-                }
-                (Ok(root), None) => root.x,
-                (Err(SearchError::NotFinite { x: k, value }), _) => {
-                    let source = ProfileError::NotFinite { quantity: "X", k, value };
-                    return Err(ContactError::Profile { body, source });
-                }
-                (Err(source), _) => return Err(ContactError::Inversion { body, x, source }),
-            }
+            let root = try_find_with_slope(gap.inversion(), function, &bracket);
+            let root = root.map_err(|error| {
+                error.or_else(|source| match source {
+                    SearchError::NotFinite { x: k, value } => {
+                        let source = ProfileError::NotFinite { quantity: "X", k, value };
+                        ContactError::Profile { body, source }
+                    }
+                    source => ContactError::Inversion { body, x, source },
+                })
+            });
+            root?.x
         };
         let mut found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
         for _ in 0..T::DERIVATIVE_ORDER {

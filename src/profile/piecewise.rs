@@ -220,6 +220,7 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
 
 /// Why pieces cannot be joined.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum PiecewiseError<T: Real> {
     /// A piece is at fault by itself.
     #[error("piece {piece} (from 0, left to right): {source}")]

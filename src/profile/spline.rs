@@ -12,7 +12,7 @@ mod stored;
 
 pub use points::SplineError;
 
-use super::{CurvePoint, ParametricProfile, Piece};
+use super::{CurvePoint, ParametricProfile, Piece, Piecewise, PiecewiseError, Placed, Placement};
 use crate::Real;
 
 /// How points become a [`Spline`].
@@ -167,6 +167,30 @@ impl<T: Real> Spline<T> {
             }
         }
         Ok(Self { cubics })
+    }
+
+    /// The body, put in another place: moved, mirrored, flipped, turned or scaled.
+    ///
+    /// ```
+    /// use linecontact::profile::{Parabola, Placement, Spline};
+    /// use linecontact::{Contact, Control};
+    ///
+    /// let points: Vec<[f64; 2]> =
+    ///     (-20..=20).map(|i| 0.05 * f64::from(i)).map(|x| [x, x * x / 2.0]).collect();
+    /// let below = Spline::through(&points)?.placed(Placement::default().flipped())?;
+    /// let above = Parabola::new(1.0, [-1.0, 1.0])?;
+    /// let solution = Contact::new(&below, &above)?.solve(Control::Load(0.04))?;
+    /// assert!((solution.a() - 0.2).abs() < 1e-14); // two equal parabolas
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Piecewise::placed`].
+    pub fn placed(
+        self,
+        placement: Placement<T>,
+    ) -> Result<Piecewise<T, Placed<T, impl ParametricProfile<T>>>, PiecewiseError<T>> {
+        Piecewise::new(self.cubics)?.placed(placement)
     }
 
     fn cubic(&self, x: T) -> &Cubic<T> {

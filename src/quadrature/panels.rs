@@ -188,7 +188,7 @@ impl<T: Real> PanelIntegrator<T> {
 
     /// Whether the panels leave more of the integrals open than they may.
     fn is_poor(&self, m: &Moments<T>) -> bool {
-        m.error > T::of(4.0) * self.panel_set.tolerance * m.size
+        m.error > T::of(4.0) * self.panel_set.tolerance * m.l1_norm
     }
 
     /// The edge integrals from panels on that interval and no more.
@@ -198,7 +198,7 @@ impl<T: Real> PanelIntegrator<T> {
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
         let [from, to] = gap.range();
-        self.forget();
+        self.clear_samples();
         self.panel_set
             .extend(gap, Interval { left: on.left.max(from), right: on.right.min(to) })?;
         Ok(self.remember(on))
@@ -356,11 +356,11 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.cost + self.several.cost()
     }
 
-    fn covered(&self) -> Option<Interval<T>> {
+    fn sampled_interval(&self) -> Option<Interval<T>> {
         self.panel_set.interval().filter(|_| self.fall.is_none())
     }
 
-    fn hold(&mut self, gap: &Gap<'_, T>, limits: [Option<T>; 2]) {
+    fn prescribe_limits(&mut self, gap: &Gap<'_, T>, limits: [Option<T>; 2]) {
         for (i, limit) in limits.into_iter().enumerate() {
             if self.panel_set.held[i].map(|held| held.limit) != limit {
                 self.panel_set.held[i] = limit.and_then(|x| self.panel_set.look_at(gap, i, x));
@@ -376,7 +376,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         Some(self.panel_set.truncation_error(x)? + self.panel_set.tolerance * self.panel_set.size)
     }
 
-    fn forget(&mut self) {
+    fn clear_samples(&mut self) {
         self.panel_set.clear(true);
         (self.fall, self.moments) = (None, None);
         self.panel_set.initial = 8;
@@ -422,7 +422,7 @@ impl<T: Real> PanelIntegrator<T> {
         let Some((_, m)) = self.moments else { return [[zero; 2]; 2] };
         let mean_pressure = load_case.load / self.conjugate.on.half_width();
         let strength = |sum: T| (mean_pressure - load_case.kappa * sum) / T::pi();
-        let both = [strength(m.first - m.mean), strength(m.first + m.mean)];
+        let both = [strength(m.m1 - m.m0), strength(m.m1 + m.m0)];
         let pick =
             |free: bool| [0, 1].map(|i| if load_case.free[i] == free { both[i] } else { zero });
         [pick(true), pick(false)]

@@ -204,7 +204,7 @@ fn balanced<T: Real>(
 ) -> Result<(), ContactError<T>> {
     let ContactState { interval: on, load, free, .. } = *found;
     let (stiffness, m) = (kappa * on.half_width(), cells.moments(on));
-    let size = load.abs().max(stiffness * m.size);
+    let size = load.abs().max(stiffness * m.l1_norm);
     let error = found.error.unwrap_or(T::zero());
     let said = found.force.unwrap_or(T::of(3.0) * size * error);
     let rounding = T::of(64.0) * T::epsilon() * size;
@@ -216,7 +216,7 @@ fn balanced<T: Real>(
     // Where both are at fault it is the right one that is named.
     let edges = [(on.left, -T::one()), (on.right, T::one())];
     for ((x, sign), free) in edges.into_iter().zip(free).rev() {
-        let missed = load - stiffness * (m.first + sign * m.mean);
+        let missed = load - stiffness * (m.m1 + sign * m.m0);
         let met = missed.abs() <= allowed;
         if free && !met {
             let [strength, allowed] = [missed, allowed].map(|force| force * by_force);

@@ -31,9 +31,8 @@ pub struct Peak<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The largest pressure and its place, as far as a grid of 64 points in each contact and the breakpoints
-    /// show which maximum is the largest. The pressure is flat there: its value has all digits, its place half
-    /// of them.
+    /// The largest pressure (a pressure) and its place: the largest on a grid of 64 points in each contact and at
+    /// the breakpoints, refined. The pressure is flat there: its value has all digits, its place half of them.
     ///
     /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
     /// inside.

@@ -6,8 +6,7 @@ use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Interval, Real};
 
 impl<T: Real> Solution<'_, T> {
-    /// Makes ready for pressures anywhere. With [`Panels`](crate::Panels) nothing is sampled for
-    /// them.
+    /// The pressure distribution. With [`Panels`](crate::Panels) it takes no further sample.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -95,6 +94,46 @@ impl<T: Real> Pressure<'_, T> {
             *pressure = self.estimate(x, &mut cost)?.value;
         }
         Ok(())
+    }
+
+    /// `[x, P(x)]` at `count` points of each contact, limits included, by rising x: as dense towards the
+    /// limits as the square root with which the pressure falls there, so that lines between them draw it. A limit
+    /// where the pressure is infinite, and a place inside where it is, are left out.
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, Control, Flat};
+    ///
+    /// let parabola = Parabola::new(1.0, [-1.0, 1.0])?;
+    /// let solution = Contact::new(&Flat, &parabola)?.solve(Control::Load(0.02))?;
+    /// let points = solution.pressure()?.sample(65)?;
+    /// assert_eq!(points.len(), 65);
+    /// assert_eq!(points[0], [solution.hull().left, 0.0]);
+    /// assert!((points[32][1] - 0.2 / std::f64::consts::PI).abs() < 1e-15); // a/π in the middle
+    /// # Ok::<(), linecontact::ContactError<f64>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`at_many`](Self::at_many).
+    pub fn sample(&self, count: usize) -> Result<Vec<[T; 2]>, ContactError<T>> {
+        let (count, last) = (count.max(2), self.contacts.len() - 1);
+        let mut points = Vec::with_capacity(count * self.contacts.len());
+        for (i, on) in self.contacts.iter().enumerate() {
+            let free = [i > 0 || self.load_case.free[0], i < last || self.load_case.free[1]];
+            if free[0] {
+                points.push([on.left, T::zero()]);
+            }
+            let angle = |j: usize| T::pi() * T::count(j) / T::count(count - 1);
+            let x: Vec<T> = (1..count - 1).rev().map(|j| on.at_angle(angle(j))).collect();
+            let mut pressures = vec![T::zero(); x.len()];
+            self.values(&x, &mut pressures)?;
+            let inside = x.into_iter().zip(pressures).map(|(x, pressure)| [x, pressure]);
+            points.extend(inside.filter(|[_, pressure]| pressure.is_finite()));
+            if free[1] {
+                points.push([on.right, T::zero()]);
+            }
+        }
+        Ok(points)
     }
 
     /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point takes:

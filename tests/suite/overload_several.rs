@@ -16,7 +16,9 @@ fn quartic(from: f64, to: f64) -> Profile {
 /// Load, half-width, peak and end by the error for more than that.
 fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {
     match contact.solve(Control::Load(load)).map(|solution| solution.intervals().to_vec()) {
-        Err(ContactError::DomainTooShort { carried, half_width, peak, end, load: asked }) => {
+        Err(ContactError::DomainTooShort {
+            carried, half_width, peak, end, load: asked, ..
+        }) => {
             assert_eq!(asked, load);
             [carried, half_width, peak, end]
         }

@@ -16,6 +16,7 @@ const BY_MEDIAN: f64 = 1.4826;
 
 /// Why points do not make a profile. Rows are counted from 1, as in a file with a point on each line.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum SplineError<T: Real> {
     /// There are not enough of them.
     #[error("{points} points: a spline needs four or more")]

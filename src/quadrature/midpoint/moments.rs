@@ -80,7 +80,15 @@ pub(super) fn moments<T: Real>(
         panel.plateau() * T::of(if panel.change > small * size { 4.0 } else { 1.0 })
     };
     let error = total(&panels, left_open).max(T::of(4.0) * T::epsilon() * size);
-    Ok(Moments { mean, first, second: None, size, error, inversion: sampler.missed, trend: None })
+    Ok(Moments {
+        m0: mean,
+        m1: first,
+        m2: None,
+        l1_norm: size,
+        error,
+        inversion: sampler.missed,
+        derivatives: None,
+    })
 }
 
 fn total<T: Real>(panels: &[Segment<T>], part: impl Fn(&Segment<T>) -> T) -> T {

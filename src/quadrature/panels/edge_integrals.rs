@@ -61,13 +61,14 @@ pub(super) fn moments<T: Real>(
     let rounding = T::of(16.0) * T::epsilon() * sums.size;
     let [by_0, by_1, by_2] = sums.slope;
     Moments {
-        mean: sums.g[0].value(),
-        first: sums.g[1].value(),
-        second: Some(sums.g[2].value()),
-        size: sums.size,
+        m0: sums.g[0].value(),
+        m1: sums.g[1].value(),
+        m2: Some(sums.g[2].value()),
+        l1_norm: sums.size,
         error: sums.error.max(rounding),
         inversion: T::zero(),
-        trend: Some(MomentDerivatives { by_0, by_1, by_2 }).filter(|_| on.half_width() > T::zero()),
+        derivatives: Some(MomentDerivatives { by_0, by_1, by_2 })
+            .filter(|_| on.half_width() > T::zero()),
     }
 }
 

@@ -253,11 +253,11 @@ impl<T: Real> Several<T> {
             row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
         }
         *load_row = at_zeros.len() + usize::from(corners == [false; 2]);
-        let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.mean);
+        let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.m0);
         if corners == [false; 2] {
             row(total, error(&|_| one), &mut |i| half * at_ends[i]);
             let borne = self.parts().iter().fold(zero, |sum, OneOfSeveral { on, moments, .. }| {
-                sum + (on.centre() - centre) * moments.mean + on.half_width() * moments.first
+                sum + (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
             });
             let reach = |part: &OneOfSeveral<T>| {
                 (part.on.left - centre).abs().max((part.on.right - centre).abs())
@@ -345,12 +345,12 @@ impl<T: Real> Several<T> {
         let mut powers = [T::zero(); 3];
         for OneOfSeveral { on, moments, .. } in self.parts() {
             let (away, half_width) = (on.centre() - about, on.half_width());
-            let arm = half_width * moments.first;
-            let second = moments.second.unwrap_or(T::zero());
-            let square = half * half_width * half_width * (moments.mean + second);
-            powers[0] += moments.mean;
-            powers[1] += away * moments.mean + arm;
-            powers[2] += away * (away * moments.mean + two * arm) + square;
+            let arm = half_width * moments.m1;
+            let second = moments.m2.unwrap_or(T::zero());
+            let square = half * half_width * half_width * (moments.m0 + second);
+            powers[0] += moments.m0;
+            powers[1] += away * moments.m0 + arm;
+            powers[2] += away * (away * moments.m0 + two * arm) + square;
         }
         powers
     }

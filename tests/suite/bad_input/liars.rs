@@ -194,13 +194,13 @@ impl Integrator<f64> for Same {
     ) -> Result<Moments<f64>, ContactError<f64>> {
         let Self(value) = *self;
         Ok(Moments {
-            second: None,
-            mean: value,
-            first: value,
-            size: value,
+            m2: None,
+            m0: value,
+            m1: value,
+            l1_norm: value,
             error: value,
             inversion: value,
-            trend: None,
+            derivatives: None,
         })
     }
     fn prepare(&mut self, _: &Gap<f64>, _: Interval<f64>) -> Result<(), ContactError<f64>> {

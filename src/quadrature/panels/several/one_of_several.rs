@@ -73,13 +73,13 @@ impl<T: Real> OneOfSeveral<T> {
             series: ([zero; MOST], 0),
             far: NearFarSum::new(),
             moments: Moments {
-                mean: zero,
-                first: zero,
-                second: None,
-                size: zero,
+                m0: zero,
+                m1: zero,
+                m2: None,
+                l1_norm: zero,
                 error: zero,
                 inversion: zero,
-                trend: None,
+                derivatives: None,
             },
             weight: DistantContacts::near(0),
             value: DistantContacts::near(0),
@@ -247,7 +247,7 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// V at one end of the contact, without what is infinite there.
     pub fn at_end(&self, right: bool) -> T {
-        let Some(trend) = self.moments.trend else { return T::zero() };
+        let Some(trend) = self.moments.derivatives else { return T::zero() };
         T::pi() * if right { trend.by_0 + trend.by_1 } else { trend.by_0 - trend.by_1 }
     }
 
