@@ -74,7 +74,25 @@ pub struct Contact<'b, T: Real> {
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
 /// ([`Solution::load`]).
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?;
+/// let by_width = contact.solve(Control::HalfWidth(0.2))?;
+/// assert!((by_width.load() / 0.02 - 1.0).abs() < 1e-14); // κ L²/(2 R)
+/// let by_peak = contact.solve(Control::PeakPressure(0.05))?;
+/// assert!((by_peak.a() / (0.05 * std::f64::consts::PI) - 1.0).abs() < 1e-12); // π R p₀/κ
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)

@@ -142,7 +142,20 @@ impl<'b, T: Real> Surface<'b, T> {
 }
 
 /// What sampling the gap has cost.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// // The slope of a parabola is known: no curve is evaluated.
+/// assert_eq!(solution.cost().evaluations, 0);
+/// assert!(solution.cost().samples > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
     /// Values of the gap slope `g(x)`.
     pub samples: usize,
@@ -151,6 +164,13 @@ pub struct Cost {
     pub evaluations: usize,
     /// Evaluations of the users' curves for the heights of both bodies, besides those.
     pub heights: usize,
+}
+
+impl std::fmt::Display for Cost {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { samples, evaluations, heights } = self;
+        write!(f, "{samples} samples by {evaluations} evaluations, and {heights} for heights")
+    }
 }
 
 impl std::ops::Add for Cost {

@@ -2,9 +2,21 @@
 
 use crate::Real;
 use crate::real::same;
+use std::fmt::{Display, Formatter, LowerExp, Result};
 
 /// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
+///
+/// ```
+/// use linecontact::Interval;
+///
+/// let on = Interval { left: -0.2f64, right: 0.4 };
+/// assert_eq!(on.to_string(), "[-0.2, 0.4]");
+/// assert!((on.half_width() - 0.3).abs() < 1e-15 && (on.centre() - 0.1).abs() < 1e-15);
+/// assert!((on.chebyshev_weight(0.1) - 0.3).abs() < 1e-15);
+/// assert!((on.at_angle(std::f64::consts::PI / 3.0) - 0.25).abs() < 1e-15); // c + L/2
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval<T> {
     /// `-b`.
     pub left: T,
@@ -60,5 +72,26 @@ impl<T: Real> Interval<T> {
         } else {
             self.left + width * half.cos().powi(2)
         }
+    }
+}
+
+/// `[left, right]`; a precision is that of both ends.
+impl<T: Display> Display for Interval<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str("[")?;
+        self.left.fmt(f)?;
+        f.write_str(", ")?;
+        self.right.fmt(f)?;
+        f.write_str("]")
+    }
+}
+
+impl<T: LowerExp> LowerExp for Interval<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str("[")?;
+        self.left.fmt(f)?;
+        f.write_str(", ")?;
+        self.right.fmt(f)?;
+        f.write_str("]")
     }
 }

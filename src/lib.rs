@@ -41,6 +41,9 @@
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with [each contact](ContactRegion), moment,
 //!   [`LoadRates`], the gap beside the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
 //!   feature `rayon`, `sweep`: many scenes over all cores.
+//! - [`Summary`]: a solution as a row of numbers. With the feature `serde` it, all plain data, the
+//!   settings and the bodies of [`profile`] can be kept in files; a body that is read is checked as by its
+//!   constructor. (JSON keeps all digits with the feature `float_roundtrip` of `serde_json`.)
 //!
 //! # Example
 //! ```
@@ -97,7 +100,9 @@ pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::stress;
 pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
-pub use solution::{ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Trial, Verdict};
+pub use solution::{
+    ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,
+};
 pub use solver::Solver;
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;

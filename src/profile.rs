@@ -20,6 +20,23 @@
 //!
 //! Each vertex is at the origin; convex shapes open upwards. [`Placed`] moves, turns, mirrors,
 //! flips and scales one; [`Piecewise::placed`] does so with a joined one.
+//!
+//! With the feature `serde` these shapes can be kept in files, under the names of their parameters
+//! (`radius`, `along`, `across`, `slope`, `base_radius`, `origin`, `depth`, `half_length`, `domain`,
+//! `angles`). One that is read is made by its constructor, and refused as by that:
+//!
+//! ```
+//! # #[cfg(feature = "serde")] {
+//! use linecontact::profile::Parabola;
+//!
+//! let read = |text| serde_json::from_str::<Parabola<f64>>(text);
+//! let body = read(r#"{"radius": 2.0, "domain": [-1.0, 1.0]}"#)?;
+//! assert_eq!(body, Parabola::new(2.0, [-1.0, 1.0])?);
+//! let refused = read(r#"{"radius": 0.0, "domain": [-1.0, 1.0]}"#).unwrap_err();
+//! assert_eq!(refused.to_string(), "the radius is 0.0: it must be finite and not zero");
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod convexity;
 mod crowning;
@@ -35,6 +52,8 @@ mod piecewise;
 mod placed;
 mod rounded_punch;
 mod spline;
+#[cfg(feature = "serde")]
+mod stored;
 
 pub use convexity::Convexity;
 pub use crowning::Crowning;
@@ -58,7 +77,20 @@ use std::sync::Arc;
 use thiserror::Error;
 
 /// A point of a curve with the derivatives by the parameter.
+///
+/// ```
+/// use linecontact::{Curve, CurvePoint, ParametricProfile};
+///
+/// // A circle of radius 2 by its angle.
+/// let arc = Curve::new([-1.0, 1.0], |k: f64| {
+///     let (sin, cos) = k.sin_cos();
+///     CurvePoint { x: 2.0 * sin, y: 2.0 - 2.0 * cos, dx: 2.0 * cos, dy: 2.0 * sin }
+/// });
+/// let CurvePoint { dx, dy, .. } = arc.at(0.3);
+/// assert!((dy / dx - 0.3f64.tan()).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CurvePoint<T> {
     /// `X(k)`, along the contact.
     pub x: T,

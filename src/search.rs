@@ -83,6 +83,15 @@ pub trait LimitSearch<T: Real>: Send + Sync {
 }
 
 /// An interval over which a function changes its sign, with what is known beforehand.
+///
+/// ```
+/// use linecontact::search::{Bracket, LimitSearch, Newton};
+///
+/// let bracket = Bracket::new(1.0, 2.0).values(-1.0, 2.0).guess(1.4);
+/// let root = Newton::DEFAULT.find_with_slope(&mut |x: f64| (x * x - 2.0, 2.0 * x), &bracket)?;
+/// assert!((root.x - 2.0f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), linecontact::search::SearchError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bracket<T> {
     /// Lower end.
@@ -127,7 +136,21 @@ pub struct Root<T> {
 }
 
 /// When a search stops. The default asks for all that the number type can give.
+///
+/// ```
+/// use linecontact::search::{Bisection, Bracket, LimitSearch, StoppingCriteria};
+///
+/// let loose = Bisection { tolerance: StoppingCriteria::relative(1e-3) };
+/// let root = loose.find(&mut |x: f64| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
+/// assert!((root.x / 2.0f64.sqrt() - 1.0).abs() < 1e-3 && root.evaluations < 15);
+/// # Ok::<(), linecontact::search::SearchError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct StoppingCriteria {
     /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
     pub absolute: f64,

@@ -3,22 +3,39 @@
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
-use crate::{ContactError, Interval, Real};
+use crate::{Interval, Real};
 use std::sync::Arc;
+
+// In the order in which the questions show in the documentation.
+mod limits;
+
+mod pressure;
+
+mod peak;
+
+mod region;
+
+mod quality;
+
+mod steepness;
+
+mod summary;
+
+mod moment;
+
+mod load_rates;
+
+mod gap_outside;
+
+mod residual;
+
+pub mod stress;
 
 mod certificate;
 mod contact_state;
-mod gap_outside;
-mod load_rates;
-mod moment;
-mod peak;
-mod pressure;
+mod display;
 mod pressure_integral;
-mod region;
 mod report;
-mod residual;
-mod steepness;
-pub mod stress;
 
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
@@ -30,6 +47,7 @@ pub use pressure::Pressure;
 pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
 pub use steepness::STEEPEST_HALF_PLANE;
+pub use summary::Summary;
 
 /// A solved contact: its limits, and on request its pressure.
 ///
@@ -40,6 +58,19 @@ pub use steepness::STEEPEST_HALF_PLANE;
 /// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
 /// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
 /// cheap.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// println!("{solution}"); // [-0.2, 0.2], and more
+/// assert!((solution.hull().half_width() / 0.2 - 1.0).abs() < 1e-14); // L² = 2 F R/κ
+/// let largest = solution.peak()?.pressure;
+/// assert!((largest / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2 F/(π L)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone)]
 pub struct Solution<'b, T: Real> {
     gap: Gap<'b, T>,
@@ -61,89 +92,6 @@ impl<'b, T: Real> Solution<'b, T> {
         report: Report,
     ) -> Self {
         Self { gap, integrator, kappa, found, cost, report }
-    }
-
-    /// The limit `a`.
-    pub fn a(&self) -> T {
-        self.found.interval.right
-    }
-
-    /// The limit `b`; the contact runs from `-b`, so `b` is negative where the whole contact
-    /// lies at positive `x`.
-    pub fn b(&self) -> T {
-        -self.found.interval.left
-    }
-
-    /// From the first limit to the last, `[-b, a]`: the contact, if it is one.
-    pub fn hull(&self) -> Interval<T> {
-        self.found.interval
-    }
-
-    /// The intervals in which the bodies touch, from left to right.
-    pub fn intervals(&self) -> &[Interval<T>] {
-        self.several().map(Several::contacts).unwrap_or(std::slice::from_ref(&self.found.interval))
-    }
-
-    /// Load per unit length F, of all contacts.
-    pub fn load(&self) -> T {
-        self.found.load
-    }
-
-    /// The tilt τ, an angle: by how much body 2 has been turned counter-clockwise (or body 1 clockwise) for the
-    /// load to act where [`Control::Moment`](crate::Control::Moment) or
-    /// [`Control::CentreOfPressure`](crate::Control::CentreOfPressure) has it; 0 with all other controls.
-    ///
-    /// The angle is small: the slope of the gap is larger by τ, its height at x by τ x. All that is asked of
-    /// the solution is answered for the turned bodies, rates at a fixed tilt.
-    pub fn tilt(&self) -> T {
-        self.found.tilt
-    }
-
-    /// Estimated error of the limits, relative to the half-width, where they were sought: what
-    /// rounding, the noise of the profiles' formulas and the quadrature leave open of the
-    /// conditions at the edges. `None` where both limits were given.
-    ///
-    /// It is a few units in the last place where the slope of the gap is analytic between the
-    /// breakpoints. Much more says that a profile is noisy or has a kink not declared as a breakpoint.
-    pub fn limits_error(&self) -> Option<T> {
-        self.found.error
-    }
-
-    /// `[K_b, K_a]`, the strengths of the singularities at -b and at a, pressures: near `a`,
-    /// `P ≈ K_a/sin θ` with `x = c + L cos θ`. Zero to rounding for free edges; at a fixed edge
-    /// a negative strength means that the body lifts off there. Of several contacts these are the
-    /// outermost limits, c and L those of the contact there.
-    pub fn edge_singularities(&self) -> [T; 2] {
-        self.found.strengths
-    }
-
-    /// Proves that this is a contact, and not only a solution of the equations: no tension inside, and
-    /// no overlap on either side up to the ends of the bodies. For that the gap is sampled anew, all of
-    /// it: see [`Certificate`] for what is proved, and what it takes.
-    ///
-    /// A body ends at a sharp corner ([`Edge::Fixed`](crate::Edge::Fixed),
-    /// [`Edge::FreeUntil`](crate::Edge::FreeUntil)), however far its curve goes on. Between adhesive edges the
-    /// bodies may pull at each other, and only the outside is looked at.
-    ///
-    /// # Errors
-    /// [`ContactError::FeatureMissed`] where the panels do not know of something in the contact;
-    /// [`ContactError::Unbalanced`] where its samples leave more at a free edge than
-    /// [`limits_error`](Self::limits_error) stands for; [`ContactError::Profile`] for heights that are not finite;
-    /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
-    /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
-    pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found, &**self.integrator)
-    }
-
-    /// What finding the limits has cost, the pressures that [`Control::PeakPressure`](crate::Control::PeakPressure) takes
-    /// for it included.
-    pub fn cost(&self) -> Cost {
-        self.cost
-    }
-
-    /// The starts that the solve has tried, and what the checks say of the solution.
-    pub fn report(&self) -> &Report {
-        &self.report
     }
 
     /// The contact in which a place lies.

@@ -11,7 +11,25 @@ use crate::{ContactError, Interval, Real};
 /// then ends in a small negative singularity. And the paper's quadrature needs some segments
 /// between the two: a distance below a segment's width 2L/N gains nothing.
 /// [`Edge::Free`](crate::Edge::Free) has neither flaw, and costs a twentieth or less.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, EdgePressure, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?.edge_pressure(EdgePressure::zero(1e-3, 1e-9));
+/// let solution = contact.solve(Control::Load(0.02))?;
+/// // 2 ε_a + sqrt(L² + 2 ε_a²) with L = 0.2, the half-width between free edges
+/// let exact = 2e-3 + (0.04f64 + 2e-6).sqrt();
+/// assert!((solution.a() / exact - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct EdgePressure<T> {
     /// A, the pressure wanted at `a - ε_a`; a pressure.
     pub at_a: T,

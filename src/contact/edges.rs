@@ -4,7 +4,24 @@ use crate::quadrature::Moments;
 use crate::{Interval, Real};
 
 /// What becomes of one edge of the contact.
+///
+/// ```
+/// use linecontact::{Contact, Control, Edge, Flat};
+///
+/// // A flat punch from -1 to 1.
+/// let contact = Contact::new(&Flat, &Flat)?.edges(Edge::Fixed(-1.0f64), Edge::Fixed(1.0));
+/// let solution = contact.solve(Control::Load(0.3))?;
+/// // F/(π sqrt(1 - x²))
+/// let exact = 0.3 / (0.8 * std::f64::consts::PI);
+/// assert!((solution.pressure()?.at(0.6)? / exact - 1.0).abs() < 1e-14);
+/// # Ok::<(), linecontact::ContactError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum Edge<T> {
     /// A smooth body: the limit is where the pressure ends at zero.
     Free,

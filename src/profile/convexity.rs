@@ -7,7 +7,19 @@ use crate::Real;
 /// Where the upper body is convex and the lower one concave (each may be straight) the gap between them is
 /// convex, and so they touch in one interval: the solver then takes no heights to look for others. A wrong
 /// word is found out by [`Solution::certify`](crate::Solution::certify).
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Convexity, ParametricProfile};
+///
+/// let (lower, upper) = (Parabola::new(-3.0f64, [-1.0, 1.0])?, Parabola::new(1.5, [-1.0, 1.0])?);
+/// assert_eq!([&lower, &upper].map(|body| body.convexity()), [Convexity::Concave, Convexity::Convex]);
+/// let solution = Contact::new(&lower, &upper)?.solve(Control::Load(0.02))?;
+/// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-14); // sqrt(2 F R/κ) with 1/R = 1/3 + 1/1.5
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Convexity {
     /// Nothing is known: the solver looks.
     #[default]

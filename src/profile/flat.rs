@@ -5,7 +5,18 @@ use crate::Real;
 
 /// A flat surface, `Y = 0`, as long as the number type allows. Costs nothing: its slope is
 /// known everywhere, so nothing is inverted or evaluated for it.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-14); // sqrt(2 F R/κ)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flat;
 
 impl<T: Real> ParametricProfile<T> for Flat {

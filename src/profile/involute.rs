@@ -34,10 +34,18 @@ use crate::numerics::special_functions::sin_minus_cos;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Involute<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Involute<T> {
     base_radius: T,
     origin: T,
-    domain: [T; 2],
+    angles: [T; 2],
 }
 
 impl<T: Real> Involute<T> {
@@ -56,13 +64,13 @@ impl<T: Real> Involute<T> {
             let must = "not negative and within a quarter of a turn of that at the origin";
             finite("a roll angle", angle, rolled, must)?;
         }
-        Ok(Self { base_radius, origin, domain: angles.map(|angle| angle - origin) })
+        Ok(Self { base_radius, origin, angles })
     }
 }
 
 impl<T: Real> ParametricProfile<T> for Involute<T> {
     fn domain(&self) -> [T; 2] {
-        self.domain
+        self.angles.map(|angle| angle - self.origin)
     }
 
     fn convexity(&self) -> Convexity {

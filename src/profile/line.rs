@@ -16,6 +16,14 @@ use crate::Real;
 /// # Ok::<(), linecontact::ProfileError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Line<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Line<T> {
     slope: T,
     domain: [T; 2],

@@ -19,7 +19,19 @@ use crate::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Parabola<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Parabola<T> {
+    /// R; `None` where the curvature is zero.
+    radius: Option<T>,
+    /// 1/R.
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     curvature: T,
     domain: [T; 2],
 }
@@ -32,12 +44,12 @@ impl<T: Real> Parabola<T> {
     pub fn new(radius: T, domain: [T; 2]) -> Result<Self, ProfileError<T>> {
         let fits = radius.is_finite() && radius.recip().is_finite();
         finite("the radius", radius, fits, "finite and not zero")?;
-        Self::of_curvature(radius.recip(), domain)
+        Ok(Self { radius: Some(radius), curvature: radius.recip(), domain: interval(domain)? })
     }
 
-    /// The same by its curvature, which may be zero.
-    pub(super) fn of_curvature(curvature: T, domain: [T; 2]) -> Result<Self, ProfileError<T>> {
-        Ok(Self { curvature, domain: interval(domain)? })
+    /// The limit of a large radius: a straight line.
+    pub(super) fn straight(domain: [T; 2]) -> Result<Self, ProfileError<T>> {
+        Ok(Self { radius: None, curvature: T::zero(), domain: interval(domain)? })
     }
 }
 

@@ -17,25 +17,42 @@ use thiserror::Error;
 /// Pieces of different types go in as `Box<dyn ParametricProfile<T>>`.
 ///
 /// ```
-/// use linecontact::{Curve, CurvePoint, Piecewise};
+/// use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Piecewise};
+/// use std::f64::consts::PI;
 ///
 /// // A wedge, blunt on the left.
 /// let face = |slope: f64| move |k: f64| CurvePoint { x: k, y: slope * k, dx: 1.0, dy: slope };
 /// let wedge = Piecewise::new(vec![
 ///     Curve::new([-1.0, 0.0], face(-0.1)),
 ///     Curve::new([0.0, 1.0], face(0.4)),
-/// ]);
-/// # // Two closures of one expression have one type.
-/// assert!(wedge.is_ok());
+/// ])?;
+/// let solution = Contact::new(&Flat, &wedge)?.solve(Control::Load(0.02))?;
+/// // The tip lies where the slopes balance, at θ = π/5; L = 2 π F/(κ sin θ).
+/// let exact = 0.04 * PI / (0.2 * PI).sin();
+/// assert!((solution.hull().half_width() / exact - 1.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Piecewise<T, P>",
+        bound(
+            deserialize = "T: Real + serde::Deserialize<'de>, P: ParametricProfile<T> + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
     tolerance: T,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     /// `k` and the curve at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     /// The smooth pieces: part, and piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
     convexity: Convexity,
 }
 

@@ -24,11 +24,19 @@ use crate::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct Placement<T> {
     /// `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::matrix"))]
     matrix: [[T; 2]; 2],
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::shift"))]
     shift: [T; 2],
     /// The first step that cannot be done, and its value.
+    #[cfg_attr(feature = "serde", serde(skip))]
     fault: Option<(&'static str, T)>,
 }
 
@@ -123,6 +131,16 @@ impl<T: Real> Placement<T> {
 /// # Ok::<(), linecontact::ProfileError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "super::stored::Placed<T, P>",
+        bound(
+            deserialize = "T: Real + serde::Deserialize<'de>, P: ParametricProfile<T> + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Placed<T, P> {
     curve: P,
     placement: Placement<T>,

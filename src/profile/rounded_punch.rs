@@ -41,7 +41,7 @@ pub fn rounded_punch<T: Real>(flat: T, radius: T, reach: T) -> Result<Parts<T>, 
     };
     Piecewise::new(vec![
         part(0, Parabola::new(radius, [-edge, zero]), -flat)?,
-        part(1, Parabola::of_curvature(zero, [-flat, flat]), zero)?,
+        part(1, Parabola::straight([-flat, flat]), zero)?,
         part(2, Parabola::new(radius, [zero, edge]), flat)?,
     ])
 }

@@ -7,6 +7,8 @@
 mod points;
 mod slopes;
 mod smooth;
+#[cfg(feature = "serde")]
+mod stored;
 
 pub use points::SplineError;
 
@@ -27,6 +29,11 @@ use crate::Real;
 /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct Fit<T> {
     /// Standard deviation of the heights, in their own unit: what the measuring machine adds to
     /// them. Of all curves that are off the points by this much (root of the mean square) the
@@ -71,12 +78,21 @@ impl<T: Real> Default for Fit<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "stored::Spline<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
 }
 
 /// The spline between two knots.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Cubic<T> {
     x: [T; 2],
     /// Of `Y` by the distance from the left knot, the constant first.
@@ -95,6 +111,18 @@ impl<T: Real> Spline<T> {
     }
 
     /// The spline through the points, or near them.
+    ///
+    /// ```
+    /// use linecontact::profile::{Fit, Spline};
+    /// use linecontact::{Contact, Control, Flat};
+    ///
+    /// let points = (-40..=40).map(|i| 0.025 * f64::from(i)).map(|x| [x, x * x / 2.0]);
+    /// let points: Vec<[f64; 2]> = points.collect();
+    /// let body = Spline::fitted(&points, Fit { noise: 1e-7, ..Fit::default() })?;
+    /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+    /// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-4); // of the parabola, sqrt(2 F R/κ)
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`SplineError`], with the row of the point at fault.

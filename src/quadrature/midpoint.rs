@@ -37,7 +37,24 @@ use std::any::Any;
 use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat, Midpoint};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?.quadrature(&Midpoint::DEFAULT);
+/// let solution = contact.solve(Control::Load(0.02))?;
+/// let exact = 0.04 / (0.2 * std::f64::consts::PI); // 2 F/(π L)
+/// assert!((solution.pressure()?.at(0.0)? / exact - 1.0).abs() < 1e-11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Midpoint {
     /// N, the segments of the coarsest level; each level has twice those of the one before.
     pub segments: usize,
@@ -50,6 +67,7 @@ pub struct Midpoint {
 
 /// The powers of the segment width in which the error expands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exponents {
     /// 2, 4, 6, ...: as the paper has it; right where `sqrt(1 - t²) g` is smooth at the edges.
     Even,

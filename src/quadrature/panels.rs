@@ -71,7 +71,24 @@ pub(crate) fn nodes<T: Real>(
 }
 
 /// The default quadrature: panels.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat, Panels};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let coarse = Panels { tolerance: 1e-6 };
+/// let contact = Contact::new(&Flat, &body)?.quadrature(&coarse);
+/// let solution = contact.solve(Control::Load(0.02))?;
+/// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-6); // sqrt(2 F R/κ)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Panels {
     /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in
     /// the contact. Never taken below sixteen units in the last place, which is what the

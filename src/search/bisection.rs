@@ -6,6 +6,11 @@ use crate::Real;
 
 /// Halves the bracket: one bit of `x` for each evaluation, whatever the function.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Bisection {
     /// When to stop.
     pub tolerance: StoppingCriteria,

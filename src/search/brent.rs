@@ -9,6 +9,11 @@ use crate::Real;
 /// Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4, as
 /// implemented by the `roots` crate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Brent {
     /// When to stop.
     pub tolerance: StoppingCriteria,

@@ -18,6 +18,11 @@ use crate::Real;
 /// unit compared with `x`, or with a value at the rounding of both at the ends of the bracket.
 /// So is a value of that size that stays the same where the slope says that it should change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Newton {
     /// When to stop.
     pub tolerance: StoppingCriteria,

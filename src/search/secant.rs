@@ -7,6 +7,11 @@ use crate::Real;
 /// The secant method of the `roots` crate, kept inside the bracket: where it would step
 /// out, meets two equal values or crawls, the bracket is halved and it starts again.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Secant {
     /// When to stop.
     pub tolerance: StoppingCriteria,

@@ -38,7 +38,23 @@ const SHARE: f64 = 1.0 / 4096.0;
 /// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
 /// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
 /// wherever the slope of the gap is not a polynomial of low degree.
+///
+/// ```
+/// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+///
+/// let hollow = Curve::new([-1.0, 1.0], |k: f64| {
+///     let k2 = k * k;
+///     CurvePoint { x: k, y: k2 * (k2 / 4.0 - 0.05), dx: 1.0, dy: k * (k2 - 0.1) }
+/// });
+/// let solution = Contact::new(&Flat, &hollow)?.solve(Control::HalfWidth(0.6))?;
+/// let pressure = solution.certify()?.pressure.unwrap();
+/// // 2 κ L²/(π F) (L²/2 - 0.1) at x = 0
+/// let exact = 0.72 * 0.08 / (std::f64::consts::PI * solution.load());
+/// assert!((pressure.value / exact - 1.0).abs() < 1e-6);
+/// # Ok::<(), linecontact::ContactError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate<T> {
     /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
     /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
@@ -57,6 +73,7 @@ pub struct Certificate<T> {
 
 /// A place and a value there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremum<T> {
     /// Where.
     pub x: T,

@@ -22,7 +22,21 @@ use crate::{ContactError, Interval, Real, Solution};
 /// with θ from 0 to π. The limits of several contacts follow from their equations, linearised, and the
 /// pressure from theirs. It grows everywhere and all contacts widen (Buyarov and Rakhmanov, *Sb. Math.* 190,
 /// 1999, 791). Where contacts are born or merge the limits have no derivative.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let rates = solution.load_rates()?;
+/// assert!((rates.a / 5.0 - 1.0).abs() < 1e-14); // R/(κ L)
+/// let at_centre = 1.0 / (0.2 * std::f64::consts::PI); // 1/(π L)
+/// assert!((rates.pressure(0.0)? / at_centre - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LoadRates<T> {
     /// da/dF, length² per force; zero at a fixed edge.
     pub a: T,
@@ -30,6 +44,7 @@ pub struct LoadRates<T> {
     pub b: T,
     /// The same of all limits: how fast the left and the right one of each contact move in x.
     pub limits: Vec<[T; 2]>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     punch: Touching<T>,
 }
 

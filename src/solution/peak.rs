@@ -9,7 +9,20 @@ use crate::{ContactError, Interval, Real};
 const POINTS: usize = 64;
 
 /// A largest pressure.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let peak = solution.peak()?;
+/// assert!(peak.x.abs() < 1e-6);
+/// assert!((peak.pressure / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2 F/(π L)
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peak<T> {
     /// Where it is.
     pub x: T,

@@ -25,6 +25,19 @@ impl<T: Real> Solution<'_, T> {
 }
 
 /// The pressure over a contact.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let pressure = solution.pressure()?;
+/// // κ/(π R) sqrt(L² - x²)
+/// let exact = (0.04f64 - 0.01).sqrt() / std::f64::consts::PI;
+/// assert!((pressure.at(0.1)? / exact - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Pressure<'p, T: Real> {
     gap: &'p Gap<'p, T>,
     integrator: &'p dyn Integrator<T>,

@@ -5,7 +5,21 @@ use super::{Peak, Solution};
 use crate::{ContactError, Interval, Real};
 
 /// One of the intervals in which the bodies touch, and what acts there.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let contacts = solution.contacts()?;
+/// assert_eq!((contacts.len(), contacts[0].load), (1, 0.02));
+/// assert!((contacts[0].mean_pressure() / 0.05 - 1.0).abs() < 1e-14); // F/(2 L)
+/// assert!(contacts[0].centre_of_pressure()?.abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRegion<T> {
     /// From its left limit to its right one.
     pub interval: Interval<T>,

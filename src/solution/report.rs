@@ -7,7 +7,25 @@ use crate::Real;
 const MOST: usize = 12;
 
 /// The starts that a solve has tried, in their order, and what became of each.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat, Start, Trial, Verdict};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let report = solution.report();
+/// assert!(report.is_checked());
+/// // Bodies that bulge towards each other touch in one interval, and one start is enough.
+/// assert_eq!(report.trials(), [Trial { start: Start::Middle, verdict: Verdict::Passed }]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "Vec<Trial>", into = "Vec<Trial>")
+)]
 pub struct Report {
     trials: [Trial; MOST],
     count: usize,
@@ -15,6 +33,7 @@ pub struct Report {
 
 /// One start, and what became of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trial {
     /// Where the contacts were sought.
     pub start: Start,
@@ -25,6 +44,7 @@ pub struct Trial {
 /// Where contacts were sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Start {
     /// From the middle of the bodies towards their lowest gap: they say that they bulge towards each other, or
     /// [a single interval](crate::Contact::single_interval) was asked for.
@@ -46,6 +66,7 @@ pub enum Start {
 /// What became of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Verdict {
     /// It is the contact: the pressure is nowhere negative and the bodies do not overlap, as far as they
     /// were looked at. Bodies that [bulge](crate::profile::Convexity) towards each other need no look.
@@ -98,5 +119,21 @@ impl Report {
     #[must_use]
     pub fn is_checked(&self) -> bool {
         self.trials().last().is_some_and(|trial| trial.verdict == Verdict::Passed)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Vec<Trial>> for Report {
+    fn from(trials: Vec<Trial>) -> Self {
+        let mut report = Self::new();
+        trials.into_iter().for_each(|Trial { start, verdict }| report.add(start, verdict));
+        report
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Report> for Vec<Trial> {
+    fn from(report: Report) -> Self {
+        report.trials().to_vec()
     }
 }

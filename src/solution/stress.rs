@@ -52,7 +52,17 @@ use crate::gap::Sampler;
 use crate::{ContactError, Interval, Real, Solution};
 
 /// Stress in plane strain: a pressure; tension is positive.
+///
+/// ```
+/// use linecontact::stress::Stress;
+///
+/// let pure_shear = Stress { sigma_x: 0.0f64, sigma_y: 0.0, tau_xy: 2.0 };
+/// assert_eq!(pure_shear.principal(), [2.0, -2.0]);
+/// assert!((pure_shear.von_mises(0.3)? - 2.0 * 3.0f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), linecontact::ContactError<f64>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stress<T> {
     /// σ_x, along the surface.
     pub sigma_x: T,
@@ -108,6 +118,19 @@ fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
 }
 
 /// The stress below a contact: [`Solution::subsurface`].
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Contact, Control, Flat};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
+/// let stress = solution.subsurface()?.at(0.0, 0.2)?;
+/// // On the axis σ_y = -p₀ L/sqrt(L² + y²), here with y = L.
+/// let largest = solution.peak()?.pressure;
+/// assert!((stress.sigma_y / (-largest / 2.0f64.sqrt()) - 1.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Subsurface<'p, T: Real> {
     solution: &'p Solution<'p, T>,
     integrals: Integrals<'p, T>,
@@ -116,6 +139,7 @@ pub struct Subsurface<'p, T: Real> {
 
 /// A largest stress and its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StressPeak<T> {
     /// Abscissa.
     pub x: T,

@@ -1,4 +1,4 @@
-//! What comes with the features `autodiff` and `rayon`.
+//! What comes with the features `autodiff`, `rayon` and `serde`.
 #![allow(missing_docs)]
 
 #[path = "../common/mod.rs"]
@@ -11,4 +11,5 @@ mod formulas;
 mod autodiff;
 mod derivatives;
 mod derivatives_several;
+mod files;
 mod sweep;

@@ -22,6 +22,7 @@ mod check_derivatives;
 mod closed_forms;
 mod closed_forms_solved;
 mod corners;
+mod display;
 mod doubts;
 mod edges;
 mod errors;

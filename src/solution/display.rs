@@ -1,0 +1,120 @@
+//! Results as lines to be read.
+
+use super::stress::Stress;
+use super::{Certificate, Extremum, Peak, Solution};
+use crate::{ContactError, Estimate, Interval, Real};
+use std::fmt::{Display, Formatter, Result};
+
+/// Digits shown unless a precision says how many.
+const DIGITS: usize = 6;
+
+/// A number with so many digits that count, trailing zeros left out.
+struct Rounded(f64, usize);
+
+impl Display for Rounded {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let Self(value, digits) = *self;
+        let rounded = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
+        let size: f64 = rounded.abs();
+        if size != 0.0 && !(1e-3..1e6).contains(&size) && size.is_finite() {
+            write!(f, "{rounded:e}")
+        } else {
+            write!(f, "{rounded}")
+        }
+    }
+}
+
+fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
+    Rounded(value.to_subset_unchecked(), f.precision().unwrap_or(DIGITS))
+}
+
+fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
+    let [left, right] = [on.left, on.right].map(|x| rounded(x, f));
+    write!(f, "[{left}, {right}]")
+}
+
+/// Contacts, load, largest pressure and quality in three lines, with six digits; a precision (`{:.3}`)
+/// is another number of digits.
+impl<T: Real> Display for Solution<'_, T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let contacts = self.intervals();
+        match contacts.len() {
+            1 => f.write_str("contact ")?,
+            several => write!(f, "{several} contacts ")?,
+        }
+        for (i, on) in contacts.iter().enumerate() {
+            f.write_str(if i > 0 { ", " } else { "" })?;
+            interval(on, f)?;
+        }
+        write!(f, "\nload {}", rounded(self.load(), f))?;
+        if !self.tilt().is_zero() {
+            write!(f, ", tilt {}", rounded(self.tilt(), f))?;
+        }
+        match self.peak() {
+            Ok(peak) => {
+                f.write_str(", largest pressure ")?;
+                peak.fmt(f)?;
+            }
+            Err(ContactError::Singular { x }) => {
+                write!(f, ", pressure infinite at x = {}", rounded(x, f))?;
+            }
+            Err(_) => f.write_str(", largest pressure not found")?,
+        }
+        match self.limits_error() {
+            Some(error) => {
+                let error = Rounded(error.to_subset_unchecked(), 2);
+                write!(f, "\nlimits to {error} of the half-width, ")?;
+            }
+            None => f.write_str("\nlimits given, ")?,
+        }
+        f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })
+    }
+}
+
+impl<T: Real> Display for Peak<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        write!(f, "{} at x = {}", rounded(self.pressure, f), rounded(self.x, f))
+    }
+}
+
+impl<T: Real> Display for Extremum<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        write!(f, "{} at x = {}", rounded(self.value, f), rounded(self.x, f))
+    }
+}
+
+/// The value with all its digits, and its error with two; a precision is that of the value.
+impl<T: Real> Display for Estimate<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let [value, error] = [self.value, self.error].map(|number| number.to_subset_unchecked());
+        let digits = f.precision().unwrap_or(17);
+        write!(f, "{} ± {}", Rounded(value, digits), Rounded(error, 2))
+    }
+}
+
+/// What is proved, and by what, in a line.
+impl<T: Real> Display for Certificate<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str("no tension")?;
+        if let Some(pressure) = &self.pressure {
+            f.write_str(" (least ratio ")?;
+            pressure.fmt(f)?;
+            f.write_str(")")?;
+        }
+        f.write_str(", no overlap")?;
+        if let Some(gap) = &self.gap {
+            f.write_str(" (least gap ")?;
+            gap.fmt(f)?;
+            f.write_str(")")?;
+        }
+        write!(f, ", in cells of {}: {}", rounded(self.spacing, f), self.cost)
+    }
+}
+
+impl<T: Real> Display for Stress<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let [along, across, shear] = [self.sigma_x, self.sigma_y, self.tau_xy];
+        let [along, across, shear] = [along, across, shear].map(|stress| rounded(stress, f));
+        write!(f, "σ_x = {along}, σ_y = {across}, τ_xy = {shear}")
+    }
+}

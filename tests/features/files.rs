@@ -1,0 +1,270 @@
+//! Bodies, settings and results through JSON and back: the same, or refused as by the constructor.
+#![allow(missing_docs)]
+
+use linecontact::profile::{
+    Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
+    wedge,
+};
+use linecontact::search::{Bisection, Brent, Newton, Secant, StoppingCriteria};
+use linecontact::{
+    Contact, Control, Convexity, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
+    Interval, Midpoint, Panels, ParametricProfile, Piecewise, Report, Solution, Summary,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+
+fn there_and_back<V: Serialize + DeserializeOwned>(value: &V) -> V {
+    serde_json::from_str(&serde_json::to_string(value).unwrap()).unwrap()
+}
+
+fn is_kept<V: Serialize + DeserializeOwned + PartialEq + Debug>(value: V) {
+    assert_eq!(there_and_back(&value), value);
+}
+
+/// The same points, bit for bit.
+fn is_the_same_body<P: ParametricProfile<f64> + Serialize + DeserializeOwned>(body: &P) {
+    let read = there_and_back(body);
+    assert_eq!((read.domain(), read.pieces()), (body.domain(), body.pieces()));
+    assert_eq!(read.convexity(), body.convexity());
+    let [from, to] = body.domain();
+    for i in 0..=50 {
+        let k = from + (to - from) * f64::from(i) / 50.0;
+        assert_eq!(read.at(k), body.at(k));
+        assert_eq!(read.slope_at(k), body.slope_at(k));
+    }
+}
+
+#[test]
+fn bodies_are_kept() {
+    is_kept(Flat);
+    is_kept(Parabola::new(3.0f64, [-1.0, 2.0]).unwrap());
+    is_kept(Parabola::new(0.1f32, [-1.0, 2.0]).unwrap());
+    is_kept(Ellipse::new(3.0f64, -0.7, [-1.1, 1.2]).unwrap());
+    is_kept(Line::new(-0.3f64, [0.0, 0.1]).unwrap());
+    is_kept(Involute::new(50.0f64, 0.4, [0.1, 0.7]).unwrap());
+    is_kept(Crowning::new(0.01f64, 5.0, [-5.0, 4.9]).unwrap());
+    let placement = Placement::default().rotated(0.3).scaled(-1.7).mirrored().shifted(0.1, 1e-7);
+    is_kept(placement);
+    is_kept(Placed::new(Parabola::new(3.0f64, [-0.1, 0.2]).unwrap(), placement).unwrap());
+
+    is_the_same_body(&Involute::new(50.0, 0.4, [0.1, 0.7]).unwrap());
+    is_the_same_body(&wedge([-0.1, 0.3], 0.7).unwrap());
+    is_the_same_body(&rounded_punch(0.3, 0.7, 1.1).unwrap());
+    let turned = wedge([-0.1, 0.3], 0.7).unwrap().placed(placement).unwrap();
+    is_the_same_body(&turned);
+
+    let noise = |i: i32| 1e-4 * f64::from(i * i % 7);
+    let points: Vec<_> = (-9..=9).map(|i| 0.13 * f64::from(i)).map(|x| [x, x.cos()]).collect();
+    is_the_same_body(&Spline::through(&points).unwrap());
+    let rough: Vec<_> = (0..19).map(|i| [points[i][0], points[i][1] + noise(i as i32)]).collect();
+    let fit = Fit { noise: 1e-4, outliers: None };
+    is_the_same_body(&Spline::fitted(&rough, fit).unwrap());
+    let level: Vec<_> = points.iter().map(|point| [point[0], 0.0]).collect();
+    is_the_same_body(&Spline::through(&level).unwrap());
+}
+
+#[test]
+fn bodies_are_what_a_user_writes() {
+    let read: Parabola<f64> = serde_json::from_str(r#"{"radius": 2, "domain": [-1, 1]}"#).unwrap();
+    assert_eq!(read, Parabola::new(2.0, [-1.0, 1.0]).unwrap());
+    let placed = r#"{
+        "curve": {"along": 10, "across": 10, "angles": [-1.4, 1.4]},
+        "placement": {"matrix": [[1, 0], [0, 1]], "shift": [3, 0]}
+    }"#;
+    let read: Placed<f64, Ellipse<f64>> = serde_json::from_str(placed).unwrap();
+    let circle = Ellipse::circle(10.0, [-1.4, 1.4]).unwrap();
+    assert_eq!(read, Placed::new(circle, Placement::default().shifted(3.0, 0.0)).unwrap());
+}
+
+/// What is said of text that is no `V`.
+fn refusal<V: DeserializeOwned>(json: &str) -> String {
+    match serde_json::from_str::<V>(json) {
+        Ok(_) => panic!("{json} was taken"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn bad_bodies_are_refused_as_by_their_constructors() {
+    let radius = refusal::<Parabola<f64>>(r#"{"radius": 0.0, "domain": [-1.0, 1.0]}"#);
+    let by_constructor = Parabola::new(0.0f64, [-1.0, 1.0]).unwrap_err();
+    assert_eq!(radius, by_constructor.to_string());
+    assert!(radius.contains("the radius is 0.0"), "{radius}");
+
+    let base = r#"{"base_radius": -1.0, "origin": 0.4, "angles": [0.0, 0.8]}"#;
+    let placed = |matrix: &str, shift: &str| {
+        let curve = r#"{"slope": 0.1, "domain": [-1.0, 1.0]}"#;
+        let json = format!(
+            r#"{{"curve": {curve}, "placement": {{"matrix": {matrix}, "shift": {shift}}}}}"#
+        );
+        refusal::<Placed<f64, Line<f64>>>(&json)
+    };
+    let joined = |parts: &str, tolerance: f64| {
+        refusal::<Piecewise<f64, Line<f64>>>(&format!(
+            r#"{{"parts": [{parts}], "tolerance": {tolerance}}}"#
+        ))
+    };
+    let [left, right] = ["[-1.0, 0.0]", "[0.5, 1.0]"]
+        .map(|domain| format!(r#"{{"slope": 0.1, "domain": {domain}}}"#));
+    let backwards = r#"{"slope": 0.1, "domain": [1.0, 0.0]}"#;
+    let said = [
+        (refusal::<Involute<f64>>(base), "the base radius is -1.0"),
+        (
+            refusal::<Parabola<f64>>(r#"{"radius": 1.0, "domain": [1.0, 1.0]}"#),
+            "k cannot run from 1.0 to 1.0",
+        ),
+        (refusal::<Parabola<f64>>(r#"{"domain": [-1.0, 1.0]}"#), "missing field `radius`"),
+        (refusal::<Parabola<f64>>(r#"{"radius": 1.0, "domian": [-1.0, 1.0]}"#), "`domian`"),
+        (
+            refusal::<Ellipse<f64>>(r#"{"along": 1.0, "across": 0.0, "angles": [-1.0, 1.0]}"#),
+            "the semi-axis across it is 0.0",
+        ),
+        (
+            refusal::<Crowning<f64>>(
+                r#"{"depth": 0.1, "half_length": 1.0, "domain": [-1.0, 1.5]}"#,
+            ),
+            "an end is 1.5",
+        ),
+        (refusal::<Line<f64>>(r#"{"slope": null, "domain": [-1.0, 1.5]}"#), "null"),
+        (placed("[[0.0, 0.0], [0.0, 0.0]]", "[0.0, 0.0]"), "all factors of a placement is 0.0"),
+        (placed("[[1.0, 0.0], [0.5, 1.0]]", "[0.0, 0.0]"), "between the rows of a placement"),
+        (placed("[[1.0, 0.0], [0.0, 2.0]]", "[0.0, 0.0]"), "the two factors of a placement"),
+        (placed("[[1.0, 0.0], [0.0, 1.0]]", "[0.0, null]"), "null"),
+        (joined("", 0.0), "at least one piece"),
+        (joined(&format!("{left}, {right}"), 1e-12), "gap of 0.5 at breakpoint 0"),
+        (joined(&left, -1.0), "-1.0 is no tolerance"),
+        (joined(&format!("{left}, {backwards}"), 1e-12), "k cannot run from 1.0 to 0.0"),
+    ];
+    for (message, expected) in said {
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn splines_that_are_none_are_refused() {
+    let cubic = |from: i32, height: f64, slope: f64| {
+        format!(r#"{{"x": [{from}, {}], "coefficients": [{height}, {slope}, 0, 0]}}"#, from + 1)
+    };
+    let spline = |cubics: &[String]| format!(r#"{{"cubics": [{}]}}"#, cubics.join(", "));
+    let line = [cubic(0, 0.0, 1.0), cubic(1, 1.0, 1.0), cubic(2, 2.0, 1.0)];
+    let read: Spline<f64> = serde_json::from_str(&spline(&line)).unwrap();
+    assert_eq!(read.y(2.5), 2.5);
+
+    let with = |i: usize, other: String| {
+        let mut cubics = line.clone();
+        cubics[i] = other;
+        refusal::<Spline<f64>>(&spline(&cubics))
+    };
+    let said = [
+        (refusal::<Spline<f64>>(&spline(&[])), "0 points"),
+        (refusal::<Spline<f64>>(&spline(&line[..2])), "3 points"),
+        (with(1, cubic(1, 1.5, 1.0)), "cubic 1"),
+        (with(2, cubic(2, 2.0, 0.5)), "cubic 2"),
+        (with(2, cubic(3, 2.0, 1.0)), "cubic 2"),
+        (with(0, cubic(5, 0.0, 1.0)), "row 2: x = 1.0 after 5.0"),
+        (with(2, cubic(2, 2.0, 1e308)), "cubic 2"),
+        (with(2, r#"{"x": [2, 1e300], "coefficients": [2, 1, 0, 1e300]}"#.into()), "row 4"),
+    ];
+    for (message, expected) in said {
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn settings_are_kept_and_have_their_defaults() {
+    is_kept(StoppingCriteria { residual: 1e-3, ..StoppingCriteria::relative(0.1) });
+    is_kept(Bisection { tolerance: StoppingCriteria::relative(1e-3) });
+    is_kept(Panels { tolerance: 1e-7 });
+    is_kept(Midpoint { exponents: Exponents::Even, ..Midpoint::DEFAULT });
+    is_kept(Fit { noise: 0.1, outliers: None::<f64> });
+    is_kept(Edge::<f64>::Free);
+    is_kept(Edge::FreeUntil(0.3));
+    is_kept(EdgePressure::zero(0.1, 1e-3));
+    is_kept(Control::Load(0.02));
+    is_kept(Control::Moment { load: 1.0, moment: -0.1, about: 0.3 });
+    is_kept(Convexity::Concave);
+    is_kept(CurvePoint { x: 0.1, y: 0.2, dx: 0.3, dy: 0.4 });
+
+    let read = |json: &str| serde_json::from_str::<Newton>(json).unwrap();
+    assert_eq!(read("{}"), Newton::DEFAULT);
+    let loose = r#"{"tolerance": {"relative": 1e-6}}"#;
+    assert_eq!(read(loose), Newton { tolerance: StoppingCriteria::relative(1e-6) });
+    assert_eq!(serde_json::from_str::<Secant>("{}").unwrap(), Secant::DEFAULT);
+    assert_eq!(serde_json::from_str::<Brent>("{}").unwrap(), Brent::DEFAULT);
+    assert_eq!(serde_json::from_str::<Panels>("{}").unwrap(), Panels::FULL);
+    assert_eq!(serde_json::from_str::<Fit<f64>>("{}").unwrap(), Fit::default());
+    let coarse = Midpoint { segments: 32, ..Midpoint::DEFAULT };
+    assert_eq!(serde_json::from_str::<Midpoint>(r#"{"segments": 32}"#).unwrap(), coarse);
+    assert!(refusal::<Panels>(r#"{"tolerence": 0.1}"#).contains("`tolerence`"));
+    assert!(refusal::<Control<f64>>(r#"{"Lode": 0.1}"#).contains("`Lode`"));
+    assert!(refusal::<Control<f64>>(r#"{"Load": null}"#).contains("null"));
+}
+
+fn bumps() -> Solution<'static, f64> {
+    let body = Curve::new([-2.0, 2.0], |k: f64| {
+        let k2 = k * k;
+        CurvePoint { x: k, y: k2 * (k2 - 2.0), dx: 1.0, dy: 4.0 * k * (k2 - 1.0) }
+    });
+    let contact = Contact::owned(std::sync::Arc::new(Flat), std::sync::Arc::new(body)).unwrap();
+    contact.solve(Control::Load(0.5)).unwrap()
+}
+
+#[test]
+fn results_are_kept() {
+    let solution = bumps();
+    assert_eq!(solution.intervals().len(), 2);
+    is_kept(solution.intervals().to_vec());
+    is_kept(solution.hull());
+    is_kept(solution.cost());
+    is_kept(*solution.report());
+    is_kept(solution.peak().unwrap());
+    is_kept(solution.contacts().unwrap());
+    is_kept(solution.certify().unwrap());
+    is_kept(Estimate { value: 0.1, error: 1e-17 });
+    let below = solution.subsurface().unwrap();
+    is_kept(below.at(0.9, 0.1).unwrap());
+    is_kept(below.max_shear().unwrap());
+    is_kept(solution.summary().unwrap());
+
+    let rates = solution.load_rates().unwrap();
+    let written = serde_json::to_value(&rates).unwrap();
+    assert_eq!(written["a"], rates.a);
+    assert_eq!(written["limits"][1][0], rates.limits[1][0]);
+}
+
+#[test]
+fn a_report_reads_back_its_trials() {
+    let report = bumps().report().trials().to_vec();
+    let many: Vec<_> = report.iter().copied().cycle().take(30).collect();
+    let read: Report = serde_json::from_str(&serde_json::to_string(&many).unwrap()).unwrap();
+    // As many as a report keeps, and the last of them.
+    assert_eq!(read.trials().len(), 12);
+    assert_eq!(read.trials().last(), many.last());
+    let none: Report = serde_json::from_str("[]").unwrap();
+    assert!(none.trials().is_empty() && !none.is_checked());
+}
+
+#[test]
+fn a_summary_is_the_solution() {
+    let solution = bumps();
+    let row: Summary<f64> = there_and_back(&solution.summary().unwrap());
+    assert_eq!(row.intervals, solution.intervals());
+    assert_eq!(row.load, solution.load());
+    assert!((row.loads[0] - 0.25).abs() < 1e-13 && (row.loads[1] - 0.25).abs() < 1e-13);
+    assert_eq!(row.peak, solution.peak().ok());
+    assert_eq!(row.centre_of_pressure, solution.centre_of_pressure().ok());
+    assert_eq!(row.report, *solution.report());
+    assert_eq!((row.kappa, row.tilt, row.checked), (1.0, 0.0, true));
+
+    // A flat punch: both limits are given, and the pressure at them is infinite.
+    let contact = Contact::new(&Flat, &Flat).unwrap().edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+    let solution = contact.solve(Control::Load(0.5)).unwrap();
+    let row = solution.summary().unwrap();
+    assert_eq!((row.peak, row.limits_error), (None, None));
+    assert_eq!(row.intervals, [Interval { left: -1.0, right: 1.0 }]);
+    // P = F/(π sqrt(1 - x²))
+    let strength = 0.5 / std::f64::consts::PI;
+    assert!(row.edge_singularities.iter().all(|k| (k / strength - 1.0).abs() < 1e-15));
+    is_kept(row);
+}

@@ -1,0 +1,71 @@
+//! Results as text.
+#![allow(missing_docs)]
+
+use linecontact::profile::Parabola;
+use linecontact::stress::Stress;
+use linecontact::{
+    Contact, Control, Cost, Curve, CurvePoint, Edge, Estimate, Extremum, Flat, Interval, Peak,
+};
+
+#[test]
+fn intervals_and_numbers() {
+    let on = Interval { left: -0.2, right: 0.25 };
+    assert_eq!(on.to_string(), "[-0.2, 0.25]");
+    assert_eq!(format!("{on:.3} {on:.1e}"), "[-0.200, 0.250] [-2.0e-1, 2.5e-1]");
+    let cost = Cost { samples: 3, evaluations: 2, heights: 1 };
+    assert_eq!(cost.to_string(), "3 samples by 2 evaluations, and 1 for heights");
+    let estimate = Estimate { value: 0.1 + 0.2, error: 4.44e-17 };
+    assert_eq!(estimate.to_string(), "0.30000000000000004 ± 4.4e-17");
+    let peak = Peak { x: 0.0, pressure: 1234567.8f32 };
+    assert_eq!(format!("{peak} {peak:.2}"), "1.23457e6 at x = 0 1.2e6 at x = 0");
+    let least = Extremum { x: f64::INFINITY, value: 0.000_999_999_99 };
+    assert_eq!(least.to_string(), "0.001 at x = inf");
+    let stress = Stress { sigma_x: -1.0, sigma_y: -1.0 / 3.0, tau_xy: 1e-5 };
+    assert_eq!(stress.to_string(), "σ_x = -1, σ_y = -0.333333, τ_xy = 1e-5");
+}
+
+#[test]
+fn a_solution_in_three_lines() {
+    let body = Parabola::new(1.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let text = contact.solve(Control::HalfWidth(0.2)).unwrap().to_string();
+    let lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!(lines[0], "contact [-0.2, 0.2]");
+    // 2 F/(π L)
+    assert!(lines[1].starts_with("load 0.02, largest pressure 0.063662 at x = "), "{text}");
+    assert!(lines[2].ends_with(" of the half-width, checked"), "{text}");
+
+    let alone = contact.clone().single_interval(true).solve(Control::Load(0.02)).unwrap();
+    assert!(format!("{alone:.2}").contains("pressure 0.064 at"));
+    assert!(alone.to_string().ends_with(", not checked"));
+
+    let tilted = contact.solve(Control::CentreOfPressure { load: 0.02, at: 0.1 }).unwrap();
+    assert!(tilted.to_string().contains("load 0.02, tilt -0.1, largest"), "{tilted}");
+}
+
+#[test]
+fn several_contacts_and_given_limits() {
+    let bumps = Curve::new([-2.0, 2.0], |k: f64| {
+        let k2 = k * k;
+        CurvePoint { x: k, y: k2 * (k2 - 2.0), dx: 1.0, dy: 4.0 * k * (k2 - 1.0) }
+    });
+    let contact = Contact::new(&Flat, &bumps).unwrap();
+    let text = contact.solve(Control::Load(0.5)).unwrap().to_string();
+    assert!(text.starts_with("2 contacts [-1.") && text.contains("], [0."), "{text}");
+
+    let punch = Contact::new(&Flat, &Flat).unwrap().edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+    let text = punch.solve(Control::Load(0.3)).unwrap().to_string();
+    let expected = "contact [-1, 1]\nload 0.3, pressure infinite at x = 1\nlimits given, ";
+    assert!(text.starts_with(expected), "{text}");
+}
+
+#[test]
+fn a_certificate_in_a_line() {
+    let body = Parabola::new(1.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let certificate = contact.solve(Control::Load(0.02)).unwrap().certify().unwrap();
+    let text = certificate.to_string();
+    assert!(text.starts_with("no tension, no overlap, in cells of 4.88281e-4: "), "{text}");
+    assert!(text.ends_with(&certificate.cost.to_string()));
+}
