@@ -227,23 +227,27 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// The scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the paper's
     /// Eq. (3).
+    #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
         Self { kappa, kappa_is_default: false, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
     /// (1 - ν₂²)/E₂`: κ = π E*/2 (Johnson, *Contact Mechanics*, 1985, §4.2).
+    #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
         self.kappa(T::frac_pi_2() * modulus)
     }
 
     /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
+    #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
         Self { edges: [left, right], edge_pressure: None, ..self }
     }
 
     /// Edges where the pressure has given values at given distances from the limits: the paper's
     /// Eq. (6), in place of [`edges`](Self::edges), under a given load.
+    #[must_use]
     pub fn edge_pressure(self, wanted: EdgePressure<T>) -> Self {
         Self { edge_pressure: Some(wanted), ..self }
     }
@@ -251,23 +255,27 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Where the search for the limits starts. Without it, or where it is not on the bodies, at
     /// their lowest gap; or, where the bodies say that they [bulge](crate::Convexity) towards each other, in
     /// the middle of their common range.
+    #[must_use]
     pub fn start(self, interval: Interval<T>) -> Self {
         Self { start: Some(interval), ..self }
     }
 
     /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`].
+    #[must_use]
     pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
     /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both:
     /// `&Brent::DEFAULT`, say.
+    #[must_use]
     pub fn limit_search(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { search: Some(strategy), ..self }
     }
 
     /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
     /// that has solved with another takes up this one.
+    #[must_use]
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }
@@ -288,12 +296,14 @@ impl<'b, T: Real> Contact<'b, T> {
     /// assert!(matches!(error, ContactError::Cancelled { .. }));
     /// # Ok::<(), ContactError<f64>>(())
     /// ```
+    #[must_use]
     pub fn watch(self, watch: &'b (dyn Fn(Cost, Interval<T>) -> ControlFlow<()> + Sync)) -> Self {
         Self { gap: self.gap.with_watch(watch), ..self }
     }
 
     /// If true, `solve` also runs [`Solution::certify`], and fails with its errors. Default: false, since the
     /// certificate samples all of the bodies, which takes far longer than the contact itself.
+    #[must_use]
     pub fn certified(self, certified: bool) -> Self {
         Self { certified, ..self }
     }
@@ -302,6 +312,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// equations, with tension inside or overlap outside if that is what solves them, and
     /// [`Verdict::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
     /// or several.
+    #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }
     }

@@ -23,21 +23,25 @@ pub trait Real: RealField + Copy {
     const DERIVATIVE_ORDER: usize = 0;
 
     /// One of the [`COMPONENTS`](Self::COMPONENTS), as a number without derivatives. The first is the value.
+    #[must_use]
     fn component(self, _index: usize) -> Self {
         self
     }
 
     /// The number of this type nearest to `value`.
+    #[must_use]
     fn of(value: f64) -> Self {
         nalgebra::convert(value)
     }
 
     /// A count as a number of this type.
+    #[must_use]
     fn count(n: usize) -> Self {
         FromPrimitive::from_usize(n).unwrap_or_else(|| Self::of(n as f64))
     }
 
     /// Distance from 1 to the next larger number of this type.
+    #[must_use]
     fn epsilon() -> Self {
         Self::default_epsilon()
     }

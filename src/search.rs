@@ -112,11 +112,13 @@ impl<T: Real> Bracket<T> {
     }
 
     /// With the values of the function at `lo` and `hi`.
+    #[must_use]
     pub fn values(self, at_lo: T, at_hi: T) -> Self {
         Self { values: Some([at_lo, at_hi]), ..self }
     }
 
     /// With a first guess.
+    #[must_use]
     pub fn guess(self, x: T) -> Self {
         Self { guess: Some(x), ..self }
     }
@@ -171,6 +173,7 @@ impl StoppingCriteria {
         Self { absolute: 0.0, relative: 0.0, residual: 0.0, max_evaluations: 2200 };
 
     /// A relative error of `x`, the rest as by default.
+    #[must_use]
     pub const fn relative(relative: f64) -> Self {
         Self { relative, ..Self::FULL }
     }

@@ -47,6 +47,7 @@ pub struct Solver<T: Real> {
 
 impl<T: Real> Solver<T> {
     /// A solver that has not solved anything yet.
+    #[must_use]
     pub fn new() -> Self {
         Self { integrator: None, workspace: Workspace::new(), last: None }
     }

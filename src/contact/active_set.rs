@@ -480,7 +480,7 @@ impl<T: Real> ActiveSet<T> {
             all[i] = force;
             largest = largest.max(force.abs());
         }
-        self.potential = all.clone();
+        self.potential.clone_from(&all);
         self.matrix.of(&all, |_| true, &mut self.potential);
         let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
         [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);

@@ -22,10 +22,10 @@ const MOST_GROWTH: f64 = 4.0;
 
 /// Steps in a row that are cut short by the same gap, or end, before it is taken not to exist: one at a kink may
 /// be as narrow as rounding.
-const MOST_CUT: usize = 12;
+const MOST_CUT: i32 = 12;
 
 /// The same for a contact: what is left of it by then is less than a hundredth.
-const MOST_CUT_OF_A_CONTACT: usize = 4;
+const MOST_CUT_OF_A_CONTACT: i32 = 4;
 
 /// How Newton's method ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl<T: Real> NewtonSeveral<T> {
         let mut turned = gap.tilted(self.tilt);
         let (one, half) = (T::one(), T::of(0.5));
         let mut before: Option<T> = None;
-        let mut cut: Option<(CutWidth, usize)> = None;
+        let mut cut: Option<(CutWidth, i32)> = None;
         let mut more_steps = None;
         for _ in 0..MOST_STEPS {
             self.steps += 1;
@@ -213,7 +213,7 @@ impl<T: Real> NewtonSeveral<T> {
                     let left =
                         self.moves.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
                     let add = |(error, (step, half_width)): (&mut T, (&T, T))| {
-                        *error += step.abs() / half_width
+                        *error += step.abs() / half_width;
                     };
                     self.errors.iter_mut().zip(left).for_each(add);
                 }
@@ -272,7 +272,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// was kept from falling further.
     ///
     /// `cut` is what was kept from falling further last, and how often in a row: a gap may then fall faster.
-    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, usize)>) -> Option<CutWidth> {
+    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
         let (zero, one, half, two) = (T::zero(), T::one(), T::of(0.5), T::of(2.0));
         let count = 2 * self.on.len();
         self.moves.clear();
@@ -291,7 +291,7 @@ impl<T: Real> NewtonSeveral<T> {
                 Some((place, times)) if place == i && i % 2 == 1 => times + 1,
                 _ => 1,
             };
-            let least = T::of(LEAST_LEFT.powi(times as i32)) * width;
+            let least = T::of(LEAST_LEFT.powi(times)) * width;
             let square = width * (width + two * change);
             let next = if square < least * least {
                 let worse = (square / (width * width), i);
@@ -318,7 +318,7 @@ impl<T: Real> NewtonSeveral<T> {
         for i in 0..count - 1 {
             let width = *self.limit(i + 1) - *self.limit(i);
             let less = self.moves[i] - self.moves[i + 1];
-            let times = if i % 2 == 1 { MOST_CUT as i32 } else { 1 };
+            let times = if i % 2 == 1 { MOST_CUT } else { 1 };
             let most = (one - T::of(0.5 * LEAST_LEFT.powi(times))) * width;
             if less > most {
                 share = share.min(most / less);

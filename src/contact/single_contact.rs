@@ -53,7 +53,7 @@ pub(super) struct Single<'s, 'b, T: Real> {
     pub bears: Option<Option<Capacity<T>>>,
 }
 
-impl<'s, 'b, T: Real> Single<'s, 'b, T> {
+impl<T: Real> Single<'_, '_, T> {
     /// Finds the contact, first around the last one.
     pub fn find(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
         let corners = self.conditions.edges;

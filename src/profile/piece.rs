@@ -170,13 +170,6 @@ impl<'a, T: Real> Piece<'a, T> {
     }
 }
 
-impl<T: Real> std::fmt::Debug for Piece<'_, T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut debug = f.debug_struct("Piece");
-        debug.field("k", &self.k).field("ends", &self.ends).finish_non_exhaustive()
-    }
-}
-
 /// Compares the derivatives at `k` with central differences.
 fn check_derivatives<T: Real>(
     curve: &dyn ParametricProfile<T>,

@@ -86,6 +86,7 @@ impl Exponents {
 
 impl Midpoint {
     /// The rule as the paper uses it: N segments, ET extrapolations, even exponents.
+    #[must_use]
     pub const fn paper(segments: usize, extrapolations: u32) -> Self {
         Self { segments, extrapolations, exponents: Exponents::Even }
     }

@@ -244,7 +244,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.extend(gap, on)?;
         self.fall = rough.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
-            let largest = |max: T, panel: &panel::Panel<T>| max.max(ratio(&panel.series));
+            let largest = |max: T, panel: &Panel<T>| max.max(ratio(&panel.series));
             let fall = self.panel_set.panels.iter().fold(T::epsilon(), largest);
             [fall.min(T::one()), on.half_width()]
         });

@@ -14,8 +14,8 @@ struct Rounded(f64, usize);
 impl Display for Rounded {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let Self(value, digits) = *self;
-        let rounded = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
-        let size: f64 = rounded.abs();
+        let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
+        let size = rounded.abs();
         if size != 0.0 && !(1e-3..1e6).contains(&size) && size.is_finite() {
             write!(f, "{rounded:e}")
         } else {

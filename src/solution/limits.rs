@@ -23,7 +23,7 @@ impl<T: Real> Solution<'_, T> {
 
     /// The intervals in which the bodies touch, from left to right.
     pub fn intervals(&self) -> &[Interval<T>] {
-        self.several().map(Several::contacts).unwrap_or(std::slice::from_ref(&self.found.interval))
+        self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)
     }
 
     /// Load per unit length F, of all contacts.
