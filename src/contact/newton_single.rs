@@ -47,7 +47,7 @@ use crate::quadrature::{Integrator, Moments};
 use crate::{ContactError, Gap, Interval, Real};
 use nalgebra::{Matrix2, Vector2};
 
-/// Trials before the search is given up, in a initial_guess and in full. A initial_guess that takes long has no contact.
+/// Trials before the search is given up, in an initial guess and in full. An initial guess that takes long has no contact.
 const MOST_TRIALS: [usize; 2] = [16, 200];
 
 /// A step longer than so many half-widths leads nowhere.
@@ -552,7 +552,7 @@ impl<T: Real> Linearised<T> {
     }
 
     /// Whether the conditions hold as well as the error of the moments and the rounding of the limits
-    /// allow. (Small steps alone are no proof: a poor initial_guess may creep.)
+    /// allow. (Small steps alone are no proof: a poor guess may creep.)
     fn is_met(&self, m: &Moments<T>, rounding: [T; 2]) -> bool {
         let left_open = (self.stiffness * m.error + self.force(rounding)) / self.scale;
         self.residual.iter().all(|residual| residual.abs() <= doubtful(left_open))

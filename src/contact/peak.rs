@@ -186,7 +186,8 @@ fn by_search<T: Real>(
         let sure = pressure.is_finite() && pressure > zero;
         let most = T::of(if sure { 1e12 } else { 1e3 });
         let mut next = load * step.max(most.recip()).min(most);
-        if next <= zero {
+        // So small a number has no digits left.
+        if (next * T::epsilon()).is_zero() {
             return Err(ContactError::Overflow { interval });
         }
         if let (Some([from, at_from]), Some([to, at_to])) = (low, high) {

@@ -1,8 +1,8 @@
 //! One contact, from a start to the limits with as few samples as possible.
 //!
 //! First a span in which the contact is expected is sampled with four nodes a panel, and Newton's method
-//! finds the contact of this initial_guess; if that is much narrower than the span, or beside it, a span
-//! around it is initial_guessed anew. Then a span a little wider than the contact is sampled in full, and
+//! finds the contact of this guess; if that is much narrower than the span, or beside it, a span
+//! around it is sampled anew for the next guess. Then a span a little wider than the contact is sampled in full, and
 //! Newton's method finds the limits on that. Where it goes astray it starts again where the bodies [touch
 //! first](super::first_contact), with a width that may bear the load. Where that finds no contact either, or leads to
 //! an end of the bodies time and again, it is asked what they [bear](super::capacity). The [nested
@@ -26,7 +26,7 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Sketches before the search is given up.
 const MOST_GUESSES: usize = 120;
 
-/// Steps beyond an end of the bodies in a initial_guess, after which another is made; and in full, after which it is
+/// Steps beyond an end of the bodies in an initial guess, after which another is made; and in full, after which it is
 /// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
 const MOST_AT_END: [usize; 2] = [2, 24];
 
@@ -158,44 +158,59 @@ impl<T: Real> Single<'_, '_, T> {
         if is_one_of_several {
             return Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() });
         }
-        let mut sampler = Sampler::default();
-        let around = self.around_first_contact(&mut sampler);
-        *self.cost += sampler.cost;
         // From elsewhere, or on a span far wider, the way there may be blocked.
-        let around = around?;
-        self.start = Some(around);
-        match self.by_newton(None).map_err(|error| self.because(error))? {
-            Some(converged) => self.contact_of(converged),
-            None => Err(ContactError::NoEquilibrium { half_width, near: around.centre() }),
+        for leans in [false, true] {
+            let mut sampler = Sampler::default();
+            let around = self.around_first_contact(&mut sampler, leans);
+            *self.cost += sampler.cost;
+            self.start = Some(around?);
+            if let Some(converged) = self.by_newton(None).map_err(|error| self.because(error))? {
+                return self.contact_of(converged);
+            }
         }
+        Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() })
     }
 
-    /// Where the bodies touch first, with a width that may bear the load: `F = κ L²/(2 R)`, from the slopes at
-    /// both limits, is exact for a parabola.
+    /// Where the bodies touch first, with a width that may bear the load: with the slopes -m and n at the limits a
+    /// parabola bears `F = κ L (m + n)/4`. A contact that leans has the place of first contact at the angle
+    /// φ = π m/(m + n), as a wedge of these slopes has, which bears `F = κ L (m + n) sin φ/π`.
     fn around_first_contact(
         &self,
         sampler: &mut Sampler<T>,
+        leans: bool,
     ) -> Result<Interval<T>, ContactError<T>> {
         let (gap, conditions, quarter) = (&self.contact.gap, &self.conditions, T::of(0.25));
         let x = first_contact(sampler, gap, self.start)?;
         let [left, right] = gap.range();
-        let around = |reach: T| Interval { left: x - reach, right: x + reach };
-        let mut on = around(quarter * (x - left).min(right - x));
-        match conditions.given {
-            Given::HalfWidth(half_width) => on = around(half_width.min(on.half_width())),
-            Given::Load(load) | Given::Centre { load, .. } if load > T::zero() => {
-                let mut borne = |on: Interval<T>| -> Result<T, ContactError<T>> {
-                    let rise = sampler.slope(gap, on.right)? - sampler.slope(gap, on.left)?;
-                    Ok(quarter * conditions.kappa * on.half_width() * rise)
-                };
-                for _ in 0..MOST_GUESSES {
-                    if borne(on)? <= load {
-                        break;
-                    }
-                    on = around(quarter * on.half_width());
-                }
+        let around = |reach: T, lean: T| Interval {
+            left: x - reach * (T::one() + lean),
+            right: x + reach * (T::one() - lean),
+        };
+        let mut reach = quarter * (x - left).min(right - x);
+        let mut on = around(reach, T::zero());
+        if let Given::HalfWidth(half_width) = conditions.given {
+            (reach, on) = (half_width, around(half_width.min(reach), T::zero()));
+        }
+        for _ in 0..MOST_GUESSES {
+            let falls = -sampler.slope(gap, on.left)?;
+            let rise = falls + sampler.slope(gap, on.right)?;
+            let stiffness = quarter * conditions.kappa * rise;
+            // So little is less than any number.
+            if stiffness > T::zero() && (reach * stiffness).is_zero() {
+                return Err(ContactError::Overflow { interval: on });
             }
-            _ => {}
+            let share =
+                if leans { (falls / rise).max(T::zero()).min(T::one()) } else { T::of(0.5) };
+            let (sin, cos) = (T::pi() * share).sin_cos();
+            match conditions.given {
+                Given::Load(load) | Given::Centre { load, .. }
+                    if load > T::zero() && reach * stiffness * sin > load =>
+                {
+                    reach *= quarter;
+                    on = around(reach, cos);
+                }
+                _ => break,
+            }
         }
         Ok(on)
     }
@@ -352,7 +367,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// A first estimate of the contact, and how far it is in doubt as a share of its half-width; `None` where
-    /// initial_guesses lead nowhere.
+    /// guesses lead nowhere.
     fn initial_guess(&mut self) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
         let gap = &self.contact.gap;
         let range = gap.range();
@@ -393,7 +408,7 @@ impl<T: Real> Single<'_, '_, T> {
             let doubt = if breakpointed && !comparable { doubt.sqrt() } else { doubt };
             let relative = if breakpointed { doubt } else { doubt / share };
             let sure = T::of(if breakpointed { 0.1 } else { 0.02 });
-            // Outside, the doubt grows with the powers that the initial_guess has left out.
+            // Outside, the doubt grows with the powers that the guess has left out.
             let apart = (guess.centre() - span.centre()).abs() / span.half_width();
             let reached = share.max(apart).max(T::one());
             if !within && relative * reached.powi(5) <= T::of(1e-3) && error <= sure {
@@ -449,7 +464,7 @@ impl<T: Real> Single<'_, '_, T> {
         self.start.or_else(|| Some(self.look?.around_lowest(load)))
     }
 
-    /// Where the first initial_guess is: the start, or the middle half of the bodies; where the load acts at a given
+    /// Where the first guess is: the start, or the middle half of the bodies; where the load acts at a given
     /// place, around that.
     fn start(&self) -> Interval<T> {
         let [left, right] = self.contact.gap.range();

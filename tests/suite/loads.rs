@@ -336,7 +336,7 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
 }
 
 #[test]
-#[ignore = "bug: refused as NoBalance at a half-width of 0.5, not as Overflow"]
+
 fn a_load_less_than_any_number_is_refused() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
