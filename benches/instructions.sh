@@ -52,11 +52,11 @@ counts() {
     printf '\nscene\tcold\twarm\n'
     for scene in word one two ten rough; do
         printf '%s' "$scene"
-        for way in cold warm; do
+        for start in cold warm; do
             few=5 many=25
             [ "$scene" = rough ] && few=1 many=2
-            less=$(instructions "$several" repeat "$scene" "$way" "$few")
-            more=$(instructions "$several" repeat "$scene" "$way" "$many")
+            less=$(instructions "$several" repeat "$scene" "$start" "$few")
+            more=$(instructions "$several" repeat "$scene" "$start" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo
@@ -64,11 +64,11 @@ counts() {
 }
 
 case $way in
-print) counts ;;
---update) { echo "$compiler"; counts; } >"$kept" ;;
+print) counts "$@" ;;
+--update) { echo "$compiler"; counts "$@"; } >"$kept" ;;
 --check)
     found=$(mktemp)
-    { echo "$compiler"; counts; } >"$found"
+    { echo "$compiler"; counts "$@"; } >"$found"
     awk -F '\t' '
         NR == FNR { kept[FNR] = $0; lines = FNR; next }
         {
