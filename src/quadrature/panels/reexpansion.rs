@@ -42,10 +42,16 @@ pub(super) fn reexpanded<T: Real>(
     let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
     let count = size_for(most) + 2;
     let single = panels.len() == 1;
-    let slopes = panels.iter().flat_map(Panel::at_ends).chain([
-        panels.first().map_or(zero, |panel| panel.value(on.left)),
-        panels.last().map_or(zero, |panel| panel.value(on.right)),
-    ]);
+    let last = panels.len().saturating_sub(1);
+    let ends_of = |i: usize| {
+        let panel = &panels[i];
+        let [from, to] = panel.at_ends();
+        [
+            if i == 0 { panel.value(on.left) } else { from },
+            if i == last { panel.value(on.right) } else { to },
+        ]
+    };
+    let slopes = (0..panels.len()).flat_map(ends_of);
     let most_bulk = T::of(MOST_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
     let mut start = HalfAngle::of(on, on.left);
     let mut left = ([zero; MOST + 2], [T::pi(), zero]);
@@ -55,17 +61,12 @@ pub(super) fn reexpanded<T: Real>(
         if !(single || bulk <= most_bulk) {
             return false;
         }
-        let mut ends = panel.at_ends();
-        if i == 0 {
-            ends[0] = panel.value(on.left);
-        }
+        let ends = ends_of(i);
         let mut right = ([zero; MOST + 2], [zero, T::pi()]);
         let mut end = start;
-        if i + 1 < panels.len() {
+        if i < last {
             end = HalfAngle::of(on, panel.x[1]);
             right = (end.sines(count), end.angles());
-        } else {
-            ends[1] = panel.value(on.right);
         }
         let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
         // Between angles near π, their distances from there keep the digits.
