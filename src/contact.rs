@@ -260,7 +260,9 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { start: Some(interval), ..self }
     }
 
-    /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`].
+    /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`]. With
+    /// [`Panels`] it is hardly called for the slope, which need not be known at any given x; its calls for heights
+    /// count as [`Cost::heights`].
     #[must_use]
     pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
@@ -317,7 +319,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { single_interval, ..self }
     }
 
-    /// Finds the limits of the contact under a load. The pressure is left for
+    /// Finds the contact under what is prescribed: its limits, and the load or tilt where they come out. The pressure is left for
     /// [`Solution::pressure`].
     ///
     /// # Errors

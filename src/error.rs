@@ -212,9 +212,9 @@ pub enum ContactError<T: Real> {
     },
     /// The search has spent its budget of evaluations.
     #[error(
-        "no contact found in {evaluations} evaluations of the curves, the last from x = {:?} to {:?}; \
-         the budget is {budget}: give a start nearer to the contact, declare breakpoints, or set a looser \
-         tolerance", last.left, last.right
+        "{evaluations} evaluations of the curves, the last from x = {:?} to {:?}, and not done: the budget is \
+         {budget}; give a start nearer to the contact, declare breakpoints, or set a looser tolerance",
+        last.left, last.right
     )]
     BudgetSpent {
         /// Evaluations of the curves, or values of the slope of the gap, by then.
@@ -570,7 +570,8 @@ fn hint(kappa_is_default: bool) -> &'static str {
 fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
     let zero = T::zero();
     if left.is_zero() && right.is_zero() {
-        "these bodies are parallel: they touch everywhere at once, or nowhere"
+        "these bodies are parallel: two flats need Edge::Fixed or FreeUntil at their corners; of two like curves \
+         one is to be flipped (Placement::flipped)"
     } else if left >= zero && right <= zero {
         "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
          a convex body a smaller radius than the hollow that it lies in"

@@ -4,7 +4,7 @@ use crate::contact::{Control, Workspace};
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::solution::Solution;
-use crate::{Contact, ContactError, Real};
+use crate::{Contact, ContactError, ErrorKind, Real};
 use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// a time step later, is sampled anew, but only around the contact it had before. Once its
 /// workspace has grown to what the scenes need, solving allocates nothing, provided that a solution is
 /// dropped before the next solve. One that is kept keeps its samples, and the solver goes on with a copy.
+///
+/// Under a given half-width or peak pressure bodies may have several contacts: then a solver finds the one next to
+/// its last. Where that search fails, the solver seeks from scratch.
 ///
 /// Results depend on the calls made and on nothing else. One solver serves one thread, and may be
 /// sent to another.
@@ -84,7 +87,18 @@ impl<T: Real> Solver<T> {
         if last.is_none() {
             self.workspace.forget();
         }
-        let (found, cost) = contact.find(work, &mut self.workspace, control)?;
+        let found = contact.find(work, &mut self.workspace, control);
+        let (found, cost) = match (found, control) {
+            // By load the search finds its way from anywhere. Of a width or a peak there may be several contacts.
+            (Err(error), Control::HalfWidth(_) | Control::PeakPressure(_))
+                if last.is_some() && error.kind() == ErrorKind::Solve =>
+            {
+                work.clear_samples();
+                self.workspace.forget();
+                contact.find(work, &mut self.workspace, control)?
+            }
+            (found, _) => found?,
+        };
         let one = std::slice::from_ref(&found.interval);
         self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
         self.last = Some(gap.number());

@@ -132,7 +132,11 @@ pub(super) fn find<T: Real>(
     if contact.single_interval || given {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Verdict::Unchecked);
-        return found;
+        let found = found?;
+        // Between two given limits a load leaves nothing to be sought: that is the equation's solution, whatever it
+        // is. Bodies that turn have a contact.
+        let fault = found.lifts_off(&edges).filter(|_| turns && !contact.single_interval);
+        return fault.map_or(Ok(found), Err);
     }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {

@@ -50,7 +50,7 @@ impl<T: Real> Ellipse<T> {
         finite("the semi-axis across it", across, !across.is_zero(), "finite and not zero")?;
         for angle in interval(angles)? {
             let within = angle.abs() <= T::frac_pi_2();
-            finite("an angle", angle, within, "within a quarter of a turn of the lowest point")?;
+            finite("an angle", angle, within, "in radians, from -π/2 to π/2")?;
         }
         Ok(Self { along, across, angles })
     }

@@ -33,7 +33,8 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
     write!(f, "[{left}, {right}]")
 }
 
-/// Contacts, load, largest pressure and quality in three lines, with six digits; a precision (`{:.3}`)
+/// Contacts, load, largest pressure and quality in three lines, and a warning where
+/// [`is_steep`](Solution::is_steep) holds; with six digits; a precision (`{:.3}`)
 /// is another number of digits.
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -67,7 +68,22 @@ impl<T: Real> Display for Solution<'_, T> {
             }
             None => f.write_str("\nlimits given, ")?,
         }
-        f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })
+        f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })?;
+        let limits =
+            [self.hull().left, self.hull().right].into_iter().zip(self.edge_singularities());
+        for ((x, strength), adhesive) in limits.zip(self.found().adhesive) {
+            if !adhesive && strength < -T::epsilon().sqrt() * self.mean_pressure().abs() {
+                write!(
+                    f,
+                    "\nthe bodies would have to pull at each other at x = {}",
+                    rounded(x, f)
+                )?;
+            }
+        }
+        if self.is_steep() {
+            f.write_str("\nthe surfaces are steep for half-planes: are all units right?")?;
+        }
+        Ok(())
     }
 }
 

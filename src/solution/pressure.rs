@@ -5,6 +5,9 @@ use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Interval, Real};
 
+/// The most points of a contact that [`Pressure::sample`] takes.
+const MOST_POINTS: usize = 1 << 20;
+
 impl<T: Real> Solution<'_, T> {
     /// The pressure distribution. With [`Panels`](crate::Panels) it takes no further sample.
     ///
@@ -96,7 +99,7 @@ impl<T: Real> Pressure<'_, T> {
         Ok(())
     }
 
-    /// `[x, P(x)]` at `count` points of each contact, limits included, by rising x: as dense towards the
+    /// `[x, P(x)]` at `count` points of each contact, from 2 to 2²⁰, limits included, by rising x: as dense towards the
     /// limits as the square root with which the pressure falls there, so that lines between them draw it. A limit
     /// where the pressure is infinite, and a place inside where it is, are left out.
     ///
@@ -116,7 +119,7 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at_many`](Self::at_many).
     pub fn sample(&self, count: usize) -> Result<Vec<[T; 2]>, ContactError<T>> {
-        let (count, last) = (count.max(2), self.contacts.len() - 1);
+        let (count, last) = (count.clamp(2, MOST_POINTS), self.contacts.len() - 1);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
             let free = [i > 0 || self.load_case.free[0], i < last || self.load_case.free[1]];

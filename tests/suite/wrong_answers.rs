@@ -552,3 +552,68 @@ fn a_small_contact_on_steep_bodies() {
     assert!((on.centre() - 3.7).abs() < 1e-12 * half_width + 2e-15, "{on:?}");
     assert_relative_eq!(on.half_width(), half_width, epsilon = 0.0, max_relative = 3e-12);
 }
+
+/// What a new user ran into with corners, tilt and solvers.
+mod second_hour {
+    use crate::common::graph;
+    use linecontact::{Contact, ContactError, Control, Edge, Flat, Solver};
+
+    #[test]
+    fn corners_on_both_sides_that_pull_are_refused() {
+        let corners = |left: Edge<f64>, right: Edge<f64>| {
+            Contact::new(&Flat, &Flat).unwrap().edges(left, right)
+        };
+        let held = corners(Edge::Fixed(-5.0), Edge::Fixed(5.0));
+        for at in [4.0, -4.0] {
+            let control = Control::CentreOfPressure { load: 1000.0, at };
+            let error = held.solve(control).map(|_| ()).unwrap_err();
+            assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
+            // The punch lifts off until its contact is four times as wide as the way to its corner.
+            let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));
+            let hull = free.solve(control).unwrap().hull();
+            let inner = if at > 0.0 { hull.left } else { -hull.right };
+            assert!((inner - 1.0).abs() < 1e-12, "{hull:?}");
+        }
+        let pressed = held.solve(Control::CentreOfPressure { load: 1000.0, at: 2.0 }).unwrap();
+        assert!(pressed.edge_singularities().into_iter().all(|strength| strength > 0.0));
+    }
+
+    #[test]
+    fn several_tilted_contacts_are_certified() {
+        let body = graph(-2.0, 2.0, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+        let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
+        for at in [0.1, -0.3] {
+            let solution = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap();
+            assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);
+            solution.certify().unwrap();
+        }
+    }
+
+    #[test]
+    fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
+        let two = |tilt: f64| {
+            graph(-1.2, 1.2, move |x: f64| {
+                [(x * x - 0.25).powi(2) + tilt * x, 4.0 * x * (x * x - 0.25) + tilt]
+            })
+        };
+        let (one, other) = (two(0.05), two(-0.05));
+        let [one, other] = [&one, &other].map(|body| Contact::new(&Flat, &**body).unwrap());
+        let control = Control::HalfWidth(0.005);
+        let mut solver = Solver::new();
+        for contact in [&one, &other, &one] {
+            let cold = contact.solve(control).unwrap().hull();
+            let warm = solver.solve(contact, control).unwrap().hull();
+            assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
+        }
+    }
+
+    #[test]
+    fn no_number_of_points_is_too_many() {
+        let body = graph(-1.0, 1.0, |x: f64| [x * x / 2.0, x]);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
+        let points = solution.pressure().unwrap().sample(usize::MAX).unwrap();
+        assert!(points.len() == 1 << 20 && points.is_sorted_by(|a, b| a[0] <= b[0]));
+        assert_eq!(solution.pressure().unwrap().sample(0).unwrap().len(), 2);
+    }
+}

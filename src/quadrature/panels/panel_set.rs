@@ -53,7 +53,7 @@ pub(crate) struct PanelSet<T> {
     derivatives: Vec<SampledBody<T>>,
     derivative_sizes: Vec<T>,
     /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
-    tilt: T,
+    pub tilt: T,
 }
 
 impl<T: Real> PanelSet<T> {

@@ -97,7 +97,7 @@ pub(super) fn certify<T: Real>(
         (doubt, steepest) = (doubt.max(here.doubt), steepest.max(steep));
         cells.push(here.panels);
     }
-    let mut by_cells = Several::sampled(T::epsilon().sqrt(), cells.into_iter());
+    let mut by_cells = Several::sampled(T::epsilon().sqrt(), gap.tilt(), cells.into_iter());
     by_cells.set(gap, contacts, corners, found.ends)?;
     by_cells.system(load / kappa, &mut system);
     cost += by_cells.cost();

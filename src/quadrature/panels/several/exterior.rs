@@ -8,11 +8,11 @@ use crate::quadrature::panels::Panel;
 
 impl<T: Real> Several<T> {
     /// As many contacts on panels that others have sampled, over all of each of them.
-    pub fn sampled(tolerance: T, panels: impl Iterator<Item = Vec<Panel<T>>>) -> Self {
+    pub fn sampled(tolerance: T, tilt: T, panels: impl Iterator<Item = Vec<Panel<T>>>) -> Self {
         let mut several = Self::new(tolerance);
         for panels in panels {
             let mut part = OneOfSeveral::new(tolerance);
-            part.panel_set.panels = panels;
+            (part.panel_set.panels, part.panel_set.tilt) = (panels, tilt);
             several.parts.push(part);
         }
         several.count = several.parts.len();
