@@ -1,7 +1,7 @@
 //! The regular part of the pressure on panels too short for their series to be continued over the
 //! contact: about a square root that nobody declared, say.
 //!
-//! The closed form of `conjugate.rs`, in the panel's own variable, is used on the panel that holds x and
+//! The closed form of `hilbert_transform.rs`, in the panel's own variable, is used on the panel that holds x and
 //! around it, as far as the polynomial can be continued without losing digits; from further away the
 //! panel is summed up by Gauss's rule, and from far away many panels at once (`groups.rs`).
 
