@@ -8,7 +8,7 @@
 //!
 //! There are two ways to a value. A [`Sampler`] inverts `X(k) = x` at any `x`, starting from its
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
-//! abscissae, and aim instead: see `sample_near.rs`.
+//! abscissae, and take points close to them: see `sample_near.rs`.
 
 mod coarse_heights;
 mod sample_near;

@@ -74,7 +74,7 @@ pub(super) struct Converged<T> {
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Effort {
     /// To a few hundredths of its width, or until it is known to be much narrower than the start.
-    Sketch,
+    Guess,
     /// To rounding.
     Full,
 }
@@ -156,7 +156,7 @@ pub(super) fn converge<T: Real>(
         let ([left, right], size, inverse) = (step.limits, step.size(), step.inverse);
         last = Some(step);
         // What is much narrower than the span is to be seen in a closer one.
-        if effort == Effort::Sketch && on.half_width() < T::of(1e-6) * start.half_width() {
+        if effort == Effort::Guess && on.half_width() < T::of(1e-6) * start.half_width() {
             return Ok(Outcome::Converged(Converged {
                 on,
                 load,
@@ -177,7 +177,7 @@ pub(super) fn converge<T: Real>(
             }
         }
         let sizes = [left.abs(), right.abs()];
-        if effort == Effort::Sketch {
+        if effort == Effort::Guess {
             if size <= T::of(0.03) {
                 let sound =
                     opens(integrator, conditions, on, system.tilt) && system.is_stable(conditions);

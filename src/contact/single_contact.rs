@@ -23,14 +23,14 @@ use crate::{ContactError, Interval, ProfileError, Real};
 /// More doubt than this, as a share of the half-width, is no contact found.
 pub(super) const MOST_DOUBT: f64 = 0.03;
 
-/// Sketches before the search is given up.
+/// Initial guesses before the search is given up.
 const MOST_GUESSES: usize = 120;
 
 /// Steps beyond an end of the bodies in an initial guess, after which another is made; and in full, after which it is
 /// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
 const MOST_AT_END: [usize; 2] = [2, 24];
 
-/// Sketches that may reach for an end before it is asked what the bodies bear.
+/// Initial guesses that may reach for an end before it is asked what the bodies bear.
 const MOST_GUESSES_AT_END: usize = 12;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
@@ -261,7 +261,7 @@ impl<T: Real> Single<'_, '_, T> {
         effort: Effort,
     ) -> Result<Outcome<T>, ContactError<T>> {
         let most_at_end = match (effort, self.bears) {
-            (Effort::Sketch, _) => MOST_AT_END[0],
+            (Effort::Guess, _) => MOST_AT_END[0],
             (Effort::Full, Some(Some(_))) => usize::MAX,
             (Effort::Full, _) => MOST_AT_END[1],
         };
@@ -384,7 +384,7 @@ impl<T: Real> Single<'_, '_, T> {
                 return Ok(None);
             };
             let begin = on.unwrap_or(span);
-            let (guess, error) = match self.converge(begin, Effort::Sketch)? {
+            let (guess, error) = match self.converge(begin, Effort::Guess)? {
                 Outcome::Converged(Converged { on, error, .. }) => (on, error),
                 Outcome::AtEnd(reached) => {
                     let before = std::mem::replace(&mut span, self.up_to_corners(reached.plain()));

@@ -79,7 +79,7 @@ struct GapNode<T> {
     slopes: [T; 2],
     /// How far off they may be by rounding.
     doubt: T,
-    /// By how much a cubic from the knot before to the one after misses the height here.
+    /// By how much a cubic from the node before to the one after misses the height here.
     missed: T,
 }
 
@@ -110,7 +110,7 @@ impl<T: Real> CoarseHeights<T> {
         self.find_knots(&mut nodes);
         self.heights.clear();
         self.heights.reserve(nodes.capacity());
-        self.heights.extend(nodes.iter().map(|knot| [knot.x, knot.height]));
+        self.heights.extend(nodes.iter().map(|node| [node.x, node.height]));
         (self.lowest, self.bulges) = (self.find_lowest(&nodes), Self::find_bulging(&nodes));
         self.nodes = nodes;
         Ok(())
@@ -257,7 +257,7 @@ impl<T: Real> CoarseHeights<T> {
     fn find_bulging(nodes: &[GapNode<T>]) -> bool {
         let mut before: Option<(T, T)> = None;
         for (slope, doubt) in
-            nodes.iter().flat_map(|knot| [0, 1].map(|i| (knot.slopes[i], knot.doubt)))
+            nodes.iter().flat_map(|node| [0, 1].map(|i| (node.slopes[i], node.doubt)))
         {
             let rises = |(last, other): (T, T)| slope >= last - doubt - other;
             if !before.is_none_or(rises) {
@@ -278,7 +278,7 @@ impl<T: Real> CoarseHeights<T> {
         nodes.reserve((self.bodies[0].len() + self.bodies[1].len()).max(2 * OF_A_BODY) + 2);
         let [first, last] = self.range;
         let mut add = |x: T| {
-            if nodes.last().is_some_and(|knot| x <= knot.x) {
+            if nodes.last().is_some_and(|node| x <= node.x) {
                 return;
             }
             let [lower, upper] =
@@ -491,14 +491,14 @@ fn at<T: Real>(rows: &[BodyRow<T>], x: T, right: bool) -> [T; 3] {
     let [Some(from), Some(to)] = [index - 1, index].map(|i| rows.get(i)) else {
         return [rows[0].y, zero, zero];
     };
-    let knot = |row: &BodyRow<T>| GapNode {
+    let node = |row: &BodyRow<T>| GapNode {
         x: row.x,
         height: row.y,
         slopes: [row.slope; 2],
         doubt: zero,
         missed: zero,
     };
-    let segment = Segment::new(knot(from), knot(to));
+    let segment = Segment::new(node(from), node(to));
     if segment.width <= zero {
         return [from.y, zero, zero];
     }

@@ -108,7 +108,7 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     shot.take(&mut trace.curve_samples, cost).map_err(|error| turns(piece, error))
 }
 
-/// What is aimed at.
+/// The targets: places near which samples are wanted.
 struct TargetBatch<'s, const N: usize, T: Real> {
     gap: &'s Gap<'s, T>,
     body: Body,
@@ -126,7 +126,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let (targets, ends) = (self.targets, self.ends);
         // A range much longer than that of the targets says little of where they are: with one found,
-        // the others are aimed at from there.
+        // the others are sought from there.
         let [first, last] = [targets[0], targets[N - 1]];
         let len = known.len();
         let [leftmost, rightmost] = [known.row[1], known.row[len]];

@@ -53,7 +53,7 @@ pub(crate) struct Table {
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
-static SKETCH: LazyLock<Table> = LazyLock::new(Table::with_ends);
+static COARSE: LazyLock<Table> = LazyLock::new(Table::with_ends);
 
 impl Table {
     fn empty() -> Self {
@@ -106,10 +106,10 @@ impl Table {
         table
     }
 
-    /// The table for a sketch. With its ends among the nodes, a panel beside a breakpoint is good where it
+    /// The table for a first estimate. With its ends among the nodes, a panel beside a breakpoint is good where it
     /// matters however long it is.
-    pub fn sketch() -> &'static Self {
-        &SKETCH
+    pub fn coarse() -> &'static Self {
+        &COARSE
     }
 
     /// The table for one of the [`SIZES`].

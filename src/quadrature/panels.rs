@@ -151,7 +151,7 @@ struct PanelIntegrator<T> {
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Where one panel holds it, the series of that.
     over: Option<Series<T>>,
-    /// Of a sketch: by how much two more coefficients are smaller, and the half-width covered.
+    /// Of a first estimate: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
     /// Several contacts at once, and whether they are what was last turned to.
     several: Several<T>,
@@ -204,7 +204,7 @@ impl<T: Real> PanelIntegrator<T> {
         Ok(self.remember(on))
     }
 
-    /// The number of nodes that should do, by how the coefficients of the sketch fall.
+    /// The number of nodes that should do, by how the coefficients of the first estimate fall.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([fall, half_width]) = self.fall else { return 8 };
         let shrunk = on.half_width() / half_width;
@@ -232,23 +232,23 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-        rough: bool,
+        coarse: bool,
     ) -> Result<Option<T>, ContactError<T>> {
         self.is_several = false;
-        if !rough {
+        if !coarse {
             self.panel_set.initial = self.expected_size(on);
         }
-        self.panel_set.rough = rough;
+        self.panel_set.coarse = coarse;
         self.moments = None;
         self.panel_set.clear(true);
         self.panel_set.extend(gap, on)?;
-        self.fall = rough.then(|| {
+        self.fall = coarse.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
             let largest = |max: T, panel: &Panel<T>| max.max(ratio(&panel.series));
             let fall = self.panel_set.panels.iter().fold(T::epsilon(), largest);
             [fall.min(T::one()), on.half_width()]
         });
-        self.panel_set.rough = false;
+        self.panel_set.coarse = false;
         Ok(Some(self.fall.map_or(self.panel_set.tolerance, |[fall, _]| fall * fall)))
     }
 

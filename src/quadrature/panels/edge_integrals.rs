@@ -36,12 +36,12 @@ impl<T: Real> EdgeSums<T> {
     }
 }
 
-/// The edge integrals over a contact that the panels cover, or sketch; and where one panel alone holds it,
+/// The edge integrals over a contact that the panels cover, coarsely or in full; and where one panel alone holds it,
 /// `over` becomes the [series](Panel::over) of that.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
-    sketch: bool,
+    coarse: bool,
     over: &mut Option<Series<T>>,
 ) -> Moments<T> {
     let within = within(panels, on);
@@ -54,7 +54,7 @@ pub(super) fn moments<T: Real>(
         *over = None;
         if !by_cosines(&mut sums, within, on) {
             sums = EdgeSums::new();
-            by_gauss(&mut sums, within, on, sketch);
+            by_gauss(&mut sums, within, on, coarse);
         }
     }
     // A formula of a few terms is good to a few units in the last place.
@@ -174,7 +174,7 @@ fn span_of<const N: usize, T: Real>(
 }
 
 /// Several panels hold it between them, some of them too short for their series to be continued.
-fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>, sketch: bool) {
+fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>, coarse: bool) {
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
     let mut before: Option<&Panel<T>> = None;
@@ -187,7 +187,7 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
             jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
         }
         let right = HalfAngle::of(on, to);
-        span(sums, panel, from, Arc::new(to - from, left, right, width), sketch);
+        span(sums, panel, from, Arc::new(to - from, left, right, width), coarse);
         left = right;
         before = Some(panel);
     }
@@ -195,9 +195,9 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
 }
 
 /// One span of several.
-fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, sketch: bool) {
+fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, coarse: bool) {
     const W: usize = 8;
-    let rule = if sketch {
+    let rule = if coarse {
         GaussLegendre::coarsest()
     } else {
         GaussLegendre::suited(panel.counting, arc.tangent)

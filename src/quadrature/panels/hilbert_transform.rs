@@ -1,4 +1,4 @@
-//! The regular part of the pressure, from the panels.
+//! The finite Hilbert transform of the slope: the regular part of the pressure, from the panels.
 //!
 //! With `w = sqrt((x + b)(a - x))` it is the conjugate of the slope,
 //!
@@ -24,7 +24,7 @@
 //!
 //! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the series
 //! of each panel can be continued over the contact: the pressure then takes one series, and one
-//! more with a logarithm at each breakpoint. Where they cannot, see `far.rs`.
+//! more with a logarithm at each breakpoint. Where they cannot, see `near_far_sum.rs`.
 //!
 //! All of it has the factor w, or one that goes to zero like w, from the distances of x to the
 //! edges: R keeps its relative accuracy up to a free edge.

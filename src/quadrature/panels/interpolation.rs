@@ -67,10 +67,10 @@ pub(super) fn left_open<const N: usize, T: Real>(
     trace: &SampleCache<T>,
     reach: T,
     slopes: &[T; N],
-    rough: bool,
+    coarse: bool,
 ) -> T {
     let table = Table::of(N);
-    if trace.direct || rough {
+    if trace.direct || coarse {
         return T::zero();
     }
     // `T_N` rises by N/sin θ at its zeros.
@@ -92,11 +92,11 @@ pub(super) fn missed_at_ends<const N: usize, T: Real>(
     x: [T; 2],
     trace: &SampleCache<T>,
     slopes: &[T; N],
-    rough: bool,
+    coarse: bool,
 ) -> T {
     let known = trace.ends();
     let is_end = |i: usize| known[i].x == x[i] && known[i].slope.is_finite();
-    if trace.direct || rough || !(is_end(0) || is_end(1)) {
+    if trace.direct || coarse || !(is_end(0) || is_end(1)) {
         return T::zero();
     }
     let at_ends = Table::of(N).at_ends(slopes);

@@ -3,7 +3,7 @@
 //!
 //! The closed form of `hilbert_transform.rs`, in the panel's own variable, is used on the panel that holds x and
 //! around it, as far as the polynomial can be continued without losing digits; from further away the
-//! panel is summed up by Gauss's rule, and from far away many panels at once (`groups.rs`).
+//! panel is summed up by Gauss's rule, and from far away many panels at once (`treecode.rs`).
 
 use super::half_angle::{Arc, HalfAngle};
 use super::hilbert_transform::{Breakpoint, Rounding, shares};

@@ -42,8 +42,8 @@ pub(crate) struct PanelSet<T> {
     pub size: T,
     /// Nodes to start a panel with.
     pub initial: usize,
-    /// No more than a sketch is wanted: four nodes, whatever they say.
-    pub rough: bool,
+    /// No more than a first estimate is wanted: four nodes, whatever they say.
+    pub coarse: bool,
     pub tolerance: T,
     pub cost: Cost,
     /// Looked at beforehand: at the left and at the right end.
@@ -64,7 +64,7 @@ impl<T: Real> PanelSet<T> {
             traces: [SampleCache::new(), SampleCache::new()],
             size: T::zero(),
             initial: 8,
-            rough: false,
+            coarse: false,
             tolerance,
             cost: Cost::default(),
             held: [None; 2],
@@ -297,7 +297,7 @@ impl<T: Real> PanelSet<T> {
                 let finer = trial.level < MOST_LEVELS
                     && trial.may_be_halved()
                     && (is_long(trial.panel.x) || is_long(before.x));
-                if finer && splits < MOST_SPLITS && !self.rough {
+                if finer && splits < MOST_SPLITS && !self.coarse {
                     self.panels.pop();
                     let again =
                         |panel, trial: &Candidate<T>| Candidate { panel, split: true, ..*trial };

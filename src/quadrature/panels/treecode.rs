@@ -1,4 +1,4 @@
-//! Groups of panels, each of which a point far enough away sees as one.
+//! A treecode: groups of panels, each of which a point far enough away sees as one.
 //!
 //! From a distance of its own length and more, `1/(t - x)` over a group is a polynomial in t of
 //! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points of it,

@@ -8,7 +8,7 @@ use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_en
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
 use crate::{Body, ContactError, Interval, Real};
 
-/// By how much of the distance to the nearest other node a point may miss its own, and for a sketch.
+/// By how much of the distance to the nearest other node a point may miss its own, and for a first estimate.
 const NEAR: [f64; 2] = [0.1, 0.45];
 
 /// How often a span is halved to resolve what only the slope at the end of a piece tells of. (A
@@ -43,7 +43,7 @@ impl<T: Real> PanelSet<T> {
         trial: &mut Candidate<T>,
     ) -> Result<(), ContactError<T>> {
         let (panel, level) = (&mut trial.panel, trial.level);
-        let mut n = if self.rough { 4 } else { self.initial };
+        let mut n = if self.coarse { 4 } else { self.initial };
         let [left, right] = panel.x;
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
@@ -89,7 +89,7 @@ impl<T: Real> PanelSet<T> {
                     (split, derivatives) = (true, off);
                 }
             }
-            if self.rough {
+            if self.coarse {
                 // A short panel may be continued a long way.
                 panel.drop_noise(T::epsilon() * bodies);
                 split = false;
@@ -114,7 +114,7 @@ impl<T: Real> PanelSet<T> {
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
         let rounding = T::epsilon().sqrt() * self.size;
         let at_end = |(held, end): (&Option<EndProbe<T>>, T)| {
-            let held = held.filter(|held| held.limit == end && !self.rough)?;
+            let held = held.filter(|held| held.limit == end && !self.coarse)?;
             Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
         };
         self.held.iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
@@ -154,17 +154,17 @@ impl<T: Real> PanelSet<T> {
         panel: &mut Panel<T>,
     ) -> Result<SampledBody<T>, ContactError<T>> {
         let x = panel.x;
-        let table = if self.rough { Table::sketch() } else { Table::of(N) };
+        let table = if self.coarse { Table::coarse() } else { Table::of(N) };
         let (half, zero) = (T::of(0.5), T::zero());
         let (centre, reach) = (half * x[0] + half * x[1], half * (x[1] - x[0]));
         // Never at the very end of a body, where the slope may be infinite.
-        let inside = if self.rough { zero } else { T::epsilon() };
+        let inside = if self.coarse { zero } else { T::epsilon() };
         let [first, last] = [x[0] + inside * x[0].abs(), x[1] - inside * x[1].abs()];
         // A sliver of a few units in the last place has no inside.
         let [first, last] = if first <= last { [first, last] } else { [centre, centre] };
         let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
-        let near = T::of(NEAR[usize::from(self.rough)]) * reach;
+        let near = T::of(NEAR[usize::from(self.coarse)]) * reach;
         let room = std::array::from_fn(|i| near * T::of(table.spacing[i]));
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
             sample_near(gap, body, &nodes, &room, trace, &mut self.cost)?;
@@ -178,7 +178,7 @@ impl<T: Real> PanelSet<T> {
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
-            seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.rough));
+            seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.coarse));
         }
         panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
         panel.count(N);
@@ -202,7 +202,7 @@ impl<T: Real> PanelSet<T> {
     ) -> SampledBody<T> {
         let zero = T::zero();
         let off = [(lower, 0), (upper, 1)]
-            .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.rough));
+            .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
         let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
         for i in 0..N {
