@@ -99,7 +99,7 @@ pub(super) fn capacity<T: Real>(
         let free = [conditions.edges[1].is_free(), conditions.edges[0].is_free()];
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let peak = if fixed == [None; 2] {
-            largest_pressure(&*integrator, &contact.gap, &load_case, on, &mut Cost::default())
+            largest_pressure(&*integrator, &contact.gap, &load_case, (0, on), &mut Cost::default())
                 .ok()?
                 .1
                 .value

@@ -625,9 +625,10 @@ impl<T: Real> Search<'_, '_, T> {
         let contacts = panels::several(integrator).map_or(&one[..], |several| several.contacts());
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let mut highest = if free == [true; 2] { T::zero() } else { T::one() / T::zero() };
-        for &on in contacts {
-            highest = highest
-                .max(largest_pressure(integrator, gap, &load_case, on, self.cost).ok()?.1.value);
+        for contact in contacts.iter().copied().enumerate() {
+            highest = highest.max(
+                largest_pressure(integrator, gap, &load_case, contact, self.cost).ok()?.1.value,
+            );
         }
         Some(Capacity { on, end: ends[side], load, peak: highest })
     }

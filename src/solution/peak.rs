@@ -2,11 +2,14 @@
 
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Estimate, Integrator, LoadCase};
+use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
 use crate::{ContactError, Interval, Real};
 
 /// Points at which a largest pressure is first looked for.
 const POINTS: usize = 64;
+
+/// The most of them.
+const MOST_POINTS: usize = 1 << 14;
 
 /// A largest pressure.
 ///
@@ -31,8 +34,8 @@ pub struct Peak<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The largest pressure (a pressure) and its place: the largest on a grid of 64 points in each contact and at
-    /// the breakpoints, refined. The pressure is flat there: its value has all digits, its place half of them.
+    /// The largest pressure (a pressure) and its place: the largest on a grid in each contact, of 64 points or twice
+    /// as many as it took samples, and at the breakpoints, refined. The pressure is flat there: its value has all digits, its place half of them.
     ///
     /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
     /// inside.
@@ -65,7 +68,7 @@ impl<T: Real> Solution<'_, T> {
             &**self.integrator,
             &self.gap,
             &self.load_case(),
-            on,
+            (contact, on),
             &mut Cost::default(),
         )?;
         if !pressure.is_finite() {
@@ -88,25 +91,32 @@ pub(crate) fn largest_pressure<T: Real>(
     integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
     load_case: &LoadCase<T>,
-    on: Interval<T>,
+    (contact, on): (usize, Interval<T>),
     cost: &mut Cost,
 ) -> Result<(T, Estimate<T>), ContactError<T>> {
-    let mut x = [T::zero(); POINTS];
-    for (i, x) in x.iter_mut().enumerate() {
-        *x = on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS));
-    }
-    let mut pressures = [T::zero(); POINTS];
-    integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
-    let mut best = 0;
-    for i in 0..POINTS {
-        if pressures[i] > pressures[best] {
-            best = i;
+    // Waves that took many samples have many maxima.
+    let mut samples = 0;
+    panels::nodes(integrator, contact, &mut |_| {
+        samples += 1;
+        Ok(())
+    })?;
+    let points = (2 * samples).clamp(POINTS, MOST_POINTS).next_multiple_of(POINTS);
+    let place = |i: usize| on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(points));
+    let (mut best, mut largest) = (0, None);
+    for first in (0..points).step_by(POINTS) {
+        let x: [T; POINTS] = std::array::from_fn(|i| place(first + i));
+        let mut pressures = [T::zero(); POINTS];
+        integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
+        for (i, pressure) in pressures.into_iter().enumerate() {
+            if largest.is_none_or(|largest| pressure > largest) {
+                (best, largest) = (first + i, Some(pressure));
+            }
         }
     }
-    let around = |i: usize| if i < POINTS { x[i] } else { on.left };
-    let before = if best == 0 { on.right } else { x[best - 1] };
-    let (mut lo, mut hi) = (around(best + 1), before);
-    let mut top = (x[best], integrator.estimate(gap, load_case, x[best], cost)?);
+    let mut lo = if best + 1 < points { place(best + 1) } else { on.left };
+    let mut hi = if best == 0 { on.right } else { place(best - 1) };
+    let best = place(best);
+    let mut top = (best, integrator.estimate(gap, load_case, best, cost)?);
     let mut at = |x: T| -> Result<T, ContactError<T>> {
         let pressure = integrator.estimate(gap, load_case, x, cost)?;
         if pressure.value > top.1.value {
@@ -125,7 +135,8 @@ pub(crate) fn largest_pressure<T: Real>(
     let golden = T::of(0.618_033_988_749_894_9);
     let (mut left, mut right) = (hi - golden * (hi - lo), lo + golden * (hi - lo));
     let (mut p_left, mut p_right) = (at(left)?, at(right)?);
-    while hi - lo > T::epsilon().sqrt() * on.half_width() && left < right {
+    let resolution = T::epsilon().sqrt() * (hi - lo);
+    while hi - lo > resolution && left < right {
         if p_left < p_right {
             (lo, left, p_left) = (left, right, p_right);
             right = lo + golden * (hi - lo);

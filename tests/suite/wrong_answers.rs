@@ -607,6 +607,23 @@ mod second_hour {
         }
     }
 
+    /// The largest of 20 000 pressures is no more than the peak.
+    #[test]
+    fn the_peak_among_fine_waves() {
+        let q = 400.0;
+        let body = graph(-1.0, 1.0, move |x: f64| {
+            [x * x / 2.0 + 0.15 / q / q * (q * x + 0.3).sin(), x + 0.15 / q * (q * x + 0.3).cos()]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Control::Load(0.08)).unwrap();
+        let points = solution.pressure().unwrap().sample(20_000).unwrap();
+        let most = points.iter().map(|point| point[1]).max_by(f64::total_cmp).unwrap();
+        let peak = solution.peak().unwrap().pressure;
+        assert!(peak >= most && peak < most * (1.0 + 1e-6), "{peak} {most}");
+        let again = contact.solve(Control::PeakPressure(peak)).unwrap();
+        assert!((again.load() / 0.08 - 1.0).abs() < 1e-9, "{}", again.load());
+    }
+
     #[test]
     fn no_number_of_points_is_too_many() {
         let body = graph(-1.0, 1.0, |x: f64| [x * x / 2.0, x]);
