@@ -18,9 +18,14 @@ impl<T: Real> Solution<'_, T> {
     /// evaluation, and does not see two surfaces that are steep alike: [`steepest_slope`](Self::steepest_slope) does.
     #[must_use]
     pub fn is_steep(&self) -> bool {
-        let limits = self.intervals().iter().flat_map(|on| [on.left, on.right]);
+        let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
+        let slope = |i: usize, x: T| match self.several() {
+            Some(several) => several.panel_set(i).slope(x),
+            None => self.integrator.slope(x),
+        };
         let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
-        limits.filter_map(|x| self.integrator.slope(x)).any(steep)
+        let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| slope(i, x)));
+        slopes.any(|slope| slope.is_some_and(steep))
     }
 
     /// The largest slope `|f'|` of either surface within the contacts, before loading: how far the bodies are from

@@ -112,7 +112,6 @@ fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
 }
 
 #[test]
-
 fn a_wedge_and_its_mirror_image_are_as_exact() {
     for (left, right) in [(1e-6, 1.0), (1.0, 1e-6)] {
         let form = Wedge::unequal(left, right, 1.0).unwrap();

@@ -336,7 +336,6 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
 }
 
 #[test]
-
 fn a_load_less_than_any_number_is_refused() {
     let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();

@@ -62,7 +62,6 @@ fn superellipse(along: f64, across: f64, n: f64) -> Profile {
 /// `first_hour`, A: a flat-bottomed body in a groove touches in two places; it was solved as one, with
 /// -157 MPa in its middle.
 #[test]
-
 fn a_superellipse_in_a_groove() {
     let modulus = 115e3;
     let body = superellipse(10.0, 8.0, 2.5);
@@ -86,7 +85,6 @@ fn a_superellipse_in_a_groove() {
 
 /// `first_hour`, A: `Fixed` corners that the load does not reach. K = (F/L - κ L/2)/π is negative there.
 #[test]
-
 fn corners_that_the_load_does_not_reach() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
@@ -123,7 +121,6 @@ fn measured(wave: f64) -> Vec<[f64; 2]> {
 
 /// `first_hour`, B: of 16 solves 9 were `Ok` at the wrong bump. 0.5 µm leave the body bulging, 3 µm do not.
 #[test]
-
 fn measured_rollers_with_waves() {
     let modulus = 115e3;
     for wave in [0.5e-3, 3e-3] {
@@ -153,7 +150,6 @@ fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
 
 /// 1a: what the solve's own panels have missed is an error where the contact is certified, not `Ok`.
 #[test]
-
 fn a_bump_of_the_slope_that_the_panels_miss() {
     let cases = [
         (
@@ -198,7 +194,6 @@ impl ParametricProfile<f64> for Turncoat {
 
 /// 1b: a body that is not the same any more: what a warm solver remembers is not what `certify` sees.
 #[test]
-
 fn a_body_that_changes_behind_the_solver() {
     let body = Turncoat(AtomicBool::new(false));
     let contact = Contact::new(&Flat, &body).unwrap();
@@ -245,7 +240,6 @@ fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, en
 
 /// 2: `x^1.5 - m x` bears π² m³/54, with L = π² m²/18; all above came back certified.
 #[test]
-
 fn an_overloaded_body_is_an_error() {
     for m in [1.0, 0.3, 0.1] {
         let body = one_sided(0.5, m, 4.0);
@@ -271,7 +265,6 @@ fn an_overloaded_body_is_an_error() {
 
 /// 2: `y = k ln(k/p) - k` touches from 0 on with L = 2p, and bears 2p.
 #[test]
-
 fn an_overloaded_logarithm_is_an_error() {
     let p = 1e-3;
     let body = graph(0.0, 2.0, move |k: f64| {
@@ -285,7 +278,6 @@ fn an_overloaded_logarithm_is_an_error() {
 
 /// 2: a gear's flank begins at the base circle.
 #[test]
-
 fn a_flank_is_not_pressed_beyond_its_beginning() {
     for (origin, modulus, half_width) in [(1e-3, 2.0 / PI, 0.266), (1e-6, 115e3, 0.2)] {
         let flank = Involute::new(50.0, origin, [0.0, 0.8]).unwrap();
@@ -298,7 +290,6 @@ fn a_flank_is_not_pressed_beyond_its_beginning() {
 /// 3a: what the bodies bear, and which end is reached, is the same whatever is asked. The wedge with slopes
 /// -m₁ and m₂ has its tip at φ = π m₁/(m₁ + m₂): a = L (1 - cos φ), F = L (m₁ + m₂) sin φ/π.
 #[test]
-
 fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
     for (left, right) in [(1.0, 0.1), (0.1, 1e-6)] {
         let body = wedge([-left, right], 1.0).unwrap();
@@ -324,7 +315,6 @@ fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
 
 /// 3a: two gears, of 50 and 75 mm, whose flanks begin next to where they touch: at r t₀²/2.
 #[test]
-
 fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
     for origin in [0.01f64, 1e-4] {
         let flank = |radius| Involute::new(radius, origin, [0.0, 0.8]).unwrap();
@@ -354,7 +344,6 @@ fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
 
 /// 3b: 1e-19 of the load; it was called an overflow.
 #[test]
-
 fn a_body_that_bears_next_to_nothing() {
     // Γ(0.7)/(√π Γ(1.2))
     let mu = 0.797_619_504_704_847_6;
@@ -368,7 +357,6 @@ fn a_body_that_bears_next_to_nothing() {
 
 /// 3b: a rounded punch in a groove stands on its two edges; "they carry -0.140 of the load" was said.
 #[test]
-
 fn a_rounded_punch_in_a_groove() {
     let punch = rounded_punch(1.0, 0.1, 1.3).unwrap();
     let groove = Parabola::new(3.0, [-1.3, 1.3]).unwrap();
@@ -393,7 +381,6 @@ fn evaluations(body: Profile, load: Control<f64>) -> (usize, Result<f64, Contact
 /// 3c: a peak above what the body bears: the same largest peak whatever was asked, and not 850 000
 /// evaluations. `x = k²`, `y = k³ - m k²`, that is `x^1.5 - m x`.
 #[test]
-
 fn a_peak_that_the_body_does_not_bear() {
     let m = 1e-6;
     let body = || -> Profile {
@@ -427,7 +414,6 @@ fn a_peak_that_the_body_does_not_bear() {
 
 /// 3c: and a flank that begins where it touches.
 #[test]
-
 fn a_peak_that_a_flank_does_not_bear() {
     let flank = || -> Profile { Box::new(Involute::new(50.0, 1e-6, [0.0, 0.8]).unwrap()) };
     let (calls, answer) = evaluations(flank(), Control::PeakPressure(0.3));
@@ -442,7 +428,6 @@ fn a_peak_that_a_flank_does_not_bear() {
 
 /// 4: the peak of a contact leads back to it, also where the contact hardly reaches beyond a flat.
 #[test]
-
 fn peaks_of_a_punch_with_a_flat() {
     let body = rounded_punch(1.0, 1.0, 1.5).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
@@ -459,7 +444,6 @@ fn peaks_of_a_punch_with_a_flat() {
 
 /// 5: nearly all of a circle turns back in X, which both ends show.
 #[test]
-
 fn a_circle_that_closes() {
     let circle = |end: f64| {
         Curve::new([-end, end], |k: f64| {
@@ -482,7 +466,6 @@ fn a_circle_that_closes() {
 
 /// 6: X that has saturated far from the contact has no slope there, and needs none.
 #[test]
-
 fn a_parameter_that_saturates() {
     type Curves = (&'static str, f64, fn(f64) -> [f64; 2]);
     let curves: [Curves; 4] = [
@@ -604,6 +587,27 @@ mod second_hour {
             let cold = contact.solve(control).unwrap().hull();
             let warm = solver.solve(contact, control).unwrap().hull();
             assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
+        }
+    }
+
+    /// The slopes are those of each contact, whatever was sampled before.
+    #[test]
+    fn steepness_of_several_contacts() {
+        let body = |scale: f64| {
+            graph(-2.0, 2.0, move |x: f64| {
+                [scale * x * x * (x * x - 2.0), 4.0 * scale * x * (x * x - 1.0)]
+            })
+        };
+        for (scale, steep) in [(0.01, false), (1.0, true)] {
+            let body = body(scale);
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            let solution = contact.solve(Control::Load(0.3 * scale)).unwrap();
+            assert_eq!(solution.intervals().len(), 2);
+            assert_eq!(solution.is_steep(), steep);
+            assert_eq!(
+                solution.steepest_slope().unwrap() > linecontact::STEEPEST_HALF_PLANE,
+                steep
+            );
         }
     }
 
