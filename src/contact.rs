@@ -1,6 +1,7 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod active_set;
+mod approach;
 mod capacity;
 mod edge_pressure;
 mod edges;
@@ -20,10 +21,11 @@ pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
 
 use crate::gap::{Cost, Gap, Shape};
+use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::panels;
 use crate::quadrature::{Integrator, Moments, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::{ContactState, Report, Solution, Start, Verdict, certify};
+use crate::solution::{ContactState, References, Report, Solution, Start, Verdict, certify};
 use crate::{ContactError, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
 use equations::Equations;
@@ -63,6 +65,8 @@ pub struct Contact<'b, T: Real> {
     kappa: T,
     /// Whether nobody has set κ.
     kappa_is_default: bool,
+    /// What they are made of, where κ follows from that.
+    materials: Option<([Material<T>; 2], PlaneState)>,
     edges: [Edge<T>; 2],
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
@@ -101,6 +105,15 @@ pub enum Control<T> {
     HalfWidth(T),
     /// The largest pressure p₀ = max P(x), between edges where the pressure is bounded: a pressure.
     PeakPressure(T),
+    /// How far the bodies come together, from where they just touch: the [approach](Solution::approach)
+    /// `Approach::bodies`, to given references. The bodies' [materials](Contact::materials) must be known, and the
+    /// approach must grow with the load.
+    Approach {
+        /// δ: a length, positive.
+        approach: T,
+        /// What it is measured between.
+        references: References<T>,
+    },
     /// A load, and the moment of the pressures about a given place. The bodies turn until it is that: by
     /// [`Solution::tilt`].
     ///
@@ -215,6 +228,7 @@ impl<'b, T: Real> Contact<'b, T> {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
             kappa_is_default: true,
+            materials: None,
             edges: [Edge::Free; 2],
             edge_pressure: None,
             start: None,
@@ -229,7 +243,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Eq. (3).
     #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
-        Self { kappa, kappa_is_default: false, ..self }
+        Self { kappa, kappa_is_default: false, materials: None, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
@@ -237,6 +251,31 @@ impl<'b, T: Real> Contact<'b, T> {
     #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
         self.kappa(T::frac_pi_2() * modulus)
+    }
+
+    /// The scale by what body 1 and body 2 are made of. Besides E*, which follows, the
+    /// [approach](Solution::approach) depends on it.
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, Control, Flat, Material, PlaneState};
+    ///
+    /// // A steel roller on aluminium: mm, MPa, N/mm.
+    /// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+    /// let (aluminium, steel) = (Material::elastic(70e3, 0.33), Material::elastic(210e3, 0.3));
+    /// let contact = Contact::new(&Flat, &roller)?.materials(aluminium, steel, PlaneState::Strain);
+    /// let modulus: f64 = 1.0 / ((1.0 - 0.33 * 0.33) / 70e3 + (1.0 - 0.09) / 210e3);
+    /// let hertz = (4.0 * 500.0 * 10.0 / (std::f64::consts::PI * modulus)).sqrt();
+    /// assert!((contact.solve(Control::Load(500.0))?.a() / hertz - 1.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn materials(self, lower: Material<T>, upper: Material<T>, state: PlaneState) -> Self {
+        let materials = [lower, upper];
+        // What is wrong with them is said by the solve.
+        let modulus = Elasticity::of_bodies(materials, state).map(|(_, modulus)| modulus);
+        let this = self.contact_modulus(modulus.unwrap_or(T::one()));
+        Self { materials: Some((materials, state)), ..this }
     }
 
     /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
@@ -350,7 +389,21 @@ impl<'b, T: Real> Contact<'b, T> {
         report: Report,
     ) -> Solution<'b, T> {
         let gap = self.gap.tilted(found.tilt);
-        Solution::new(gap, integrator, self.kappa, found, cost, report)
+        Solution::new(
+            gap,
+            integrator,
+            self.kappa,
+            self.elasticity().ok().flatten(),
+            found,
+            cost,
+            report,
+        )
+    }
+
+    /// The elasticity of both bodies, where it is known.
+    fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
+        let bodies = |(materials, state)| Ok(Elasticity::of_bodies(materials, state)?.0);
+        self.materials.map(bodies).transpose()
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -378,7 +431,7 @@ impl<'b, T: Real> Contact<'b, T> {
         workspace: &mut Workspace<T>,
         control: Control<T>,
     ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
-        let kappa = self.kappa;
+        let (kappa, bodies) = (self.kappa, self.elasticity()?);
         if !(kappa.is_finite() && kappa > T::zero()) {
             return Err(ContactError::InvalidKappa { kappa });
         }
@@ -413,6 +466,10 @@ impl<'b, T: Real> Contact<'b, T> {
                     return Err(ContactError::InvalidLoad { load: pressure });
                 }
                 topology::find(self, Sought::Peak(pressure), integrator, workspace, &mut cost)?
+            }
+            (Control::Approach { approach, references }, _) => {
+                let sought = approach::Sought { approach, references, bodies };
+                approach::find(self, &sought, integrator, workspace, &mut cost)?
             }
             (Control::Moment { load, moment, about }, _) => {
                 let line = moment::LineOfLoad::of_moment(load, moment, about)?;

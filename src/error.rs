@@ -493,6 +493,59 @@ pub enum ContactError<T: Real> {
         /// As given.
         ratio: T,
     },
+    /// Young's modulus is not a positive finite number.
+    #[error(
+        "{body} body: Young's modulus is {modulus:?}: it must be positive and finite (or Material::Rigid)"
+    )]
+    InvalidYoungsModulus {
+        /// Whose.
+        body: Body,
+        /// As given.
+        modulus: T,
+    },
+    /// Both bodies are rigid: there is no pressure then.
+    #[error("both bodies are Material::Rigid: at least one must be elastic")]
+    BothRigid,
+    /// An approach was asked for, but not what the bodies are made of: E* alone does not tell how much of it
+    /// each of them gives.
+    #[error("the approach depends on E and ν of both bodies: give them by Contact::materials")]
+    NoMaterials,
+    /// The depth, radius or length of a reference is not a positive finite number.
+    #[error("a reference at {length:?}: its depth, radius or length must be positive and finite")]
+    InvalidReference {
+        /// As given.
+        length: T,
+    },
+    /// The approach asked for is not a positive finite number.
+    #[error("the approach is {approach:?}: it must be positive and finite")]
+    InvalidApproach {
+        /// As given.
+        approach: T,
+    },
+    /// No contact that stays on the bodies has this approach.
+    #[error(
+        "an approach of {wanted:?} is more than the bodies bear: they carry {load:?}, with an approach of \
+         {approach:?}; extend the domain or lower the approach"
+    )]
+    ApproachTooLarge {
+        /// The approach asked for.
+        wanted: T,
+        /// About the largest approach of a contact that stays on the bodies.
+        approach: T,
+        /// The load of that.
+        load: T,
+    },
+    /// The approach to these references does not grow with the load: no load goes with it alone.
+    #[error(
+        "under the load {load:?} the approach falls by {rate:?} with each unit of it: the references are \
+         too close to the surface; put them deeper, or at an x inside the contact"
+    )]
+    ApproachFalls {
+        /// Where it was seen.
+        load: T,
+        /// dδ/dF there, negative or zero.
+        rate: T,
+    },
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {coefficient:?}: it must be finite")]
     InvalidFriction {
@@ -612,6 +665,11 @@ impl<T: Real> ContactError<T> {
             | Self::InvalidMoment { .. }
             | Self::InvalidPoissonRatio { .. }
             | Self::InvalidFriction { .. }
+            | Self::InvalidYoungsModulus { .. }
+            | Self::BothRigid
+            | Self::NoMaterials
+            | Self::InvalidReference { .. }
+            | Self::InvalidApproach { .. }
             | Self::InconsistentHeights { .. }
             | Self::BothLimitsGiven { .. }
             | Self::TiltNotSupported { .. }

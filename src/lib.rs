@@ -79,6 +79,7 @@ pub mod contact;
 mod error;
 pub mod gap;
 mod interval;
+mod material;
 mod numerics;
 pub mod profile;
 pub mod quadrature;
@@ -94,11 +95,13 @@ pub use contact::{Contact, Control, Edge, EdgePressure};
 pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
+pub use material::{Material, PlaneState};
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::stress;
+pub use solution::{Approach, Reference, References};
 pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
 pub use solution::{
     ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,

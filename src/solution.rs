@@ -1,6 +1,7 @@
 //! What comes back, and what can be asked of it: one question a file.
 
 use crate::gap::{Cost, Gap};
+use crate::material::Elasticity;
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::{Interval, Real};
@@ -23,6 +24,8 @@ mod summary;
 
 mod moment;
 
+mod approach;
+
 mod load_rates;
 
 mod gap_outside;
@@ -36,7 +39,11 @@ mod contact_state;
 mod display;
 mod pressure_integral;
 mod report;
+mod solved;
+mod undeformed_gap;
 
+pub(crate) use approach::Approaching;
+pub use approach::{Approach, Reference, References};
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
 pub(crate) use contact_state::ContactState;
@@ -46,6 +53,7 @@ pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
 pub use region::ContactRegion;
 pub use report::{Report, Start, Trial, Verdict};
+pub(crate) use solved::Solved;
 pub use steepness::STEEPEST_HALF_PLANE;
 pub use summary::Summary;
 
@@ -77,6 +85,7 @@ pub struct Solution<'b, T: Real> {
     /// That has solved the contact.
     integrator: Arc<Box<dyn Integrator<T>>>,
     kappa: T,
+    elasticity: Option<[Elasticity<T>; 2]>,
     found: ContactState<T>,
     cost: Cost,
     report: Report,
@@ -87,11 +96,12 @@ impl<'b, T: Real> Solution<'b, T> {
         gap: Gap<'b, T>,
         integrator: Arc<Box<dyn Integrator<T>>>,
         kappa: T,
+        elasticity: Option<[Elasticity<T>; 2]>,
         found: ContactState<T>,
         cost: Cost,
         report: Report,
     ) -> Self {
-        Self { gap, integrator, kappa, found, cost, report }
+        Self { gap, integrator, kappa, elasticity, found, cost, report }
     }
 
     /// The contact in which a place lies.
@@ -112,6 +122,16 @@ impl<'b, T: Real> Solution<'b, T> {
 
     pub(crate) fn scale(&self) -> T {
         self.kappa
+    }
+
+    /// Of the bodies, where it is known.
+    fn elasticity(&self) -> Option<[Elasticity<T>; 2]> {
+        self.elasticity
+    }
+
+    pub(crate) fn solved(&self) -> Solved<'_, T> {
+        let Self { gap, integrator, kappa, found, .. } = self;
+        Solved { gap, integrator: &***integrator, kappa: *kappa, found }
     }
 
     pub(crate) fn found(&self) -> &ContactState<T> {

@@ -35,7 +35,7 @@ impl<T: Real> Solution<'_, T> {
         let [from, to] = self.gap().range();
         let at_edge = sampler.height(self.gap(), edge.max(from).min(to))?;
         let bodies = sampler.height(self.gap(), x)? - at_edge;
-        let [pushed] = Integrals::new(self)?
+        let [pushed] = Integrals::new(self.solved())?
             .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.scale())
     }
@@ -52,7 +52,7 @@ impl<T: Real> Solution<'_, T> {
         }
         let bodies = Sampler::default().slope(self.gap(), x)?;
         let pull = |distance: T, strength: T| [strength / distance];
-        let [pull] = Integrals::new(self)?.over(x, pull)?;
+        let [pull] = Integrals::new(self.solved())?.over(x, pull)?;
         Ok(bodies - pull / self.scale())
     }
 

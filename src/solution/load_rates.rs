@@ -1,5 +1,7 @@
 //! How limits and pressure change with the load.
 
+use super::pressure_integral::Density;
+use super::solved::Solved;
 use crate::quadrature::panels::LoadResponse;
 use crate::{ContactError, Interval, Real, Solution};
 
@@ -55,6 +57,15 @@ enum Touching<T> {
     Several(LoadResponse<T>),
 }
 
+impl<T: Real> Density<T> for &LoadRates<T> {
+    fn values(&self, x: &[T], rates: &mut [T]) -> Result<(), ContactError<T>> {
+        rates.iter_mut().zip(x).try_for_each(|(rate, &x)| {
+            *rate = self.pressure(x)?;
+            Ok(())
+        })
+    }
+}
+
 impl<T: Real> LoadRates<T> {
     /// Of one contact.
     fn of_one([left, right]: [T; 2], on: Interval<T>) -> Self {
@@ -95,14 +106,20 @@ impl<T: Real> Solution<'_, T> {
     /// quadrature that does not know the derivatives of its integrals ([`Midpoint`](crate::Midpoint))
     /// unless both limits are given; where contacts are born or merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
-        let found = self.found();
-        let (on, kappa) = (found.interval, self.scale());
+        LoadRates::new(self.solved())
+    }
+}
+
+impl<T: Real> LoadRates<T> {
+    pub(super) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
+        let Solved { found, kappa, .. } = solved;
+        let on = found.interval;
         let refuse = |why| Err(ContactError::NoLoadDerivative { why });
         if found.adhesive != [false; 2] {
             return refuse("an adhesive edge moves with a singular pressure");
         }
-        if let Some(several) = self.several() {
-            let Some((mut limits, punch)) = several.rates(self.load() / kappa) else {
+        if let Some(several) = solved.several() {
+            let Some((mut limits, punch)) = several.rates(found.load / kappa) else {
                 return refuse("two contacts are about to merge, or one is about to vanish");
             };
             limits.iter_mut().flatten().for_each(|rate| *rate /= kappa);

@@ -40,7 +40,7 @@ impl<T: Real> Solution<'_, T> {
         let on = self.hull();
         let (centre, half_width) = (on.centre(), on.half_width());
         let share = |distance: T, strength: T| [-(distance / half_width) * strength];
-        let [about_centre] = Integrals::new(self)?.over(centre, share)?;
+        let [about_centre] = Integrals::new(self.solved())?.over(centre, share)?;
         Ok(centre / half_width * self.load() + about_centre)
     }
 }

@@ -1,5 +1,7 @@
 //! The pressure of a solution.
 
+use super::pressure_integral::Density;
+use super::solved::Solved;
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
@@ -14,16 +16,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of sampling the gap.
     pub fn pressure(&self) -> Result<Pressure<'_, T>, ContactError<T>> {
-        let cost = self.integrator.complete(&self.gap)?;
-        let (gap, ContactState { interval: on, load, error, force, .. }) = (&self.gap, self.found);
-        let error = error.unwrap_or(T::zero());
-        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
-        let ContactState { strengths, adhesive, .. } = self.found;
-        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
-        let held = [held(0), held(1)];
-        let load_case = self.load_case();
-        let (integrator, contacts) = (&**self.integrator, self.intervals());
-        Ok(Pressure { gap, integrator, load_case, on, contacts, force, held, cost })
+        Pressure::new(self.solved())
     }
 }
 
@@ -53,6 +46,23 @@ pub struct Pressure<'p, T: Real> {
     /// That error times the strengths of the edges at -b and a, with adhesion.
     held: [T; 2],
     cost: Cost,
+}
+
+impl<'p, T: Real> Pressure<'p, T> {
+    /// Samples what is still missing.
+    pub(crate) fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
+        let Solved { gap, integrator, kappa, found } = solved;
+        let cost = integrator.complete(gap)?;
+        let ContactState { interval: on, load, free, error, force, strengths, adhesive, .. } =
+            *found;
+        let error = error.unwrap_or(T::zero());
+        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
+        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
+        let held = [held(0), held(1)];
+        let load_case = LoadCase { kappa, load, free };
+        let contacts = solved.contacts();
+        Ok(Self { gap, integrator, load_case, on, contacts, force, held, cost })
+    }
 }
 
 impl<T: Real> Pressure<'_, T> {
@@ -181,14 +191,16 @@ impl<T: Real> Pressure<'_, T> {
         Ok(estimate)
     }
 
-    /// `P(x)` strictly inside the contact as it comes, infinite where a slope jumps.
-    pub(crate) fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
-    }
-
     /// What making ready has cost.
     pub fn cost(&self) -> Cost {
         self.cost
+    }
+}
+
+/// As it comes, infinite where a slope jumps.
+impl<T: Real> Density<T> for Pressure<'_, T> {
+    fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
     }
 }
 

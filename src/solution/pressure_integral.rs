@@ -18,8 +18,9 @@
 
 mod graded_rule;
 
+use super::solved::Solved;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::{ContactError, Interval, Pressure, Real, Solution};
+use crate::{ContactError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
 use std::sync::OnceLock;
 
@@ -29,9 +30,15 @@ const NODES: usize = 16;
 /// Panels beyond those between the breakpoints before an integral is given up.
 const MOST_PANELS: usize = 20_000;
 
-/// The pressure of all contacts, ready to be integrated.
-pub(crate) struct Integrals<'p, T: Real> {
-    pub pressure: Pressure<'p, T>,
+/// What is integrated: the pressure, or its rate with the load.
+pub(crate) trait Density<T: Real> {
+    /// At places strictly inside the contacts.
+    fn values(&self, x: &[T], values: &mut [T]) -> Result<(), ContactError<T>>;
+}
+
+/// A density on all contacts, ready to be integrated.
+pub(crate) struct Integrals<T: Real, D> {
+    pub density: D,
     /// The contacts, from left to right.
     contacts: Vec<One<T>>,
 }
@@ -50,19 +57,33 @@ struct One<T> {
 /// `P w` at the nodes of a panel, of its right half and of its left one, each from right to left.
 type Kept<T> = [[T; NODES]; 3];
 
-impl<'p, T: Real> Integrals<'p, T> {
-    pub fn new(solution: &'p Solution<'_, T>) -> Result<Self, ContactError<T>> {
-        let contacts = solution.intervals();
+impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
+    /// The pressure of what was solved.
+    pub fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
+        let contacts = solved.contacts();
         let last = contacts.len() - 1;
-        let free = solution.found().free;
+        let free = solved.found.free;
         let one = |(i, &on): (usize, &Interval<T>)| {
-            let breakpoints = solution.gap().breakpoints(on).collect();
+            let breakpoints = solved.gap.breakpoints(on).collect();
             // Between two contacts all limits are free.
             let free = [i > 0 || free[0], i < last || free[1]];
             One { on, breakpoints, free, kept: OnceLock::new() }
         };
         let contacts = contacts.iter().enumerate().map(one).collect();
-        Ok(Self { pressure: solution.pressure()?, contacts })
+        Ok(Self { density: Pressure::new(solved)?, contacts })
+    }
+}
+
+impl<T: Real, D: Density<T>> Integrals<T, D> {
+    /// A density that is smooth inside the contacts, and infinite at their limits.
+    pub fn of_smooth(density: D, contacts: &[Interval<T>]) -> Self {
+        let one = |&on: &Interval<T>| One {
+            on,
+            breakpoints: Vec::new(),
+            free: [false; 2],
+            kept: OnceLock::new(),
+        };
+        Self { density, contacts: contacts.iter().map(one).collect() }
     }
 
     /// The breakpoints inside the contacts, rising.
@@ -118,13 +139,13 @@ impl<'p, T: Real> Integrals<'p, T> {
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
         let mut views = Vec::with_capacity(contacts.len());
         for one in contacts {
-            views.push((one, GradedRule::new(one.on, x), one.kept(&self.pressure)?));
+            views.push((one, GradedRule::new(one.on, x), one.kept(&self.density)?));
         }
         let panel = |i: usize, ends: [T; 2], known: Option<usize>, part: usize| {
             let (one, graded_rule, kept) = &views[i];
             let bounded = match known {
                 Some(known) => graded_rule.seen(&kept[known], part),
-                None => one.bounded(&self.pressure, graded_rule, ends)?,
+                None => one.bounded(&self.density, graded_rule, ends)?,
             };
             let kernel = |distance, strength| kernel(one.on.contains(x), distance, strength);
             Ok::<_, ContactError<T>>(GradedPanel::new(graded_rule, ends, &bounded, &kernel))
@@ -172,7 +193,7 @@ impl<'p, T: Real> Integrals<'p, T> {
 
 impl<T: Real> One<T> {
     /// Taken from whichever edge is nearer.
-    fn kept(&self, pressure: &Pressure<'_, T>) -> Result<&[Kept<T>], ContactError<T>> {
+    fn kept(&self, density: &impl Density<T>) -> Result<&[Kept<T>], ContactError<T>> {
         if let Some(kept) = self.kept.get() {
             return Ok(kept);
         }
@@ -185,7 +206,7 @@ impl<T: Real> One<T> {
             let nearer = usize::from(seen[0][1] >= seen[1][1]);
             let (graded_rule, [from, to]) = (&views[nearer], seen[nearer]);
             let middle = T::of(0.5) * (from + to);
-            let bounded = |ends| self.bounded(pressure, graded_rule, ends);
+            let bounded = |ends| self.bounded(density, graded_rule, ends);
             let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
             Ok([0, 1, 2].map(|part| graded_rule.seen(&kept, part)))
         };
@@ -211,7 +232,7 @@ impl<T: Real> One<T> {
     /// `P w` at the nodes of a panel.
     fn bounded(
         &self,
-        pressure: &Pressure<'_, T>,
+        density: &impl Density<T>,
         graded_rule: &GradedRule<T>,
         ends: [T; 2],
     ) -> Result<[T; NODES], ContactError<T>> {
@@ -220,7 +241,7 @@ impl<T: Real> One<T> {
             (s[i], share[i]) = graded_rule.place(turn, self.free);
         }
         let mut bounded = [T::zero(); NODES];
-        pressure.values(&s, &mut bounded)?;
+        density.values(&s, &mut bounded)?;
         for i in 0..NODES {
             bounded[i] *= share[i] * graded_rule.on.chebyshev_weight(s[i]);
         }

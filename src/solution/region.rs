@@ -92,7 +92,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure), and [`ContactError::Integral`].
     pub fn contacts(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
-        let integrals = Integrals::new(self)?;
+        let integrals = Integrals::new(self.solved())?;
         let last = self.intervals().len() - 1;
         let strengths = self.edge_singularities();
         let region = |(i, &interval): (usize, &Interval<T>)| {

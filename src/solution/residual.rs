@@ -1,6 +1,6 @@
 //! By how much a solution fails the integral equation.
 
-use super::pressure_integral::Integrals;
+use super::pressure_integral::{Density, Integrals};
 use crate::{ContactError, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
@@ -18,9 +18,9 @@ impl<T: Real> Solution<'_, T> {
         let Some(interval) = self.contact_with(x) else {
             return Err(ContactError::InvalidPosition { x, inside: true, interval: self.hull() });
         };
-        let integrals = Integrals::new(self)?;
+        let integrals = Integrals::new(self.solved())?;
         let mut at_x = [T::zero()];
-        integrals.pressure.values(&[x], &mut at_x)?;
+        integrals.density.values(&[x], &mut at_x)?;
         if !at_x[0].is_finite() {
             return Err(ContactError::Singular { x });
         }

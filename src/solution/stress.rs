@@ -47,9 +47,9 @@
 
 mod largest;
 
-use super::pressure_integral::Integrals;
+use super::pressure_integral::{Density, Integrals};
 use crate::gap::Sampler;
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, Interval, Pressure, Real, Solution};
 
 /// Stress in plane strain: a pressure; tension is positive.
 ///
@@ -133,7 +133,7 @@ fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
 /// ```
 pub struct Subsurface<'p, T: Real> {
     solution: &'p Solution<'p, T>,
-    integrals: Integrals<'p, T>,
+    integrals: Integrals<T, Pressure<'p, T>>,
     friction: T,
 }
 
@@ -155,7 +155,11 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
-        Ok(Subsurface { solution: self, integrals: Integrals::new(self)?, friction: T::zero() })
+        Ok(Subsurface {
+            solution: self,
+            integrals: Integrals::new(self.solved())?,
+            friction: T::zero(),
+        })
     }
 }
 
@@ -204,7 +208,7 @@ impl<T: Real> Subsurface<'_, T> {
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
         if self.solution.contact_with(x).is_some() {
-            self.integrals.pressure.values(&[x], &mut pressure)?;
+            self.integrals.density.values(&[x], &mut pressure)?;
         }
         let [free_b, free_a] = self.solution.found().free;
         let infinite = (x == left && !free_b) || (x == right && !free_a);

@@ -8,6 +8,7 @@ mod forms;
 #[path = "../common/formulas.rs"]
 mod formulas;
 
+mod approach;
 mod autodiff;
 mod derivatives;
 mod derivatives_several;

@@ -14,6 +14,7 @@ mod integrals;
 mod kept;
 
 mod accuracy;
+mod approach;
 mod bad_input;
 mod certificate;
 mod certificate_edges;

@@ -1,5 +1,6 @@
 //! Where the stress is largest.
 
+use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
 use crate::{ContactError, Interval, Real};
 
@@ -64,7 +65,7 @@ impl<T: Real> Subsurface<'_, T> {
     fn check_breakpoints(&self) -> Result<(), ContactError<T>> {
         let breakpoints: Vec<_> = self.integrals.breakpoints().collect();
         let mut pressures = vec![T::zero(); breakpoints.len()];
-        self.integrals.pressure.values(&breakpoints, &mut pressures)?;
+        self.integrals.density.values(&breakpoints, &mut pressures)?;
         match breakpoints.iter().zip(&pressures).find(|(_, pressure)| !pressure.is_finite()) {
             Some((&x, _)) => Err(ContactError::Singular { x }),
             None => Ok(()),

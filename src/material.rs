@@ -1,0 +1,126 @@
+//! What the bodies are made of.
+//!
+//! ```text
+//! 1/E* = 1/M₁ + 1/M₂      M = E/(1 - ν²) in plane strain, M = E in plane stress
+//! ```
+//!
+//! (Johnson, *Contact Mechanics*, 1985, Eq. 4.30 for plane strain.) Plane stress is plane strain with `ν/(1 + ν)` in
+//! place of ν and the same M (Timoshenko and Goodier, *Theory of Elasticity*, 1970, §§ 16 and 17).
+//!
+//! **Unlike bodies.** Without friction nothing of the elastic constants but E* is left in the equations of a
+//! half-plane: limits and pressure of unlike bodies are as exact as those of like ones. Friction would couple the
+//! two directions (Johnson, §7.2).
+
+use crate::{Body, ContactError, Real};
+
+/// An isotropic elastic material, or a body that does not give at all.
+///
+/// ```
+/// use linecontact::{Material, PlaneState};
+///
+/// let steel = Material::elastic(210e3, 0.3); // MPa
+/// let modulus = PlaneState::Strain.contact_modulus(steel, steel)?;
+/// assert!((modulus / (210e3 / (2.0 * 0.91)) - 1.0f64).abs() < 1e-15);
+/// let on_rigid = PlaneState::Strain.contact_modulus(Material::Rigid, steel)?;
+/// assert!((on_rigid / modulus - 2.0).abs() < 1e-15);
+/// # Ok::<(), linecontact::ContactError<f64>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub enum Material<T> {
+    /// Elastic and the same in all directions.
+    Elastic {
+        /// Young's modulus E: a pressure.
+        youngs_modulus: T,
+        /// Poisson's ratio ν, from 0 to 1/2.
+        poisson_ratio: T,
+    },
+    /// Rigid: it keeps its shape.
+    Rigid,
+}
+
+impl<T: Real> Material<T> {
+    /// Young's modulus E, a pressure, and Poisson's ratio ν, from 0 to 1/2.
+    #[must_use]
+    pub fn elastic(youngs_modulus: T, poisson_ratio: T) -> Self {
+        Self::Elastic { youngs_modulus, poisson_ratio }
+    }
+}
+
+/// How thick the bodies are, across the plane of the contact.
+///
+/// A roller, a gear tooth or a rail is long beside the width of its contact: what is inside cannot give way along
+/// it, and the strain is plane. A thin disc or a sheet that is loaded on its edge is short beside it: the *stress* is
+/// plane. Within one half-width or so of the ends of a roller neither holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum PlaneState {
+    /// Bodies much longer than the contact is wide.
+    #[default]
+    Strain,
+    /// Bodies much shorter than that.
+    Stress,
+}
+
+impl PlaneState {
+    /// The contact modulus E* of two bodies, a pressure.
+    ///
+    /// # Errors
+    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`]; [`ContactError::BothRigid`].
+    pub fn contact_modulus<T: Real>(
+        self,
+        lower: Material<T>,
+        upper: Material<T>,
+    ) -> Result<T, ContactError<T>> {
+        Ok(Elasticity::of_bodies([lower, upper], self)?.1)
+    }
+}
+
+/// A body as its surface shows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Elasticity<T> {
+    /// 1/M, zero of a rigid body.
+    pub compliance: T,
+    /// ν in plane strain, `ν/(1 + ν)` in plane stress.
+    pub ratio: T,
+}
+
+impl<T: Real> Elasticity<T> {
+    /// Both bodies, and their contact modulus.
+    pub fn of_bodies(
+        materials: [Material<T>; 2],
+        state: PlaneState,
+    ) -> Result<([Self; 2], T), ContactError<T>> {
+        let lower = Self::of(Body::Lower, materials[0], state)?;
+        let upper = Self::of(Body::Upper, materials[1], state)?;
+        let compliance = lower.compliance + upper.compliance;
+        if compliance.is_zero() {
+            return Err(ContactError::BothRigid);
+        }
+        Ok(([lower, upper], T::one() / compliance))
+    }
+
+    fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
+        let (zero, one) = (T::zero(), T::one());
+        let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {
+            return Ok(Self { compliance: zero, ratio: zero });
+        };
+        let compliance = one / modulus;
+        if !(modulus.is_finite() && modulus > zero && compliance.is_finite()) {
+            return Err(ContactError::InvalidYoungsModulus { body, modulus });
+        }
+        if !(ratio >= zero && ratio <= T::of(0.5)) {
+            return Err(ContactError::InvalidPoissonRatio { ratio });
+        }
+        Ok(match state {
+            PlaneState::Strain => {
+                Self { compliance: (one - ratio) * (one + ratio) * compliance, ratio }
+            }
+            PlaneState::Stress => Self { compliance, ratio: ratio / (one + ratio) },
+        })
+    }
+}

@@ -1,0 +1,314 @@
+//! How far the bodies come together, and how stiff they are.
+//!
+//! The surface of a half-plane has no displacement towards a point at infinity: it grows like a logarithm. A
+//! displacement needs a point of reference. With `M = E/(1 - ν²)` of body i, and `ξ = x - s`, its surface at x comes
+//! nearer to the reference by
+//!
+//! ```text
+//! δ_i(x) = 1/(π M_i) ∫ P(s) k_i(ξ) ds
+//! k = ln(1 + d²/ξ²) - d²/((1 - ν)(d² + ξ²))    the point at depth d below x
+//! k = 2 ln(2R/|ξ|) - 2                          the centre of a disc that is loaded at the opposite point
+//! k = 2 ln(ℓ/|ξ|)                               any other constant
+//! ```
+//!
+//! The first is the strain below the surface (Johnson, *Contact Mechanics*, 1985, Eqs. 2.23) integrated over the depth;
+//! for `d` much longer than the contact it is the formula of Weber and Banaschek (1953) for gear teeth. The second
+//! is Johnson's (§5.6). In plane stress M is E, and ν is `ν/(1 + ν)`.
+//!
+//! **The approach of the bodies** δ is how much nearer the two references are than when the bodies just touched:
+//! `δ = δ₁ + δ₂ + h(x) - h_first - gap(x)` with h the gap before loading, `h_first` the least of it, and `gap(x)`
+//! what is left open under load, nothing inside a contact. The logarithm need not be integrated for it. Averaged
+//! over a contact j of centre c and half-width L with the weight `1/(π sqrt(L² - (x - c)²))`, `ln|ξ|` is
+//!
+//! ```text
+//! G(s) = ln(L/2) inside contact j,    ln((|s - c| + sqrt((s - c)² - L²))/2) outside
+//! ```
+//!
+//! and, as the bodies touch there, the average of h is to that of the displacements as h is: so, with contact j that
+//! which has `h_first`,
+//!
+//! ```text
+//! δ = <h> - h_first + Σ 1/(π M_i) ∫ P (k_i(ξ) + 2 ln|ξ| - 2 G) ds
+//! ```
+//!
+//! in which nothing is singular. **Stiffness**: `dδ/dF` is the sum alone, with the [rate](crate::LoadRates) `∂P/∂F`
+//! of the pressure for P; the stiffness `dF/dδ` is exact, without differences.
+
+use super::load_rates::LoadRates;
+use super::pressure_integral::{Density, Integrals};
+use super::solved::Solved;
+use super::undeformed_gap::UndeformedGap;
+use crate::material::Elasticity;
+use crate::{ContactError, Interval, Real, Solution};
+
+/// The point of a body that its surface comes nearer to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+#[non_exhaustive]
+pub enum Reference<T> {
+    /// The point at this depth below the surface, a length: the half-plane as it is.
+    Depth(T),
+    /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
+    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6).
+    Disc(T),
+    /// ℓ in `2 ln(ℓ/|x - s|)`, a length. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
+    Length(T),
+}
+
+/// The references of both bodies. That of a [rigid](crate::Material::Rigid) body is not looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub struct References<T> {
+    /// The x below and above which they are, on the bodies. Far from the contact it does not matter; at a depth of
+    /// a few half-widths it does.
+    pub x: T,
+    /// Of body 1.
+    pub lower: Reference<T>,
+    /// Of body 2.
+    pub upper: Reference<T>,
+}
+
+/// How far two bodies come together under load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Approach<T> {
+    /// δ, how much nearer to each other the two references are than when the bodies just touched: a length.
+    pub bodies: T,
+    /// δ₁, how much nearer the surface of body 1 at x is to its own reference; of a rigid body 0.
+    pub lower: T,
+    /// The same of body 2.
+    pub upper: T,
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// How far the bodies have come together.
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References};
+    ///
+    /// // A steel roller of 10 mm between steel blocks, of which this is one: mm, MPa, N/mm.
+    /// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+    /// let steel = Material::elastic(210e3, 0.3);
+    /// let contact = Contact::new(&Flat, &roller)?.materials(steel, steel, PlaneState::Strain);
+    /// let solution = contact.solve(Control::Load(500.0))?;
+    /// let to = References { x: 0.0, lower: Reference::Depth(20.0), upper: Reference::Disc(10.0) };
+    /// let approach = solution.approach(&to)?;
+    /// assert!((approach.lower + approach.upper - approach.bodies).abs() < 1e-15);
+    ///
+    /// // Johnson, §5.6.
+    /// let share = 500.0 * 0.91 / (std::f64::consts::PI * 210e3);
+    /// let johnson = share * (2.0 * (40.0 / solution.a()).ln() - 1.0);
+    /// assert!((approach.upper / johnson - 1.0).abs() < 1e-13);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
+    /// [`ContactError::InvalidReference`]; [`ContactError::OutsideBodies`]; those of [`pressure`](Self::pressure);
+    /// [`ContactError::Integral`].
+    pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
+        Approaching::new(self.solved(), self.elasticity(), references)?.of_all()
+    }
+
+    /// The stiffness dF/dδ of the bodies against each other, a pressure: by how much the load per unit length
+    /// grows with their [approach](Self::approach). With a tilt, at a fixed tilt.
+    ///
+    /// The bodies come nearer to each other with every load. (The surface of one of them need not come nearer to a
+    /// point close below it, `Approach::upper`: beside the contact it may be lifted while the gap closes.)
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References};
+    ///
+    /// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+    /// let steel = Material::elastic(210e3, 0.3);
+    /// let contact = Contact::new(&Flat, &roller)?.materials(Material::Rigid, steel, PlaneState::Strain);
+    /// let solution = contact.solve(Control::Load(500.0))?;
+    /// let disc = Reference::Disc(10.0);
+    /// let stiffness = solution.stiffness(&References { x: 0.0, lower: disc, upper: disc })?;
+    /// // From Johnson's formula, with da/dF = a/(2 F).
+    /// let exact = std::f64::consts::PI * 210e3 / 0.91 / (2.0 * (40.0 / solution.a()).ln() - 2.0);
+    /// assert!((stiffness / exact - 1.0).abs() < 1e-13);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`approach`](Self::approach), and those of [`load_rates`](Self::load_rates).
+    pub fn stiffness(&self, references: &References<T>) -> Result<T, ContactError<T>> {
+        let rate = Approaching::new(self.solved(), self.elasticity(), references)?.rate()?;
+        Ok(T::one() / rate)
+    }
+}
+
+/// A contact, the elasticity of its bodies and their references: all that the approach follows from.
+pub(crate) struct Approaching<'s, T: Real> {
+    solved: Solved<'s, T>,
+    bodies: [Elasticity<T>; 2],
+    references: References<T>,
+    /// The contact in which the bodies touched first.
+    first: usize,
+    heights: UndeformedGap<T>,
+}
+
+impl<'s, T: Real> Approaching<'s, T> {
+    pub fn new(
+        solved: Solved<'s, T>,
+        bodies: Option<[Elasticity<T>; 2]>,
+        references: &References<T>,
+    ) -> Result<Self, ContactError<T>> {
+        let bodies = bodies.ok_or(ContactError::NoMaterials)?;
+        let References { x, lower, upper } = *references;
+        let range = solved.gap.range();
+        if !(x >= range[0] && x <= range[1]) {
+            return Err(ContactError::OutsideBodies { x, range });
+        }
+        for (reference, body) in [lower, upper].into_iter().zip(bodies) {
+            let (Reference::Depth(length) | Reference::Disc(length) | Reference::Length(length)) =
+                reference;
+            let valid = length.is_finite() && length > T::zero();
+            if !(valid || body.compliance.is_zero()) {
+                return Err(ContactError::InvalidReference { length });
+            }
+        }
+        let first = UndeformedGap::new(solved, 0, Some(x))?;
+        let (mut least, mut first) = (first.least, (0, first));
+        if let Some(several) = solved.several() {
+            least += several.height(0, false);
+            for contact in 1..solved.contacts().len() {
+                let heights = UndeformedGap::new(solved, contact, Some(x))?;
+                let lowest = several.height(contact, false) + heights.least;
+                if lowest < least {
+                    (least, first) = (lowest, (contact, heights));
+                }
+            }
+        }
+        let (first, heights) = first;
+        Ok(Self { solved, bodies, references: *references, first, heights })
+    }
+
+    /// `Σ 1/(π M_i) ∫ p (k_i + 2 ln|ξ| - 2 G) ds` for a density p of a given integral.
+    fn sum(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+        load: T,
+    ) -> Result<T, ContactError<T>> {
+        let on = self.solved.contacts()[self.first];
+        let shares = self.bodies.map(|body| body.compliance);
+        let smooth = self.smooth(integrals, load)?;
+        let mean = self.mean_logarithm(integrals, load, on)?;
+        let sum = shares[0] * (smooth[0] - mean - mean) + shares[1] * (smooth[1] - mean - mean);
+        Ok(sum * T::frac_1_pi())
+    }
+
+    /// `∫ p (k_i + 2 ln(|ξ|/L)) ds` of each body, with L the half-width of the first contact.
+    fn smooth(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+        load: T,
+    ) -> Result<[T; 2], ContactError<T>> {
+        let scale = self.solved.contacts()[self.first].half_width();
+        let References { x, lower, upper } = self.references;
+        let (two, one) = (T::of(2.0), T::one());
+        let [lower, upper] = [(lower, self.bodies[0]), (upper, self.bodies[1])];
+        let is_integral = |(reference, body): (Reference<T>, Elasticity<T>)| {
+            matches!(reference, Reference::Depth(_)) && !body.compliance.is_zero()
+        };
+        let kernel = |(reference, body): (Reference<T>, Elasticity<T>), distance: T| match reference
+        {
+            _ if body.compliance.is_zero() => T::zero(),
+            Reference::Depth(depth) => {
+                let radius = depth.hypot(distance);
+                let down = depth / radius;
+                two * (radius / scale).ln() - down * down / (one - body.ratio)
+            }
+            Reference::Disc(radius) => two * ((two * radius / scale).ln() - one),
+            Reference::Length(length) => two * (length / scale).ln(),
+        };
+        if is_integral(lower) || is_integral(upper) {
+            integrals.over(x, |distance, strength| {
+                [lower, upper].map(|body| strength * kernel(body, distance))
+            })
+        } else {
+            Ok([lower, upper].map(|body| load * kernel(body, T::zero())))
+        }
+    }
+
+    /// `∫ p (G - ln L) ds` of a contact, with L the half-width of the first.
+    fn mean_logarithm(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+        load: T,
+        on: Interval<T>,
+    ) -> Result<T, ContactError<T>> {
+        let (contacts, half) = (self.solved.contacts(), T::of(0.5));
+        let (scale, half_width) = (contacts[self.first].half_width(), on.half_width());
+        let inside = (half * half_width / scale).ln();
+        if contacts.len() == 1 {
+            return Ok(load * inside);
+        }
+        let [mean] = integrals.over_as_of(T::zero(), on.centre(), |own, distance, strength| {
+            let from = distance.abs();
+            let root = ((from - half_width).max(T::zero()) * (from + half_width)).sqrt();
+            [strength * if own { inside } else { (half * (from + root) / scale).ln() }]
+        })?;
+        Ok(mean)
+    }
+
+    /// The approach of the bodies alone, and its rate dδ/dF.
+    pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
+        Ok([self.of_bodies(&Integrals::new(self.solved)?)?, self.rate()?])
+    }
+
+    fn of_bodies(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<T, ContactError<T>> {
+        let UndeformedGap { mean, least, .. } = self.heights;
+        Ok(mean - least + self.sum(integrals, self.solved.found.load)?)
+    }
+
+    fn rate(&self) -> Result<T, ContactError<T>> {
+        let rates = LoadRates::new(self.solved)?;
+        let integrals = Integrals::of_smooth(&rates, self.solved.contacts());
+        self.sum(&integrals, T::one())
+    }
+
+    fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
+        let (integrals, load) = (Integrals::new(self.solved)?, self.solved.found.load);
+        let smooth = self.smooth(&integrals, load)?;
+        let logarithm = self.logarithm(&integrals, load)?;
+        let of = |i: usize| {
+            self.bodies[i].compliance * T::frac_1_pi() * (smooth[i] - T::of(2.0) * logarithm)
+        };
+        Ok(Approach { bodies: self.of_bodies(&integrals)?, lower: of(0), upper: of(1) })
+    }
+
+    /// `∫ P ln(|ξ|/L) ds`, with L the half-width of the first contact.
+    fn logarithm(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+        load: T,
+    ) -> Result<T, ContactError<T>> {
+        let (Solved { kappa, .. }, x) = (self.solved, self.references.x);
+        let contacts = self.solved.contacts();
+        let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
+            let scale = contacts[self.first].half_width();
+            let logarithm = |distance: T, strength: T| [strength * (distance.abs() / scale).ln()];
+            return integrals.over(x, logarithm).map(|[sum]| sum);
+        };
+        // In a contact it changes as the heights do.
+        let heights = if i == self.first {
+            self.heights
+        } else {
+            UndeformedGap::new(self.solved, i, Some(x))?
+        };
+        let rise = heights.at.unwrap_or(heights.mean) - heights.mean;
+        Ok(self.mean_logarithm(integrals, load, contacts[i])? + kappa * rise)
+    }
+}

@@ -1,0 +1,28 @@
+//! What was solved, without what it took.
+
+use super::ContactState;
+use crate::gap::Gap;
+use crate::quadrature::Integrator;
+use crate::quadrature::panels::{self, Several};
+use crate::{Interval, Real};
+
+/// A contact with all that its pressure follows from, prepared.
+#[derive(Clone, Copy)]
+pub(crate) struct Solved<'s, T: Real> {
+    pub gap: &'s Gap<'s, T>,
+    pub integrator: &'s dyn Integrator<T>,
+    pub kappa: T,
+    pub found: &'s ContactState<T>,
+}
+
+impl<'s, T: Real> Solved<'s, T> {
+    /// The contacts on their panels, if they are several.
+    pub fn several(&self) -> Option<&'s Several<T>> {
+        panels::several(self.integrator)
+    }
+
+    /// From left to right.
+    pub fn contacts(&self) -> &'s [Interval<T>] {
+        self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)
+    }
+}

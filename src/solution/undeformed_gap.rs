@@ -1,0 +1,192 @@
+//! The heights of the gap before loading over a contact, from its slopes alone.
+//!
+//! With `x = c + L cos θ` and h the height above that at the left limit,
+//!
+//! ```text
+//! h(x) = ∫ g dx from the left limit to x      (1/π) ∫ h dθ = (1/π) ∫ g θ dx      θ from 0 to π
+//! ```
+//!
+//! The second is by parts: θ/π is the share of the angles to the right of x. Gauss's rule of 16 nodes on spans of θ
+//! that are halved until it agrees with itself.
+
+use super::solved::Solved;
+use crate::gap::Sampler;
+use crate::numerics::gauss_legendre::GaussLegendre;
+use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
+use crate::{ContactError, Interval, Real};
+
+/// Spans of θ beyond those between the breakpoints before an integral is given up.
+const MOST_SPANS: usize = 20_000;
+
+/// Nodes on a span.
+const NODES: usize = 16;
+
+/// Heights above that at the left limit of a contact.
+#[derive(Clone, Copy)]
+pub(super) struct UndeformedGap<T> {
+    /// The mean over θ.
+    pub mean: T,
+    /// The least.
+    pub least: T,
+    /// Where it is.
+    pub lowest: T,
+    /// That at the place asked for, if it is in this contact.
+    pub at: Option<T>,
+}
+
+/// One span of θ, from its left end in x.
+struct Span<T> {
+    /// θ at the left end of x, and at the right one.
+    theta: [T; 2],
+    /// `∫ g dx` and `∫ g θ dx`, and those of the absolute values.
+    sum: [T; 2],
+    size: [T; 2],
+    /// x and g at the nodes.
+    nodes: [[T; 2]; NODES],
+}
+
+/// The slope of the gap before loading, in one contact.
+struct Slopes<'s, T: Real> {
+    solved: Solved<'s, T>,
+    contact: usize,
+    on: Interval<T>,
+    sampler: Sampler<T>,
+}
+
+impl<T: Real> Slopes<'_, T> {
+    /// From the samples at hand, or where there are none from the curves.
+    fn at(&mut self, x: T) -> Result<T, ContactError<T>> {
+        let known = match self.solved.several() {
+            Some(several) => several.panel_set(self.contact).slope(x),
+            None => self.solved.integrator.slope(x),
+        };
+        known.map_or_else(|| self.sampler.slope(self.solved.gap, x), Ok)
+    }
+
+    fn span(&mut self, theta: [T; 2]) -> Result<Span<T>, ContactError<T>> {
+        let zero = T::zero();
+        let rule = GaussLegendre::sixteen();
+        let (half, middle) =
+            (T::of(0.5) * (theta[0] - theta[1]), T::of(0.5) * (theta[0] + theta[1]));
+        let mut span = Span { theta, sum: [zero; 2], size: [zero; 2], nodes: [[zero; 2]; NODES] };
+        for (i, node) in span.nodes.iter_mut().enumerate() {
+            let angle = middle - half * T::of(rule.nodes[i]);
+            let x = self.on.at_angle(angle);
+            let slope = self.at(x)?;
+            *node = [x, slope];
+            // dx = L sin θ dθ.
+            let term = T::of(rule.weights[i]) * half * self.on.half_width() * angle.sin() * slope;
+            for (k, term) in [term, term * angle].into_iter().enumerate() {
+                span.sum[k] += term;
+                span.size[k] += term.abs();
+            }
+        }
+        Ok(span)
+    }
+
+    /// x and the slope at a limit, which is not finite everywhere.
+    fn at_limit(&mut self, x: T) -> Option<[T; 2]> {
+        self.at(x).ok().filter(|slope| slope.is_finite()).map(|slope| [x, slope])
+    }
+
+    /// Takes the place between two nodes where the slope rises through zero, if it is the lowest so far; given the
+    /// height at an angle close by.
+    fn dip(
+        &mut self,
+        found: &mut UndeformedGap<T>,
+        nodes: [Option<[T; 2]>; 2],
+        height: T,
+        start: T,
+    ) -> Result<(), ContactError<T>> {
+        let [Some([from, falls]), Some([to, rises])] = nodes else { return Ok(()) };
+        if !(falls < T::zero() && rises >= T::zero() && from < to) {
+            return Ok(());
+        }
+        let bracket = Bracket::new(from, to).values(falls, rises);
+        let lowest = match try_find(&Brent::DEFAULT, |x| self.at(x), &bracket) {
+            Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => root.x,
+            Err(TryFindError::Function(error)) => return Err(error),
+            // A bracket of two neighbouring numbers: either will do.
+            Err(TryFindError::Search(_)) => from,
+        };
+        let least = height + self.span([start, self.on.angle(lowest)])?.sum[0];
+        if least < found.least {
+            (found.least, found.lowest) = (least, lowest);
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real> UndeformedGap<T> {
+    pub fn new(
+        solved: Solved<'_, T>,
+        contact: usize,
+        at: Option<T>,
+    ) -> Result<Self, ContactError<T>> {
+        let (zero, on) = (T::zero(), solved.contacts()[contact]);
+        let at = at.filter(|&x| x >= on.left && x <= on.right);
+        let mut slopes = Slopes { solved, contact, on, sampler: Sampler::default() };
+        let mut cuts: Vec<T> = solved.gap.breakpoints(on).collect();
+        cuts.extend(at);
+        cuts.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        let angles = cuts.iter().map(|&x| on.angle(x));
+        let angles: Vec<T> =
+            std::iter::once(T::pi()).chain(angles).chain(std::iter::once(zero)).collect();
+        // The leftmost last.
+        let mut pending = Vec::new();
+        let mut size = [zero; 2];
+        for ends in angles.windows(2).rev().filter(|ends| ends[0] > ends[1]) {
+            let span = slopes.span([ends[0], ends[1]])?;
+            add(&mut size, span.size);
+            pending.push(span);
+        }
+        let tolerance = T::epsilon().powf(T::of(0.75));
+        let (mut left, mut height, mut mean) = (MOST_SPANS, zero, zero);
+        let mut found = Self { mean, least: zero, lowest: on.left, at: None };
+        let stop = at.map(|x| on.angle(x));
+        let mut before = slopes.at_limit(on.left);
+        while let Some(span) = pending.pop() {
+            let [from, to] = span.theta;
+            if stop == Some(from) {
+                found.at = Some(height);
+            }
+            let middle = T::of(0.5) * (from + to);
+            let halves = [slopes.span([from, middle])?, slopes.span([middle, to])?];
+            let agrees = |k: usize| {
+                let refined = halves[0].sum[k] + halves[1].sum[k];
+                (refined - span.sum[k]).abs() <= tolerance * size[k]
+            };
+            if !(agrees(0) && agrees(1)) {
+                if left == 0 {
+                    return Err(ContactError::Integral { x: on.centre(), panels: MOST_SPANS });
+                }
+                left -= 1;
+                pending.extend(halves.into_iter().rev());
+                continue;
+            }
+            for half in halves {
+                let start = half.theta[0];
+                for node in half.nodes {
+                    slopes.dip(&mut found, [before, Some(node)], height, start)?;
+                    before = Some(node);
+                }
+                height += half.sum[0];
+                mean += half.sum[1];
+                if height < found.least {
+                    (found.least, found.lowest) = (height, on.at_angle(half.theta[1]));
+                }
+            }
+        }
+        let last = slopes.at_limit(on.right);
+        slopes.dip(&mut found, [before, last], height, zero)?;
+        if stop == Some(zero) {
+            found.at = Some(height);
+        }
+        Ok(Self { mean: mean / T::pi(), ..found })
+    }
+}
+
+fn add<T: Real>(sum: &mut [T; 2], terms: [T; 2]) {
+    sum[0] += terms[0];
+    sum[1] += terms[1];
+}

@@ -1,0 +1,462 @@
+//! How far bodies come together, and how stiff they are: against strains of Hertz's contact that are integrated,
+//! formulas of the field, own sums over the pressure, and differences of solves.
+#![allow(missing_docs)]
+
+use crate::common::{Profile, graph, worst};
+use crate::integrals::Angles;
+use linecontact::profile::{Ellipse, Parabola};
+use linecontact::reference::{ClosedForm, Hertz};
+use linecontact::{
+    Contact, ContactError, Control, Edge, Flat, Material, Midpoint, PlaneState, Reference,
+    References, Solution, Solver,
+};
+use std::f64::consts::{E, PI};
+
+const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
+const SOFT: Material<f64> = Material::Elastic { youngs_modulus: 0.7, poisson_ratio: 0.45 };
+
+/// (1 - ν²)/(π E).
+fn share(material: Material<f64>) -> f64 {
+    match material {
+        Material::Elastic { youngs_modulus, poisson_ratio } => {
+            (1.0 - poisson_ratio * poisson_ratio) / (PI * youngs_modulus)
+        }
+        Material::Rigid => 0.0,
+    }
+}
+
+fn deep(x: f64, depth: f64) -> References<f64> {
+    References { x, lower: Reference::Depth(depth), upper: Reference::Depth(depth) }
+}
+
+/// x⁴ - 2x².
+fn quartic() -> Profile {
+    graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
+}
+
+/// The displacement towards a depth by the definition, from values of the pressure alone.
+fn by_definition(solution: &Solution<f64>, material: Material<f64>, x: f64, depth: f64) -> f64 {
+    let Material::Elastic { poisson_ratio: ratio, .. } = material else { return 0.0 };
+    let pressure = solution.pressure().unwrap();
+    let kernel = |s: f64| {
+        let square = (x - s).powi(2);
+        (depth * depth / square).ln_1p()
+            - depth * depth / ((1.0 - ratio) * (depth * depth + square))
+    };
+    let sum = solution.intervals().iter().fold(0.0, |sum, on| {
+        let density = |s: f64| {
+            if s <= on.left || s >= on.right || s == x {
+                return 0.0;
+            }
+            pressure.at(s).unwrap_or(0.0) * kernel(s)
+        };
+        sum + Angles::new(on.left, on.right).load(&[x], &density)
+    });
+    share(material) * sum
+}
+
+#[test]
+fn below_hertz_it_is_the_integral_of_the_strains() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().materials(STEEL, SOFT, PlaneState::Strain);
+    let solution = contact.solve(Control::HalfWidth(0.01)).unwrap();
+    let largest = solution.peak().unwrap().pressure;
+    let mut errors = Vec::new();
+    for exponent in -12..=24 {
+        let z = 10f64.powf(0.25 * f64::from(exponent));
+        let approach = solution.approach(&deep(0.0, 0.01 * z)).unwrap();
+        let mut total = [0.0; 2];
+        for (material, found) in [(STEEL, approach.lower), (SOFT, approach.upper)] {
+            let Material::Elastic { poisson_ratio: ratio, .. } = material else { panic!() };
+            let size = PI * share(material) * largest * 0.01;
+            let logarithm = size * z.asinh();
+            // Without a difference of large numbers.
+            let exact = logarithm - size * ratio / (1.0 - ratio) * z / ((1.0 + z * z).sqrt() + z);
+            errors.push((found - exact) / logarithm);
+            total = [total[0] + exact, total[1] + logarithm];
+        }
+        errors.push((approach.bodies - total[0]) / total[1]);
+    }
+    let worst = worst(errors.into_iter().map(f64::abs));
+    println!("share of the integral of the logarithm: {worst:.1e}");
+    assert!(worst < 1e-12);
+}
+
+#[test]
+fn far_below_it_is_the_formula_of_weber_and_banaschek() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact =
+        Contact::new(&Flat, &body).unwrap().materials(Material::Rigid, STEEL, PlaneState::Strain);
+    let solution = contact.solve(Control::Load(0.001)).unwrap();
+    let off = |depth: f64| {
+        let found = solution.approach(&deep(0.0, depth)).unwrap();
+        assert_eq!(found.lower, 0.0);
+        let exact = share(STEEL) * 0.001 * (2.0 * (2.0 * depth / solution.a()).ln() - 0.3 / 0.7);
+        (found.bodies / exact - 1.0).abs()
+    };
+    let a = solution.a();
+    assert!(off(2500.0 * a) < 1e-7 && off(1e6 * a) < 1e-12 && off(2.5 * a) > 0.02);
+}
+
+/// ANSYS verification case 191: cylinders of radius 10 and 13, 3200 per unit length.
+#[test]
+fn the_reference_decides_between_the_values_of_verification_case_191() {
+    let lower = Parabola::new(-10.0f64, [-5.0, 5.0]).unwrap();
+    let upper = Parabola::new(13.0, [-5.0, 5.0]).unwrap();
+    let contact = Contact::new(&lower, &upper).unwrap().materials(
+        Material::elastic(30000.0, 0.25),
+        Material::elastic(29120.0, 0.3),
+        PlaneState::Strain,
+    );
+    let solution = contact.solve(Control::Load(3200.0)).unwrap();
+    assert!((solution.a() - 1.20).abs() < 0.005);
+    let approach = |of: &dyn Fn(f64) -> Reference<f64>| {
+        let references = References { x: 0.0, lower: of(10.0), upper: of(13.0) };
+        solution.approach(&references).unwrap().bodies
+    };
+    // Johnson's discs, and Roark's formula, whose constant is another.
+    assert!((approach(&Reference::Disc) - 0.3995).abs() < 5e-5);
+    assert!((approach(&|r| Reference::Length(r * (-1.0f64 / 6.0).exp())) - 0.4174).abs() < 1.5e-4);
+    assert!((approach(&|r| Reference::Length(2.0 * r / E)) - 0.3995).abs() < 5e-5);
+    assert!((approach(&Reference::Depth) - 0.3507).abs() < 2e-3);
+}
+
+#[test]
+fn it_is_the_integral_of_the_pressure_at_any_place() {
+    let lopsided = graph(-1.5, 1.5, |x| [x * x / 2.0 + x.powi(3) / 6.0, x + x * x / 2.0]);
+    let quartic = quartic();
+    let edges = [Edge::Free, Edge::Free];
+    let punch = [Edge::Fixed(-0.3), Edge::Free];
+    // The sum cannot come nearer to the infinite pressure at a corner than the rounding of s, and its root goes in.
+    let scenes: [(&Profile, [Edge<f64>; 2], f64, [f64; 5], f64); 3] = [
+        (&lopsided, edges, 0.1, [0.0, 0.1, -0.3, 0.9, -1.2], 2e-12),
+        (&lopsided, punch, 0.2, [0.0, 0.3, -0.29, 0.9, -0.4], 1e-7),
+        (&quartic, edges, 0.5, [1.0, -1.05, 0.0, 0.4, 1.8], 2e-12),
+    ];
+    for (body, [left, right], load, places, allowed) in scenes {
+        let mut errors = Vec::new();
+        let contact = Contact::new(&Flat, &**body).unwrap().edges(left, right).materials(
+            SOFT,
+            STEEL,
+            PlaneState::Strain,
+        );
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let [first, least] = if load == 0.5 { [1.0, -1.0] } else { [0.0, 0.0] };
+        let far = solution.approach(&deep(first, 1e9)).unwrap().bodies;
+        for x in places {
+            for depth in [0.05, 1.0, 30.0] {
+                let found = solution.approach(&deep(x, depth)).unwrap();
+                let lower = by_definition(&solution, SOFT, x, depth);
+                let upper = by_definition(&solution, STEEL, x, depth);
+                errors.push((found.lower - lower) / upper.abs());
+                errors.push((found.upper - upper) / upper.abs());
+                // What is left open beside a contact.
+                let open = solution.gap_at(x).unwrap_or(0.0);
+                let height = body.at(x).y - least;
+                let size = upper.abs() + height.abs();
+                errors.push((found.bodies - (lower + upper + height - open)) / size);
+            }
+            // So deep it does not matter below which place.
+            errors.push(solution.approach(&deep(x, 1e9)).unwrap().bodies / far - 1.0);
+        }
+        let worst = worst(errors.into_iter().map(f64::abs));
+        println!("largest error {worst:.1e}");
+        assert!(worst < allowed);
+    }
+}
+
+#[test]
+fn stiffness_is_the_derivative_of_load_by_approach() {
+    let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
+    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic());
+    let wedge = graph(-1.0, 1.0, |x| [x.abs() + x * x / 2.0, x.signum() + x]);
+    let free = [Edge::Free; 2];
+    let flat: [Edge<f64>; 2] = [Edge::Fixed(-0.5), Edge::Fixed(0.6)];
+    let corner = [Edge::Fixed(-0.3), Edge::Free];
+    let scenes: [(&Profile, [Edge<f64>; 2], f64); 5] = [
+        (&circle, free, 0.3),
+        (&circle, flat, 0.9),
+        (&circle, corner, 0.2),
+        (&quartic, free, 0.5),
+        (&wedge, free, 0.3),
+    ];
+    let mut errors = Vec::new();
+    for (body, [left, right], load) in scenes {
+        let contact = Contact::new(&Flat, &**body).unwrap().edges(left, right).materials(
+            STEEL,
+            SOFT,
+            PlaneState::Strain,
+        );
+        // Where a limit passes x the derivative is that of a root.
+        let places = if body.at(0.5).dy > 1.2 { [0.05, 0.9, 0.5] } else { [0.05, 0.9, 0.2] };
+        for (lower, upper) in [
+            (Reference::Depth(0.01), Reference::Depth(5.0)),
+            (Reference::Depth(0.7), Reference::Disc(3.0)),
+            (Reference::Length(2.0), Reference::Disc(3.0)),
+        ] {
+            for x in places {
+                let references = References { x, lower, upper };
+                let solve = |load: f64| contact.solve(Control::Load(load)).unwrap();
+                let at = |h: f64| solve(load + h).approach(&references).unwrap().bodies;
+                let h = 2e-3 * load;
+                let difference =
+                    (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+                let stiffness = solve(load).stiffness(&references).unwrap();
+                errors.push((stiffness * difference - 1.0).abs());
+            }
+        }
+    }
+    let worst = worst(errors.into_iter().map(f64::abs));
+    println!("largest difference {worst:.1e}");
+    assert!(worst < 1e-8);
+}
+
+/// A flat punch: the pressure and its rate are one function.
+#[test]
+fn a_flat_punch_is_as_stiff_under_any_load() {
+    let punch = graph(-1.0, 1.0, |_| [0.0, 0.0]);
+    let contact = Contact::new(&Flat, &*punch)
+        .unwrap()
+        .edges(Edge::Fixed(-1.0), Edge::Fixed(1.0))
+        .materials(Material::Rigid, STEEL, PlaneState::Strain);
+    for depth in [1e-3f64, 0.1, 3.0, 1e6] {
+        // ∫ P ln(d² + s²) ds = 2 F ln((d + sqrt(d² + 1))/2), ∫ P ln s² ds = -2 F ln 2.
+        let share = share(STEEL);
+        let root = depth.hypot(1.0);
+        let exact = share * (2.0 * depth.asinh() - depth / root / 0.7);
+        for load in [0.1, 4.0] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            let found = solution.approach(&deep(0.0, depth)).unwrap().bodies;
+            let stiffness = solution.stiffness(&deep(0.0, depth)).unwrap();
+            // Shares of the integral of the logarithm.
+            let allowed = 1e-12 * 2.0 * share * depth.asinh();
+            assert!((found / load - exact).abs() < allowed, "{depth} {load} {found}");
+            assert!((1.0 / stiffness - exact).abs() < allowed, "{depth} {load} {stiffness}");
+        }
+    }
+}
+
+#[test]
+fn the_load_of_an_approach_is_that_which_has_it() {
+    let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
+    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic());
+    let free = [Edge::Free; 2];
+    let corner = [Edge::Fixed(-0.3), Edge::Free];
+    let until = [Edge::FreeUntil(-0.1), Edge::FreeUntil(0.2)];
+    let mut errors = Vec::new();
+    for (body, [left, right]) in
+        [(&circle, free), (&circle, corner), (&circle, until), (&quartic, free)]
+    {
+        let contact = Contact::new(&Flat, &**body).unwrap().edges(left, right).materials(
+            STEEL,
+            SOFT,
+            PlaneState::Strain,
+        );
+        let mut solver = Solver::new();
+        for load in [1e-6, 0.01, 0.3, 0.9] {
+            for references in [deep(0.1, 4.0), deep(0.9, 200.0)] {
+                let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
+                let approach = solution.approach(&references).unwrap().bodies;
+                let control = Control::Approach { approach, references };
+                for found in
+                    [contact.solve(control).unwrap(), solver.solve(&contact, control).unwrap()]
+                {
+                    errors.push(found.load() / load - 1.0);
+                    errors.push((found.a() - solution.a()) / solution.hull().half_width());
+                    assert_eq!(found.intervals().len(), solution.intervals().len());
+                }
+            }
+        }
+    }
+    assert!(errors.len() > 40);
+    let worst = worst(errors.into_iter().map(f64::abs));
+    println!("largest error of the load {worst:.1e}");
+    assert!(worst < 1e-12);
+}
+
+#[test]
+fn swapped_mirrored_shifted_and_scaled_bodies_come_as_near() {
+    let body = |shift: f64, sign: f64, scale: f64, up: f64| {
+        graph(scale * (shift - 1.0), scale * (shift + 1.0), move |x| {
+            let z = sign * (x / scale - shift);
+            [up * scale * (z * z / 2.0 + z.powi(3) / 5.0), up * sign * (z + 0.6 * z * z)]
+        })
+    };
+    let straight = body(0.0, 1.0, 1.0, 1.0);
+    let solve = |lower: &Profile, upper: &Profile, materials: [Material<f64>; 2], to, load| {
+        let [one, other] = materials;
+        let contact = Contact::new(&**lower, &**upper).unwrap();
+        let contact = contact.materials(one, other, PlaneState::Stress);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        (solution.approach(&to).unwrap(), solution.stiffness(&to).unwrap())
+    };
+    let flat = graph(-1.0, 1.0, |_| [0.0, 0.0]);
+    let references = |x, lower, upper| References {
+        x,
+        lower: Reference::Depth(lower),
+        upper: Reference::Disc(upper),
+    };
+    let (one, stiff) = solve(&flat, &straight, [STEEL, SOFT], references(0.1, 0.5, 2.0), 0.1);
+
+    let (swapped, stiff_too) = solve(
+        &body(0.0, 1.0, 1.0, -1.0),
+        &flat,
+        [SOFT, STEEL],
+        References { x: 0.1, lower: Reference::Disc(2.0), upper: Reference::Depth(0.5) },
+        0.1,
+    );
+    assert!((swapped.lower / one.upper - 1.0).abs() < 1e-13);
+    assert!((swapped.upper / one.lower - 1.0).abs() < 1e-13);
+    assert!((stiff_too / stiff - 1.0).abs() < 1e-13);
+    let mirrored =
+        solve(&flat, &body(0.0, -1.0, 1.0, 1.0), [STEEL, SOFT], references(-0.1, 0.5, 2.0), 0.1);
+    let wide = graph(-10.0, 10.0, |_| [0.0, 0.0]);
+    let shifted =
+        solve(&wide, &body(3.0, 1.0, 1.0, 1.0), [STEEL, SOFT], references(3.1, 0.5, 2.0), 0.1);
+    let huge = graph(-1e9, 1e9, |_| [0.0, 0.0]);
+    let scale = 2f64.powi(20);
+    let scaled = solve(
+        &huge,
+        &body(0.0, 1.0, scale, 1.0),
+        [STEEL, SOFT],
+        references(0.1 * scale, 0.5 * scale, 2.0 * scale),
+        0.1 * scale,
+    );
+    for ((found, stiffness), scale) in [(mirrored, 1.0), (shifted, 1.0), (scaled, scale)] {
+        assert!((found.bodies / (scale * one.bodies) - 1.0).abs() < 1e-13);
+        assert!((found.lower / (scale * one.lower) - 1.0).abs() < 1e-13);
+        assert!((found.upper / (scale * one.upper) - 1.0).abs() < 1e-13);
+        assert!((stiffness / stiff - 1.0).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn plane_stress_is_plane_strain_of_another_material() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let (modulus, ratio) = (2.1, 0.3);
+    let other = Material::elastic(
+        modulus * (1.0 + 2.0 * ratio) / (1.0f64 + ratio).powi(2),
+        ratio / (1.0 + ratio),
+    );
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let contacts = [
+        contact.clone().materials(STEEL, STEEL, PlaneState::Stress),
+        contact.materials(other, other, PlaneState::Strain),
+    ];
+    let [stress, strain] = contacts.map(|contact| {
+        let solution = contact.solve(Control::Load(0.01)).unwrap();
+        let approach = solution.approach(&deep(0.02, 0.3)).unwrap();
+        [solution.a(), solution.peak().unwrap().pressure, approach.bodies, approach.lower]
+    });
+    // E* = E/2.
+    let hertz = Hertz::under_load(1.0, 0.01, PI / 2.0 * 1.05).unwrap();
+    assert!((stress[0] / hertz.limits().right - 1.0).abs() < 1e-14);
+    for (stress, strain) in stress.into_iter().zip(strain) {
+        assert!((stress / strain - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn another_quadrature_finds_the_same_to_its_accuracy() {
+    let body = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
+    let midpoint = Midpoint { segments: 4000, ..Midpoint::default() };
+    let contact =
+        Contact::new(&Flat, &body).unwrap().materials(Material::Rigid, STEEL, PlaneState::Strain);
+    let references = deep(0.1, 3.0);
+    let of = |contact: &Contact<f64>| {
+        contact.solve(Control::Load(0.3)).unwrap().approach(&references).unwrap().bodies
+    };
+    let (one, other) = (of(&contact), of(&contact.clone().quadrature(&midpoint)));
+    assert!((other / one - 1.0).abs() < 1e-5, "{:e}", other / one - 1.0);
+}
+
+#[test]
+fn what_cannot_be_answered_is_refused() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let scene = Contact::new(&Flat, &body).unwrap();
+    let bare = scene.clone().contact_modulus(1.0);
+    let references = deep(0.0, 1.0);
+    let control = |approach| Control::Approach { approach, references };
+    assert_eq!(bare.solve(control(0.1)).unwrap_err(), ContactError::NoMaterials);
+    let solution = bare.solve(Control::Load(0.01)).unwrap();
+    assert_eq!(solution.approach(&references).unwrap_err(), ContactError::NoMaterials);
+    assert_eq!(solution.stiffness(&references).unwrap_err(), ContactError::NoMaterials);
+
+    let with = |lower, upper| scene.clone().materials(lower, upper, PlaneState::Strain);
+    let solve = |contact: Contact<f64>| contact.solve(Control::Load(0.01)).unwrap_err();
+    assert_eq!(solve(with(Material::Rigid, Material::Rigid)), ContactError::BothRigid);
+    for modulus in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310] {
+        let error = solve(with(STEEL, Material::elastic(modulus, 0.3)));
+        assert!(matches!(error, ContactError::InvalidYoungsModulus { .. }), "{error}");
+    }
+    for ratio in [-0.1, 0.51, f64::NAN, f64::INFINITY] {
+        let error = solve(with(Material::elastic(1.0, ratio), STEEL));
+        assert!(matches!(error, ContactError::InvalidPoissonRatio { .. }), "{error}");
+    }
+    let contact = with(STEEL, STEEL);
+    for approach in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = contact.solve(control(approach)).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidApproach { .. }), "{error}");
+    }
+    let solution = contact.solve(Control::Load(0.01)).unwrap();
+    for depth in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = solution.approach(&deep(0.0, depth)).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
+    }
+    for x in [-1.5, f64::NAN] {
+        let error = solution.approach(&deep(x, 1.0)).unwrap_err();
+        assert!(matches!(error, ContactError::OutsideBodies { .. }), "{error}");
+    }
+    // A rigid body has no reference.
+    let rigid = with(Material::Rigid, STEEL).solve(Control::Load(0.01)).unwrap();
+    let upper = Reference::Depth(1.0);
+    assert!(rigid.approach(&References { x: 0.0, lower: Reference::Depth(-1.0), upper }).is_ok());
+}
+
+#[test]
+fn an_approach_that_the_bodies_do_not_bear_is_refused_with_the_largest() {
+    let body = Parabola::new(1.0, [-0.2, 0.2]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().materials(STEEL, STEEL, PlaneState::Strain);
+    let references = deep(0.0, 3.0);
+    let most = contact.solve(Control::HalfWidth(0.2)).unwrap();
+    let largest = most.approach(&references).unwrap().bodies;
+    for wanted in [1.001 * largest, 2.0 * largest, 1e3 * largest, 1e300] {
+        let control = Control::Approach { approach: wanted, references };
+        match contact.solve(control).unwrap_err() {
+            ContactError::ApproachTooLarge { approach, load, .. } => {
+                assert!((approach / largest - 1.0).abs() < 1e-6);
+                assert!((load / most.load() - 1.0).abs() < 1e-6);
+            }
+            error => panic!("{error}"),
+        }
+    }
+    let control = Control::Approach { approach: 0.999 * largest, references };
+    assert!(contact.solve(control).unwrap().a() < 0.2);
+}
+
+/// The surface beside a contact may move away from a point close below it. The bodies do not: the gap closes.
+#[test]
+fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
+    let parabola: Profile = Box::new(Parabola::new(1.0, [-3.0, 3.0]).unwrap());
+    let incompressible = Material::elastic(1.0, 0.5);
+    let mut lifted = 0;
+    for (body, load) in [(&parabola, 0.01), (&quartic(), 1.0), (&quartic(), 0.01)] {
+        for material in [STEEL, incompressible] {
+            let contact = Contact::new(&Flat, &**body).unwrap().materials(
+                Material::Rigid,
+                material,
+                PlaneState::Strain,
+            );
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            for depth in [1e-4, 1e-2, 0.1, 1.0, 10.0] {
+                for i in 0..=20 {
+                    let references = deep(0.1 * f64::from(i) - 1.0, depth);
+                    let stiffness = solution.stiffness(&references).unwrap();
+                    assert!(stiffness > 0.0, "{references:?} {stiffness}");
+                    lifted += i32::from(solution.approach(&references).unwrap().upper < 0.0);
+                }
+            }
+        }
+    }
+    assert!(lifted > 10, "{lifted}");
+}
