@@ -535,6 +535,17 @@ pub enum ContactError<T: Real> {
         /// The load of that.
         load: T,
     },
+    /// An approach that a table of a spring does not cover.
+    #[error(
+        "the table covers approaches from {:?} to {:?}, not {approach:?}: make it for a wider range of loads",
+        range[0], range[1]
+    )]
+    OutsideTable {
+        /// As given.
+        approach: T,
+        /// From the least to the largest in the table.
+        range: [T; 2],
+    },
     /// The approach to these references does not grow with the load: no load goes with it alone.
     #[error(
         "under the load {load:?} the approach falls by {rate:?} with each unit of it: the references are \
@@ -680,6 +691,7 @@ impl<T: Real> ContactError<T> {
             | Self::InvalidPosition { .. }
             | Self::NoLoadDerivative { .. }
             | Self::LengthMismatch { .. }
+            | Self::OutsideTable { .. }
             | Self::Integral { .. }
             | Self::Unresolved { .. } => ErrorKind::Evaluation,
             _ => ErrorKind::Solve,

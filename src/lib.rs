@@ -88,6 +88,7 @@ pub mod reference;
 pub mod search;
 mod solution;
 mod solver;
+mod spring;
 #[cfg(feature = "rayon")]
 mod sweep;
 
@@ -107,6 +108,7 @@ pub use solution::{
     ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,
 };
 pub use solver::Solver;
+pub use spring::{SpringPoint, SpringTable};
 #[cfg(feature = "rayon")]
 pub use sweep::sweep;
 

@@ -149,6 +149,16 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
+impl<T: Real> Solution<'_, T> {
+    /// δ and dδ/dF.
+    pub(crate) fn approach_with_rate(
+        &self,
+        references: &References<T>,
+    ) -> Result<[T; 2], ContactError<T>> {
+        Approaching::new(self.solved(), self.elasticity(), references)?.with_rate()
+    }
+}
+
 /// A contact, the elasticity of its bodies and their references: all that the approach follows from.
 pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,

@@ -55,6 +55,7 @@ mod several_solved;
 mod shapes;
 mod solver;
 mod spline;
+mod spring;
 mod starts;
 mod stress;
 mod tilt;

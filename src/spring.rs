@@ -1,0 +1,224 @@
+//! Two bodies in contact as a spring: what a simulator asks for at each step, from a table.
+//!
+//! The table has the exact load, stiffness dF/dδ, half-width and peak pressure, with their exact derivatives, at
+//! chosen loads. Between them the logarithms of all by that of the approach δ are cubic (Hermite): power laws, such as
+//! the 10/9 of ISO/TS 16281, are met by two points. Where two solves between two points show an error
+//! above the tolerance, a point is put between them.
+
+use crate::{Contact, ContactError, Control, Interval, Real, References, Solution, Solver};
+
+/// The most points of a table.
+const MOST_POINTS: usize = 4096;
+
+/// The least distance of two points, as a share of the load: closer ones follow a kink, as where a corner is reached.
+const CLOSEST: f64 = 1e-6;
+
+/// Where the error between two points is looked at: in the middle that of the values is largest, here that of the slopes.
+const STEEPEST: f64 = 0.211_324_865_405_187_1;
+
+/// What is seen of an error may be half of it.
+const MARGIN: f64 = 2.0;
+
+/// The error of a cubic goes like `t² (1 - t)²`: so much larger is its steepest slope than its largest value. A kink
+/// between two looks shows in the slopes.
+const SLOPE_OF_ERROR: f64 = 3.08;
+
+/// The state of a spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SpringPoint<T> {
+    /// The [approach](Solution::approach) δ: a length.
+    pub approach: T,
+    /// The load per unit length F: force/length.
+    pub load: T,
+    /// The [stiffness](Solution::stiffness) dF/dδ: a pressure.
+    pub stiffness: T,
+    /// The half-width L, of several contacts half of all widths together: a length.
+    pub half_width: T,
+    /// The largest pressure p₀; `None` where it is infinite, at a corner.
+    pub peak: Option<T>,
+}
+
+/// Load, stiffness, half-width and peak pressure against the approach of the bodies.
+///
+/// ```
+/// use linecontact::profile::Ellipse;
+/// use linecontact::{Contact, Flat, Material, PlaneState, Reference, References, SpringTable};
+///
+/// // A steel roller of 10 mm on a steel block, 30 mm to its foot: mm, MPa, N/mm.
+/// let roller = Ellipse::circle(10.0, [-1.0, 1.0])?;
+/// let steel = Material::elastic(210e3, 0.3);
+/// let contact = Contact::new(&Flat, &roller)?.materials(steel, steel, PlaneState::Strain);
+/// let to = References { x: 0.0, lower: Reference::Depth(30.0), upper: Reference::Disc(10.0) };
+/// let table = SpringTable::new(&contact, &to, [1.0, 1000.0], 1e-6)?;
+/// assert!(table.error() < 1e-6 && table.points().len() < 20);
+///
+/// let spring = table.at(0.01)?;
+/// println!("{} N/mm, {} MPa", spring.load, spring.stiffness);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SpringTable<T> {
+    points: Vec<Node<T>>,
+    error: T,
+    stiffness_error: T,
+}
+
+/// A point with what the cubics need: the derivatives of the logarithms of F, L and p₀ by that of δ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+struct Node<T> {
+    point: SpringPoint<T>,
+    exponents: [T; 3],
+}
+
+impl<T: Real> SpringTable<T> {
+    /// The table over a range of loads per unit length, from the least to the largest.
+    ///
+    /// The tolerance is a share of the load, the half-width and the peak, whichever is worst; between points as close
+    /// as a millionth of the load, as beside a load under which a corner is reached, it may not be met:
+    /// [`error`](Self::error) says what is.
+    ///
+    /// # Errors
+    /// [`ContactError::InvalidLoad`] for a range that is not positive and rising;
+    /// [`ContactError::InvalidTolerance`] for one that is not positive; those of [`Contact::solve`],
+    /// [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
+    /// [`ContactError::ApproachFalls`].
+    pub fn new(
+        contact: &Contact<'_, T>,
+        references: &References<T>,
+        loads: [T; 2],
+        tolerance: T,
+    ) -> Result<Self, ContactError<T>> {
+        let [least, largest] = loads;
+        if !(least > T::zero() && least < largest && largest.is_finite()) {
+            let load = if least > T::zero() { largest } else { least };
+            return Err(ContactError::InvalidLoad { load });
+        }
+        if !(tolerance > T::zero() && tolerance < T::one()) {
+            return Err(ContactError::InvalidTolerance { tolerance });
+        }
+        let mut solver = Solver::new();
+        let mut solve = |load| node(&solver.solve(contact, Control::Load(load))?, references);
+        let (first, last) = (solve(least)?, solve(largest)?);
+        let mut table = Self { points: vec![first], error: T::zero(), stiffness_error: T::zero() };
+        let mut pending = vec![[first, last]];
+        while let Some([from, to]) = pending.pop() {
+            let ratio = to.point.load / from.point.load;
+            let place = |share: f64| from.point.load * ratio.powf(T::of(share));
+            let (middle, beside) = (solve(place(0.5))?, solve(place(STEEPEST))?);
+            let [mut error, mut stiffness_error] = [T::zero(); 2];
+            let width = (to.point.approach / from.point.approach).ln();
+            for exact in [middle, beside] {
+                let found = between(&[from, to], exact.point.approach);
+                let [of_values, of_stiffness] = difference(&exact, &found, width);
+                error = error.max(T::of(MARGIN) * of_values);
+                stiffness_error = stiffness_error.max(T::of(MARGIN) * of_stiffness);
+            }
+            let is_apart = ratio > T::one() + T::of(CLOSEST);
+            if error > tolerance && is_apart && table.points.len() + pending.len() < MOST_POINTS {
+                pending.extend([[middle, to], [from, middle]]);
+                continue;
+            }
+            table.points.push(to);
+            table.error = table.error.max(error);
+            table.stiffness_error = table.stiffness_error.max(stiffness_error);
+        }
+        Ok(table)
+    }
+
+    /// The solved points, by rising approach.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = SpringPoint<T>> {
+        self.points.iter().map(|node| node.point)
+    }
+
+    /// The largest error between the points, as a share of the load, the half-width or the peak: twice what was seen.
+    pub fn error(&self) -> T {
+        self.error
+    }
+
+    /// The same of the stiffness.
+    pub fn stiffness_error(&self) -> T {
+        self.stiffness_error
+    }
+
+    /// The state at an approach within the table.
+    ///
+    /// # Errors
+    /// [`ContactError::OutsideTable`].
+    pub fn at(&self, approach: T) -> Result<SpringPoint<T>, ContactError<T>> {
+        let last = self.points.len() - 1;
+        let range = [self.points[0].point.approach, self.points[last].point.approach];
+        if !(approach >= range[0] && approach <= range[1]) {
+            return Err(ContactError::OutsideTable { approach, range });
+        }
+        let next = self.points.partition_point(|node| node.point.approach < approach);
+        let next = next.clamp(1, last);
+        Ok(between(&[self.points[next - 1], self.points[next]], approach).point)
+    }
+}
+
+/// One solve.
+fn node<T: Real>(
+    solution: &Solution<'_, T>,
+    references: &References<T>,
+) -> Result<Node<T>, ContactError<T>> {
+    let [approach, rate] = solution.approach_with_rate(references)?;
+    let load = solution.load();
+    if !(rate > T::zero()) {
+        return Err(ContactError::ApproachFalls { load, rate });
+    }
+    let rates = solution.load_rates()?;
+    let half = T::of(0.5);
+    let half_width =
+        solution.intervals().iter().fold(T::zero(), |sum, on: &Interval<T>| sum + on.half_width());
+    let widening =
+        rates.limits.iter().fold(T::zero(), |sum, [left, right]| sum + half * (*right - *left));
+    let (peak, growth) = match solution.peak() {
+        Ok(peak) => (Some(peak.pressure), rates.pressure(peak.x)? / peak.pressure),
+        Err(ContactError::Singular { .. }) => (None, T::zero()),
+        Err(error) => return Err(error),
+    };
+    let stiffness = T::one() / rate;
+    let by_approach = approach * stiffness;
+    let exponents = [by_approach / load, by_approach * widening / half_width, by_approach * growth];
+    Ok(Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents })
+}
+
+/// Between two points, by Hermite's cubics.
+fn between<T: Real>([from, to]: &[Node<T>; 2], approach: T) -> Node<T> {
+    let width = (to.point.approach / from.point.approach).ln();
+    let t = (approach / from.point.approach).ln() / width;
+    let (one, two, three, six) = (T::one(), T::of(2.0), T::of(3.0), T::of(6.0));
+    // The value, and the derivative of its logarithm by that of the approach.
+    let cubic = |i: usize, first: T, last: T| {
+        let rise = (last / first).ln();
+        let slopes = [from.exponents[i] * width, to.exponents[i] * width];
+        let u = one - t;
+        let value = t * t * (three - two * t) * rise + t * u * (u * slopes[0] - t * slopes[1]);
+        let slope = six * t * u * rise
+            + u * (one - three * t) * slopes[0]
+            + t * (three * t - two) * slopes[1];
+        (first * value.exp(), slope / width)
+    };
+    let (load, exponent) = cubic(0, from.point.load, to.point.load);
+    let (half_width, widening) = cubic(1, from.point.half_width, to.point.half_width);
+    let peak = from.point.peak.zip(to.point.peak).map(|(first, last)| cubic(2, first, last));
+    let exponents = [exponent, widening, peak.map_or(T::zero(), |(_, growth)| growth)];
+    let (stiffness, peak) = (exponent * load / approach, peak.map(|(peak, _)| peak));
+    Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents }
+}
+
+/// By what share two states may differ at most between two points that far apart, and by what share their
+/// stiffnesses do.
+fn difference<T: Real>(exact: &Node<T>, other: &Node<T>, width: T) -> [T; 2] {
+    let share = |exact: T, other: T| (other / exact - T::one()).abs();
+    let (point, found) = (exact.point, other.point);
+    let peaks = point.peak.zip(found.peak).map_or(T::zero(), |(exact, other)| share(exact, other));
+    let values = share(point.load, found.load).max(share(point.half_width, found.half_width));
+    let slopes = exact.exponents.iter().zip(other.exponents);
+    let slopes = slopes.fold(T::zero(), |max, (&exact, other)| max.max((exact - other).abs()));
+    let values = values.max(peaks).max(slopes * width / T::of(SLOPE_OF_ERROR));
+    [values, share(point.stiffness, found.stiffness)]
+}

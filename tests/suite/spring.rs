@@ -1,0 +1,93 @@
+//! Tables of load against approach, against solves between their points.
+#![allow(missing_docs)]
+
+use crate::common::{Profile, graph, worst};
+use linecontact::profile::{Ellipse, Parabola};
+use linecontact::{
+    Contact, ContactError, Control, Edge, Flat, Material, PlaneState, Reference, References,
+    SpringTable,
+};
+
+const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
+
+const REFERENCES: References<f64> =
+    References { x: 0.0, lower: Reference::Depth(3.0), upper: Reference::Disc(1.0) };
+
+fn steel(contact: Contact<'_, f64>) -> Contact<'_, f64> {
+    contact.materials(STEEL, STEEL, PlaneState::Strain)
+}
+
+/// The largest errors of load, half-width and peak, and of the stiffness, among loads between the points.
+fn errors(contact: &Contact<f64>, table: &SpringTable<f64>, loads: [f64; 2]) -> [f64; 2] {
+    let [mut values, mut stiffness] = [Vec::new(), Vec::new()];
+    for i in 0..=200 {
+        let load = loads[0] * (loads[1] / loads[0]).powf(f64::from(i) / 200.0);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let approach = solution.approach(&REFERENCES).unwrap().bodies;
+        let range = [0, table.points().len() - 1].map(|i| table.points().nth(i).unwrap().approach);
+        let spring = table.at(approach.clamp(range[0], range[1])).unwrap();
+        let half_width: f64 = solution.intervals().iter().map(|on| on.half_width()).sum();
+        values.extend([spring.load / load - 1.0, spring.half_width / half_width - 1.0]);
+        if let Some(peak) = spring.peak {
+            values.push(peak / solution.peak().unwrap().pressure - 1.0);
+        }
+        stiffness.push(spring.stiffness / solution.stiffness(&REFERENCES).unwrap() - 1.0);
+    }
+    [values, stiffness].map(|errors| worst(errors.into_iter().map(f64::abs)))
+}
+
+#[test]
+fn between_its_points_a_table_is_as_good_as_it_says() {
+    let circle: Profile = Box::new(Ellipse::circle(1.0, [-1.5, 1.5]).unwrap());
+    let quartic = graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let free = [Edge::Free; 2];
+    let until = [Edge::FreeUntil(-0.1), Edge::FreeUntil(0.2)];
+    let punch = [Edge::Fixed(-0.1), Edge::Fixed(0.1)];
+    for (name, body, [left, right], loads) in [
+        ("circle", &circle, free, [1e-4, 0.5]),
+        ("two contacts", &quartic, free, [0.01, 1.0]),
+        ("two become one", &quartic, free, [0.5, 6.0]),
+        ("until a corner", &circle, until, [1e-3, 0.2]),
+        ("corners", &circle, punch, [0.1, 0.5]),
+    ] {
+        let contact = steel(Contact::new(&Flat, &**body).unwrap().edges(left, right));
+        for tolerance in [1e-2, 1e-4, 1e-6] {
+            let table = SpringTable::new(&contact, &REFERENCES, loads, tolerance).unwrap();
+            let [values, stiffness] = errors(&contact, &table, loads);
+            println!(
+                "{name} {tolerance:.0e}: {} points, {values:.1e} of {:.1e}, {stiffness:.1e} of {:.1e}",
+                table.points().len(),
+                table.error(),
+                table.stiffness_error()
+            );
+            assert!(values <= table.error() + 1e-13, "{name}");
+            assert!(stiffness <= table.stiffness_error() + 1e-13, "{name}");
+            if name != "two become one" && name != "until a corner" {
+                assert!(table.error() <= tolerance, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_makes_no_table_is_refused() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = steel(Contact::new(&Flat, &body).unwrap());
+    let table = |loads, tolerance| SpringTable::new(&contact, &REFERENCES, loads, tolerance);
+    for loads in [[0.0, 1.0], [-1.0, 1.0], [0.1, 0.1], [0.2, 0.1], [f64::NAN, 1.0], [0.1, f64::NAN]]
+    {
+        assert!(matches!(table(loads, 1e-3), Err(ContactError::InvalidLoad { .. })), "{loads:?}");
+    }
+    for tolerance in [0.0, -1.0, 1.0, f64::NAN] {
+        let error = table([0.01, 0.1], tolerance).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidTolerance { .. }), "{tolerance}");
+    }
+    assert!(matches!(table([0.01, 1e9], 1e-3), Err(ContactError::DomainTooShort { .. })));
+    let table = table([0.01, 0.1], 1e-3).unwrap();
+    for approach in [0.0, 1.0, f64::NAN] {
+        assert!(matches!(table.at(approach), Err(ContactError::OutsideTable { .. })));
+    }
+    let ends: Vec<f64> = table.points().map(|point| point.approach).collect();
+    assert!((table.at(ends[0]).unwrap().load / 0.01 - 1.0).abs() < 1e-14);
+    assert!((table.at(ends[ends.len() - 1]).unwrap().load / 0.1 - 1.0).abs() < 1e-14);
+}
