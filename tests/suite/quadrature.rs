@@ -248,7 +248,7 @@ fn a_pressure_carries_its_doubt() {
                 let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
                 let error = (estimate.value - p).abs();
                 let place = format!("{name} {rule:?} at z = {}: {error:e}", want.z(x));
-                assert!(error <= 1.5 * estimate.error + 1e-11 * p, "{place} {estimate:?}");
+                assert!(error <= estimate.error + 1e-11 * p, "{place} {estimate:?}");
                 if rule.exponents == EVEN && want.z(x).abs() > 1e-9 {
                     assert!(estimate.error <= 6.0 * error, "{place} {estimate:?}");
                 }
@@ -258,23 +258,6 @@ fn a_pressure_carries_its_doubt() {
                     Err(other) => panic!("{place}: {other}"),
                 }
             }
-        }
-    }
-}
-
-#[test]
-fn a_breakpoint_shows_in_the_estimate() {
-    for (name, scene) in
-        [("paper_example_4_scale_one", paper::four()), ("paper_example_5_scale_one", paper::five())]
-    {
-        let want = reference(name);
-        let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
-        let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
-        let pressure = solution.pressure().unwrap();
-        for &[x, p] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.97) {
-            let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
-            let error = (estimate.value - p).abs();
-            assert!(error <= 20.0 * estimate.error, "{name} at {x:e}: {error:e} {estimate:?}");
         }
     }
 }

@@ -261,12 +261,13 @@ fn the_gap_is_the_integral_of_its_slope() {
         let (a, half_width) = (solution.a(), solution.hull().half_width());
         let gap = |x| solution.gap_at(x).unwrap();
         let x = a + 0.5 * half_width;
-        let h = 0.03 * half_width;
+        // Truncation and rounding of the difference are 3e-9 at this step.
+        let h = 0.01 * half_width;
         let slope =
             (8.0 * (gap(x + h) - gap(x - h)) - gap(x + 2.0 * h) + gap(x - 2.0 * h)) / (12.0 * h);
         let got = solution.gap_slope(x).unwrap();
         println!("{}: {:.1e}", scene.name, got / slope - 1.0);
-        assert!((got / slope - 1.0).abs() < 1e-5);
+        assert!((got / slope - 1.0).abs() < 1e-8);
     }
 }
 
