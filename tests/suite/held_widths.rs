@@ -1,7 +1,7 @@
 //! Given widths and peaks where an edge is held, or the tip is hollow.
 #![allow(missing_docs)]
 
-use crate::common::{graph, parabola};
+use crate::common::{assert_close, graph, on_flat, parabola};
 use approx::assert_relative_eq;
 use linecontact::profile::{Ellipse, wedge};
 use linecontact::search::Brent;
@@ -71,8 +71,7 @@ fn a_width_beside_a_fixed_edge_is_exact() {
 
 #[test]
 fn a_corner_is_not_passed() {
-    let hollow = graph(-1.0, 1.0, |x| [-x * x / 2.0, -x]);
-    let contact = Contact::new(&Flat, &*hollow).unwrap();
+    let contact = on_flat(graph(-1.0, 1.0, |x| [-x * x / 2.0, -x]));
     let contact = contact.edges(Edge::FreeUntil(-0.1), Edge::Adhesive(0.0));
     assert!(contact.solve(Control::HalfWidth(0.3)).is_err());
 }
@@ -80,11 +79,10 @@ fn a_corner_is_not_passed() {
 /// Two tips with a hollow between them: no narrow contact presses anywhere.
 #[test]
 fn a_peak_of_a_hollow_tip() {
-    let body = graph(-1.0, 1.0, |x| {
+    let contact = on_flat(graph(-1.0, 1.0, |x| {
         let square = x * x;
         [square * square - 0.02 * square, 4.0 * square * x - 0.04 * x]
-    });
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    }));
     let under = contact.solve(Control::Load(0.1)).unwrap();
     let peak = under.peak().unwrap().pressure;
     let found = contact.solve(Control::PeakPressure(peak)).unwrap();
@@ -136,18 +134,8 @@ fn a_width_pulled_at_one_edge() {
                 let contact = contact.clone().edges(edges[0], edges[1]);
                 let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
                 let on = solution.hull();
-                assert_relative_eq!(
-                    on.centre(),
-                    sign * centre,
-                    epsilon = 0.0,
-                    max_relative = 1e-13
-                );
-                assert_relative_eq!(
-                    on.half_width(),
-                    half_width,
-                    epsilon = 0.0,
-                    max_relative = 1e-14
-                );
+                assert_close(on.centre(), sign * centre, 1e-13);
+                assert_close(on.half_width(), half_width, 1e-14);
                 assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-12);
             }
         }

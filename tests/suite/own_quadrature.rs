@@ -1,13 +1,14 @@
 //! A quadrature of a user's own: Gauss-Chebyshev sums, and the pressure by the series of the slope.
 #![allow(missing_docs)]
 
-use crate::common::{graph, join, parabola};
+use crate::common::{graph, join, on_flat, parabola};
 use crate::forms::KAPPA;
 use linecontact::gap::Sampler;
 use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::reference::{ClosedForm, Exponential, body};
 use linecontact::{
-    Contact, ContactError, Control, Cost, Edge, Estimate, Flat, Gap, Interval, Solver,
+    Contact, ContactError, Control, Cost, Edge, Estimate, Flat, Gap, Interval, Midpoint, Panels,
+    Solver,
 };
 use std::any::Any;
 use std::f64::consts::PI;
@@ -93,6 +94,19 @@ impl Integrator<f64> for Sums {
         Ok(Moments { m0, m1, m2, l1_norm, error, inversion: 0.0, derivatives: None })
     }
     fn prepare(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<()> {
+        // What is asked wrongly.
+        let (range, mut panels) = (gap.range(), Panels::FULL.integrator()?);
+        for x in [range[0] - 1.0, range[1] + 0.5, f64::NAN] {
+            let beyond = Sampler::default().slope(gap, x).unwrap_err();
+            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+            let beyond = panels.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
+            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+        }
+        // An integrator that was not prepared knows nothing.
+        let load_case = LoadCase { kappa: 1.0, load: 1.0, free: [true; 2] };
+        let unprepared = Midpoint::DEFAULT.integrator()?;
+        let estimate = unprepared.estimate(gap, &load_case, on.centre(), &mut Cost::default())?;
+        assert_eq!(estimate.error, f64::INFINITY);
         self.on = on;
         self.series.clear();
         for k in 0..self.points - 1 {
@@ -137,8 +151,7 @@ impl Integrator<f64> for Sums {
 #[test]
 fn a_rule_of_ones_own_solves_hertz_and_another() {
     let rule = Rule { points: 40, ..Rule::default() };
-    let parabola = parabola(1.0);
-    let contact = Contact::new(&Flat, &*parabola).unwrap().quadrature(&rule);
+    let contact = on_flat(parabola(1.0)).quadrature(&rule);
     let mut solver = Solver::new();
     for l in [0.1f64, 0.7] {
         // F = L²/2, P = sqrt(L² - x²)/π

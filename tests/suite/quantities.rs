@@ -4,6 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 use crate::forms;
+use crate::integrals::{integral, strength};
 
 use common::{graph, scenes};
 use forms::{Form, KAPPA, forms};
@@ -13,30 +14,11 @@ use linecontact::reference::{
 use linecontact::{Contact, ContactError, Control, Edge, EdgePressure, Flat, Midpoint};
 use std::f64::consts::PI;
 
-/// `∫ x P dx` of a form by the trapezoidal rule in t, θ = π/(1 + e^(-sinh t)), between breakpoints.
+/// `∫ x P dx` of a form.
 fn moment(form: &dyn ClosedForm<f64>) -> f64 {
     let on = form.limits();
-    let mut ends = vec![on.right];
-    ends.extend(form.breakpoints().into_iter().rev().filter(|&x| on.contains(x)));
-    ends.push(on.left);
-    let mut total = 0.0;
-    for ends in ends.windows(2) {
-        let (from, to) = (on.angle(ends[0]), on.angle(ends[1]));
-        let step = 1.0 / 64.0;
-        for i in -256i32..=256 {
-            let t = step * f64::from(i);
-            let grow = (-PI / 2.0 * t.sinh() * 2.0).exp();
-            let share = 1.0 / (1.0 + grow);
-            let weight = PI * t.cosh() * grow * share * share * step * (to - from);
-            let x = on.at_angle(from + (to - from) * share);
-            let x = x.clamp(on.left.next_up(), on.right.next_down());
-            let term = weight * x * form.pressure(x, KAPPA) * on.chebyshev_weight(x);
-            if term.is_finite() {
-                total += term;
-            }
-        }
-    }
-    total
+    let strength = strength(on, |x| form.pressure(x, KAPPA));
+    integral(on, &form.breakpoints(), |x| x * strength(x))
 }
 
 #[test]

@@ -1,12 +1,11 @@
-//! Gaps with more than one solution: from whatever start, what is found is the contact that grows with
-//! its load and at whose free edges the bodies open, or an error.
+//! From whatever start, and none: what is found is the contact that grows with its load and at whose free
+//! edges the bodies open, or an error, also of gaps with more than one solution.
 #![allow(missing_docs)]
 
-use crate::common;
-
-use common::{Profile, graph};
-use linecontact::search::Brent;
+use crate::common::{self, Profile, assert_close, graph, on_flat, power, reference};
+use linecontact::search::{Brent, Newton};
 use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval};
+use std::f64::consts::PI;
 
 struct Scene {
     body: Profile,
@@ -173,5 +172,101 @@ fn first_contact_between_the_ends_of_the_start() {
         let l = solution.hull().half_width();
         assert!((solution.hull().centre() - place).abs() < 1e-13, "{solution:?}");
         assert!((l * l * (1.0 - 3.0 * l * l) / 0.01 - 1.0).abs() < 1e-12, "{l}");
+    }
+}
+
+#[test]
+fn lopsided_domains() {
+    for (left, right) in [(-1.0, 3e3), (-1.0, 1e4), (-1e5, 1.0), (-0.2001, 1e9)] {
+        let contact = on_flat(graph(left, right, |x| [x * x / 2.0, x]));
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
+        assert!((solution.a() / 0.2 - 1.0).abs() < 1e-14, "[{left}, {right}]: {solution:?}");
+        // A start that is not on the bodies is no start.
+        let off = contact.clone().start(Interval { left: 2e9, right: 3e9 });
+        assert!((off.solve(Control::Load(0.02)).unwrap().a() / 0.2 - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn a_steep_body_by_every_chord() {
+    // |x|^100/100: the load rises with the hundredth power of the width.
+    let contact = on_flat(power(100.0));
+    let wanted = contact.solve(Control::Load(1e-17)).unwrap().a();
+    let newton = Newton::default();
+    let started = contact.start(Interval { left: -0.3, right: 0.3 }).limit_search(&newton);
+    let solution = started.solve(Control::Load(1e-17)).unwrap();
+    assert!((solution.a() / wanted - 1.0).abs() < 1e-14, "{solution:?} for {wanted}");
+}
+
+#[test]
+fn starts_inside_a_wave() {
+    // y = x²/2 + cos(24 x)/256 is level in many places; the contact covers them all.
+    let contact = on_flat(graph(-3.0, 3.0, |x| {
+        let (s, c) = (24.0 * x).sin_cos();
+        [x * x / 2.0 + c / 256.0, x - 3.0 * s / 32.0]
+    }));
+    for half_width in [0.01, 0.03, 0.05, 0.3, 2.0] {
+        let start = Interval { left: -half_width, right: half_width };
+        let solution = contact.clone().start(start);
+        let solution = solution.solve(Control::Load(2.0 / PI)).unwrap();
+        assert!((solution.a() / 1.142738838438643 - 1.0).abs() < 1e-13, "{solution:?}");
+    }
+}
+
+#[test]
+fn a_gap_that_is_not_convex() {
+    // f = x²/2 + x³ has a second level point at x = -1/3. With g = x + 3 x² the conditions are
+    // c + 3 c² + 3 L²/2 = 0 and 2 F = L² (1 + 6 c): F = L² sqrt(1 - 18 L²)/2, at most 0.010692.
+    let contact = on_flat(graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3), x + 3.0 * x * x]))
+        .single_interval(true);
+    for load in [1e-6, 1e-3, 5e-3, 0.01, 0.0106] {
+        let l = contact.solve(Control::Load(load)).unwrap().hull().half_width();
+        let carried = l * l * (1.0 - 18.0 * l * l).sqrt() / 2.0;
+        assert_close(carried, load, 1e-14);
+        assert!(l * l < 1.0 / 27.0, "the branch that grows with the load");
+    }
+    for load in [0.0107, 0.011, 0.02] {
+        assert!(contact.solve(Control::Load(load)).is_err(), "{load}");
+    }
+}
+
+#[test]
+fn a_point_of_first_contact_between_the_ends_of_the_start() {
+    // g = x - 100 x³ falls beyond x = ±0.058: at the start it has the signs of a gap that closes.
+    // F = L²/2 - 75 L⁴/2.
+    let body = graph(-1.0, 1.0, |x| [x * x / 2.0 - 25.0 * x.powi(4), x - 100.0 * x.powi(3)]);
+    let brent = Brent::default();
+    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent).single_interval(true);
+    for l in [0.005, 0.02] {
+        let load = l * l / 2.0 - 37.5 * f64::powi(l, 4);
+        for start in [Interval { left: -0.31, right: 0.3 }, Interval { left: -0.2, right: 0.9 }] {
+            let solution = contact.clone().start(start);
+            let solution = solution.solve(Control::HalfWidth(l)).unwrap();
+            assert_close(solution.load(), load, 1e-13);
+            assert_close(solution.a(), l, 1e-13);
+        }
+    }
+}
+
+#[test]
+fn poor_starts_converge() {
+    for scene in common::scenes() {
+        let want = reference(scene.name);
+        if scene.name == "hertz_offcentre" {
+            continue; // There 10 b is 2^30 away from the contact.
+        }
+        let width = want.half_width();
+        let starts = [
+            (10.0 * want.b, 10.0 * want.a),
+            (0.1 * want.b, 0.1 * want.a),
+            (want.b - 1.5 * width, want.a + 2.0 * width),
+            (want.b + 3.0 * width, want.a - 1.9 * width),
+        ];
+        for (b, a) in starts {
+            let contact = scene.contact().start(Interval { left: -b, right: a });
+            let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
+            assert_close(solution.a(), want.a, scene.accuracy);
+            assert_close(solution.b(), want.b, scene.accuracy);
+        }
     }
 }
