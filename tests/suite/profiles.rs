@@ -222,14 +222,7 @@ fn a_narrow_fold_is_found_when_it_is_met() {
 }
 
 #[test]
-fn domains_and_values_are_checked() {
-    let body = |from: f64, to: f64| {
-        Curve::new([from, to], |k: f64| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 })
-    };
-    for (from, to) in [(1.0, 0.0), (0.5, 0.5), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        let error = Piece::checked(&body(from, to)).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ProfileError::Domain { .. }), "{error}");
-    }
+fn values_are_checked() {
     let hole = Curve::new([0.0, 3.2], |k: f64| CurvePoint {
         x: if k > 3.0 { f64::NAN } else { k },
         y: 0.0,

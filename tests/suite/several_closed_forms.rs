@@ -2,10 +2,10 @@
 //! shares nothing with them or with the solver.
 #![allow(missing_docs)]
 
-use crate::closed_forms::integral;
 use crate::common::NanSafe;
 use crate::common::several;
 use crate::forms::KAPPA;
+use crate::integrals::integral;
 
 use approx::assert_relative_eq;
 use linecontact::reference::{

@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 
-use common::{Counting, graph, paper, power, scenes};
+use common::{Counting, graph, on_flat, paper, power, scenes};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
     ParametricProfile, Solution, Solver,
@@ -280,8 +280,7 @@ fn a_solver_works_on_after_an_error() {
 
 #[test]
 fn edges_and_controls_may_change_from_call_to_call() {
-    let body = graph(-2.0, 2.0, |x| [x * x / 2.0, x]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-2.0, 2.0, |x| [x * x / 2.0, x]));
     let corner = contact.clone().edges(Edge::Fixed(-0.1), Edge::Free);
     let adhesive = contact.clone().edges(Edge::Adhesive(0.01), Edge::Adhesive(0.01));
     let stiffer = contact.clone().kappa(3.0);
