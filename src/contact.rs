@@ -25,8 +25,10 @@ use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::panels;
 use crate::quadrature::{Integrator, Moments, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::{ContactState, References, Report, Solution, Start, Verdict, certify};
-use crate::{ContactError, Interval, ParametricProfile, Real};
+use crate::solution::{
+    ContactState, PartialSlip, References, Report, Shear, Solution, Start, Verdict, certify,
+};
+use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::ops::ControlFlow;
@@ -378,6 +380,75 @@ impl<'b, T: Real> Contact<'b, T> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
         let (found, cost) = self.find(&mut *integrator, &mut workspace, control)?;
         Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
+    }
+
+    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
+    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
+    /// for that. A corner that is [`Edge::Fixed`] may slip.
+    ///
+    /// # Errors
+    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
+    /// [`ContactError::SlipsEverywhere`], [`ContactError::ReversedSlip`], [`ContactError::UnlikeBodies`];
+    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
+    pub fn partial_slip(
+        &self,
+        control: Control<T>,
+        shear: Shear<T>,
+    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
+        Solver::new().partial_slip(self, control, shear)
+    }
+
+    /// Whether partial slip can be asked for.
+    pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
+        let Shear { friction, force, tension } = *shear;
+        if !(friction.is_finite() && friction > T::zero()) {
+            return Err(ContactError::InvalidSlipFriction { friction });
+        }
+        for (quantity, value) in [("force", force), ("tension", tension)] {
+            if !value.is_finite() {
+                return Err(ContactError::InvalidShear { quantity, value });
+            }
+        }
+        let refuse = |why| Err(ContactError::SlipNotSupported { why });
+        if self.edge_pressure.is_some() {
+            return refuse("the edges are by Eq. (6)");
+        }
+        if self.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_))) {
+            return refuse("an edge is Adhesive");
+        }
+        if let Some(bodies) = self.elasticity()? {
+            let beta = Elasticity::dundurs(bodies);
+            if beta.abs() > T::of(16.0) * T::epsilon() {
+                return Err(ContactError::UnlikeBodies { beta });
+            }
+        }
+        Ok(())
+    }
+
+    /// The scene whose contacts are where the bodies stick, and its load.
+    pub(crate) fn sticking(
+        &self,
+        normal: &Solution<'b, T>,
+        shear: &Shear<T>,
+    ) -> Result<(Self, T), ContactError<T>> {
+        let Shear { friction, force, tension } = *shear;
+        let (load, limit) = (normal.load(), friction * normal.load());
+        if force.abs() >= limit {
+            return Err(ContactError::SlipsEverywhere { force, limit });
+        }
+        // μ E*, with the sign of the force.
+        let stiffness = friction * self.kappa / T::frac_pi_2();
+        let turn = T::of(0.5) * tension / stiffness;
+        let turn = if force < T::zero() { turn } else { -turn };
+        let let_go = |edge| if let Edge::Fixed(x) = edge { Edge::FreeUntil(x) } else { edge };
+        let scene = Self {
+            gap: self.gap.tilted(normal.tilt() + turn),
+            edges: self.edges.map(let_go),
+            start: None,
+            certified: false,
+            ..self.clone()
+        };
+        Ok((scene, load - force.abs() / friction))
     }
 
     /// The solution that was found.

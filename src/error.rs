@@ -563,6 +563,60 @@ pub enum ContactError<T: Real> {
         /// As given.
         coefficient: T,
     },
+    /// The coefficient of friction of partial slip is not a positive finite number.
+    #[error(
+        "the coefficient of friction is {friction:?}: for partial slip it must be positive and finite"
+    )]
+    InvalidSlipFriction {
+        /// μ as given.
+        friction: T,
+    },
+    /// The force or the tension of partial slip is not finite.
+    #[error("{quantity} = {value:?}: what acts along the contact must be finite")]
+    InvalidShear {
+        /// `force` or `tension`.
+        quantity: &'static str,
+        /// As given.
+        value: T,
+    },
+    /// Friction does not carry the force: the bodies slip everywhere.
+    #[error(
+        "the tangential force {force:?} is no less than friction carries, μF = {limit:?}: the bodies slip everywhere"
+    )]
+    SlipsEverywhere {
+        /// Q.
+        force: T,
+        /// μF.
+        limit: T,
+    },
+    /// The bodies would stick beside the contact: with so large a tension, or so small a force, slip reverses
+    /// while the force grows, and the history counts.
+    #[error(
+        "the bodies would stick from {:?} to {:?}, beyond the contact from {:?} to {:?}: slip reverses; lower \
+         the tension, or raise the force",
+        zone.left, zone.right, contact.left, contact.right
+    )]
+    ReversedSlip {
+        /// Where they would stick.
+        zone: Interval<T>,
+        /// The contact nearest to it.
+        contact: Interval<T>,
+    },
+    /// Friction on bodies of different elasticity changes the pressure.
+    #[error(
+        "the bodies are unlike: by Dundurs' constant β = {beta:?} friction changes the pressure, which is not \
+         modelled; like bodies, or incompressible ones, have β = 0"
+    )]
+    UnlikeBodies {
+        /// β in plane strain, from -1/2 to 1/2.
+        beta: T,
+    },
+    /// Partial slip is not known with these conditions.
+    #[error("partial slip is not known where {why}")]
+    SlipNotSupported {
+        /// What stands in the way.
+        why: &'static str,
+    },
     /// A point is not inside the contact, or not outside it, as it has to be.
     #[error(
         "x = {x:?} must lie {}side the contact from {:?} to {:?}",
@@ -676,6 +730,10 @@ impl<T: Real> ContactError<T> {
             | Self::InvalidMoment { .. }
             | Self::InvalidPoissonRatio { .. }
             | Self::InvalidFriction { .. }
+            | Self::InvalidSlipFriction { .. }
+            | Self::InvalidShear { .. }
+            | Self::UnlikeBodies { .. }
+            | Self::SlipNotSupported { .. }
             | Self::InvalidYoungsModulus { .. }
             | Self::BothRigid
             | Self::NoMaterials

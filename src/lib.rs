@@ -107,6 +107,7 @@ pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
 pub use solution::{
     ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,
 };
+pub use solution::{PartialSlip, Shear, SlipStress, Traction};
 pub use solver::Solver;
 pub use spring::{SpringPoint, SpringTable};
 #[cfg(feature = "rayon")]

@@ -104,6 +104,16 @@ impl<T: Real> Elasticity<T> {
         Ok(([lower, upper], T::one() / compliance))
     }
 
+    /// Dundurs' β: zero of like bodies, and of incompressible ones. Without it friction leaves the pressure as it is
+    /// (Johnson, Eq. 5.3).
+    pub fn dundurs([lower, upper]: [Self; 2]) -> T {
+        // (1 - 2ν)/(2 G), with 1/M = (1 - ν)/(2 G).
+        let coupling = |body: Self| {
+            body.compliance * (T::one() - body.ratio - body.ratio) / (T::one() - body.ratio)
+        };
+        T::of(0.5) * (coupling(lower) - coupling(upper)) / (lower.compliance + upper.compliance)
+    }
+
     fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
         let (zero, one) = (T::zero(), T::one());
         let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {

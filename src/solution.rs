@@ -26,6 +26,8 @@ mod moment;
 
 mod approach;
 
+mod partial_slip;
+
 mod load_rates;
 
 mod gap_outside;
@@ -48,6 +50,7 @@ pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
 pub(crate) use contact_state::ContactState;
 pub use load_rates::LoadRates;
+pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};
 pub use peak::Peak;
 pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;

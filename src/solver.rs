@@ -3,7 +3,7 @@
 use crate::contact::{Control, Workspace};
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
-use crate::solution::Solution;
+use crate::solution::{PartialSlip, Shear, Solution};
 use crate::{Contact, ContactError, ErrorKind, Real};
 use std::sync::Arc;
 
@@ -103,6 +103,26 @@ impl<T: Real> Solver<T> {
         self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
         self.last = Some(gap.number());
         Ok(contact.solution(integrator.clone(), found, cost, self.workspace.report))
+    }
+}
+
+impl<T: Real> Solver<T> {
+    /// Solves a scene with a tangential force that friction carries, as [`Contact::partial_slip`] does. The next solve
+    /// starts from where the bodies stick.
+    ///
+    /// # Errors
+    /// Those of [`Contact::partial_slip`].
+    pub fn partial_slip<'b>(
+        &mut self,
+        contact: &Contact<'b, T>,
+        control: Control<T>,
+        shear: Shear<T>,
+    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
+        contact.check_shear(&shear)?;
+        let normal = self.solve(contact, control)?;
+        let (sticking, load) = contact.sticking(&normal, &shear)?;
+        let stick = self.solve(&sticking, Control::Load(load))?;
+        PartialSlip::new(normal, stick, shear)
     }
 }
 

@@ -112,6 +112,8 @@ impl<T: Real> Single<'_, '_, T> {
                 return Err(ContactError::NoEquilibrium { half_width: on.half_width(), near: x });
             }
         }
+        // What the bodies were turned by before.
+        found.tilt += self.contact.gap.tilt();
         Ok(found)
     }
 

@@ -561,7 +561,7 @@ impl<T: Real> Search<'_, '_, T> {
         let coarse = self.coarse(conditions, cells)?;
         self.runs_out = self.end_reached(&coarse);
         let newton = &mut self.workspace.newton;
-        (newton.on, newton.tilt) = (coarse.intervals, coarse.tilt);
+        (newton.on, newton.tilt) = (coarse.intervals, self.contact.gap.tilt() + coarse.tilt);
         Ok(())
     }
 
@@ -574,7 +574,8 @@ impl<T: Real> Search<'_, '_, T> {
         self.workspace.look(gap, self.cost)?;
         let Workspace { look, newton, .. } = &*self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
-        let (known, start) = (look.heights(), &newton.on[..]);
+        let turned = look.heights(gap);
+        let (known, start) = (&turned[..], &newton.on[..]);
         let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));

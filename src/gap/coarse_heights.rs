@@ -6,7 +6,9 @@
 
 use super::{Cost, Gap, Surface};
 use crate::profile::{Piece, first_turn};
+use crate::real::same;
 use crate::{Body, ContactError, CurvePoint, Interval, ProfileError, Real};
+use std::borrow::Cow;
 
 /// Samples of a smooth body, its ends included.
 const OF_A_BODY: usize = 64;
@@ -143,8 +145,11 @@ impl<T: Real> CoarseHeights<T> {
     }
 
     /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
-    pub fn heights(&self) -> &[[T; 2]] {
-        &self.heights
+    pub fn heights(&self, gap: &Gap<'_, T>) -> Cow<'_, [[T; 2]]> {
+        if same(gap.tilt(), T::zero()) {
+            return Cow::Borrowed(&self.heights);
+        }
+        Cow::Owned(self.heights.iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect())
     }
 
     /// Where the gap may be low: each sample, and between two where the slope rises the place where their
@@ -603,7 +608,7 @@ mod tests {
             assert!((look.slope(x) - shift.sinh()).abs() < 2e-5, "{x}");
         }
         assert!((look.lowest() - 0.1234).abs() < 1e-5 && look.bulges());
-        let all: Vec<_> = look.heights().iter().map(|&[x, _]| x).collect();
+        let all: Vec<_> = look.heights.iter().map(|&[x, _]| x).collect();
         assert!(all.len() == 64 && all.windows(2).all(|pair| pair[0] < pair[1]));
     }
 
@@ -674,7 +679,7 @@ mod tests {
         ];
         for (name, body, exact) in &bodies {
             let (look, _) = look(&Flat, &**body).unwrap();
-            let all: Vec<_> = look.heights().iter().map(|&[x, _]| x).collect();
+            let all: Vec<_> = look.heights.iter().map(|&[x, _]| x).collect();
             for pair in all.windows(2) {
                 let [low, high] = [exact(pair[0]), exact(pair[1])];
                 for share in [0.1, 0.3, 0.5, 0.7, 0.9] {

@@ -73,6 +73,15 @@ pub struct Stress<T> {
 }
 
 impl<T: Real> Stress<T> {
+    /// So much of another added.
+    pub(super) fn with(self, share: T, other: Self) -> Self {
+        Self {
+            sigma_x: self.sigma_x + share * other.sigma_x,
+            sigma_y: self.sigma_y + share * other.sigma_y,
+            tau_xy: self.tau_xy + share * other.tau_xy,
+        }
+    }
+
     /// The principal stresses in the plane, the larger one first.
     pub fn principal(&self) -> [T; 2] {
         let mean = T::of(0.5) * (self.sigma_x + self.sigma_y);
@@ -183,12 +192,23 @@ impl<T: Real> Subsurface<'_, T> {
     /// [`ContactError::Singular`] on the surface where the pressure is infinite;
     /// [`ContactError::Integral`]; those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
+        let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
+        Ok(normal.with(self.friction, along))
+    }
+
+    /// The stress that the pressure leaves, and that of a traction as large as it, if that is asked for.
+    pub(super) fn parts(
+        &self,
+        x: T,
+        depth: T,
+        with_traction: bool,
+    ) -> Result<[Stress<T>; 2], ContactError<T>> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(ContactError::AboveSurface { x, depth });
         }
         // Where all digits of the depth are lost.
         if depth <= T::epsilon().powi(5) * self.hull().half_width() {
-            return self.on_surface(x);
+            return self.on_surface(x, with_traction);
         }
         let moments = self.integrals.over(x, |distance, strength| {
             let radius = distance.hypot(depth);
@@ -198,12 +218,12 @@ impl<T: Real> Subsurface<'_, T> {
             [down * across, along * across, along * both, along * along * along * share]
         })?;
         let [a0, a1, a2, a3] = moments.map(|moment| -T::of(2.0) * T::frac_1_pi() * moment);
-        let mu = self.friction;
-        Ok(Stress { sigma_x: a2 + mu * a3, sigma_y: a0 + mu * a1, tau_xy: a1 + mu * a2 })
+        let normal = Stress { sigma_x: a2, sigma_y: a0, tau_xy: a1 };
+        Ok([normal, Stress { sigma_x: a3, sigma_y: a1, tau_xy: a2 }])
     }
 
-    /// The limit of the stress as the depth goes to zero.
-    fn on_surface(&self, x: T) -> Result<Stress<T>, ContactError<T>> {
+    /// The limits of both as the depth goes to zero.
+    fn on_surface(&self, x: T, with_traction: bool) -> Result<[Stress<T>; 2], ContactError<T>> {
         let Interval { left, right } = self.hull();
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
@@ -216,7 +236,7 @@ impl<T: Real> Subsurface<'_, T> {
         if infinite || !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
-        let pull = if self.friction.is_zero() {
+        let pull = if !with_traction {
             T::zero()
         } else if touches {
             // An edge may have been rounded to beyond the end of a body that it lies at.
@@ -227,9 +247,10 @@ impl<T: Real> Subsurface<'_, T> {
             let [pull] = self.integrals.over(x, |distance, strength| [strength / distance])?;
             pull
         };
-        let along = T::of(2.0) * T::frac_1_pi() * self.friction * pull;
-        let tau_xy = -self.friction * pressure;
-        Ok(Stress { sigma_x: -pressure - along, sigma_y: -pressure, tau_xy })
+        let zero = T::zero();
+        let along = T::of(2.0) * T::frac_1_pi() * pull;
+        let normal = Stress { sigma_x: -pressure, sigma_y: -pressure, tau_xy: zero };
+        Ok([normal, Stress { sigma_x: -along, sigma_y: zero, tau_xy: -pressure }])
     }
 
     /// The contact.

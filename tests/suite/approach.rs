@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, worst};
-use crate::integrals::Angles;
+use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
 use linecontact::{
@@ -50,7 +50,7 @@ fn by_definition(solution: &Solution<f64>, material: Material<f64>, x: f64, dept
             }
             pressure.at(s).unwrap_or(0.0) * kernel(s)
         };
-        sum + Angles::new(on.left, on.right).load(&[x], &density)
+        sum + integral(*on, &[x], strength(*on, density))
     });
     share(material) * sum
 }

@@ -44,6 +44,7 @@ mod own_curves;
 mod own_quadrature;
 mod own_searches;
 mod owned;
+mod partial_slip;
 mod peak;
 mod pieces;
 mod profiles;
