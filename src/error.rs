@@ -266,16 +266,15 @@ pub enum ContactError<T: Real> {
         /// Where.
         x: T,
     },
-    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other.
-    /// Seen where the bodies touch in several places; [`check_derivatives`](crate::check_derivatives)
-    /// tells which body it is.
+    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other: a step in
+    /// Y, or a wrong derivative, of which [`check_derivatives`](crate::check_derivatives) tells which body it is.
     #[error(
         "from x = {:?} to {:?} the gap rises by {by_heights:?} by the heights Y of the bodies, but by \
-         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y'",
+         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y",
         between[0], between[1]
     )]
     InconsistentHeights {
-        /// Two places in one contact.
+        /// Two places.
         between: [T; 2],
         /// `Y₂ - Y₁` at the second, less that at the first.
         by_heights: T,

@@ -475,6 +475,25 @@ impl<T: Real> Samples<'_, T> {
                 reached = x;
             }
         }
+        self.check_slopes(piece)
+    }
+
+    /// Whether the slopes that a curve gives by x, if it does, are those of its points. (At its ends they may be
+    /// infinite.)
+    fn check_slopes(&self, piece: &Piece<'_, T>) -> Result<(), ProfileError<T>> {
+        let Scratch { k, points, .. } = &*self.scratch;
+        let slope = |i: usize| points[i].dy / points[i].dx;
+        for (i, at) in points.iter().enumerate().take(points.len() - 1).skip(1) {
+            let Some(given) = piece.curve.slope_at(at.x) else { return Ok(()) };
+            let difference = slope(i);
+            let changes = (slope(i + 1) - slope(i - 1)).abs();
+            let allowed =
+                T::epsilon().cbrt() * (given.abs() + difference.abs()) + T::of(1e-3) * changes;
+            if (given - difference).abs() > allowed {
+                let quantity = "slope_at(x)";
+                return Err(ProfileError::Derivative { quantity, k: k[i], given, difference });
+            }
+        }
         Ok(())
     }
 }

@@ -223,9 +223,13 @@ fn slopes_that_are_a_third_off() {
             let bodies = [with(factor, -1.0, falls, height), with(factor, 1.0, falls, height)];
             let (left, right) = (Contact::new(&bodies[0], &Flat), Contact::new(&Flat, &bodies[1]));
             for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
-                let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).err();
-                assert_eq!(error.is_some(), seen, "{factor}: {error:?}");
-                let Some(error) = error else { continue };
+                let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
+                // What is less is seen in the rise of all of a panel.
+                let by_rise = matches!(error, ContactError::InconsistentHeights { .. });
+                assert_eq!(by_rise, !seen, "{factor}: {error:?}");
+                if by_rise {
+                    continue;
+                }
                 let ContactError::Profile { body: at_fault, source } = error else { panic!() };
                 let ProfileError::Derivative { k, given, difference, .. } = source else {
                     panic!()

@@ -4,6 +4,8 @@ mod candidate;
 mod derivative_check;
 mod sampling;
 
+pub(crate) use derivative_check::compare;
+
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, SampleCache, Sampler, Side};
 use crate::numerics::chebyshev::{size_for, value_at};
@@ -274,7 +276,7 @@ impl<T: Real> PanelSet<T> {
                     let by_value = ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0));
                     let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
                     let derived = half.derivatives > T::zero();
-                    half.split && if derived { by_derivative } else { by_value }
+                    half.split && !half.hides && if derived { by_derivative } else { by_value }
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     let derived = one.derivatives > T::zero() || other.derivatives > T::zero();

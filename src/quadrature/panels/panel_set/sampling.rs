@@ -15,6 +15,9 @@ const NEAR: [f64; 2] = [0.1, 0.45];
 /// formula may be wrong there, as signum is at 0.)
 const LEVELS_OF_A_TIP: usize = 40;
 
+/// How often a span is halved to resolve what only the heights tell of. What is left is a step.
+const LEVELS_OF_A_STEP: usize = 12;
+
 /// How often a span is halved for the sake of derivatives alone, which may have a kink where the
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
@@ -25,7 +28,7 @@ pub(super) struct SampledBody<T> {
     /// The largest slope of the gap.
     slope: T,
     /// The largest sum of the slopes of the two bodies.
-    bodies: T,
+    pub(super) bodies: T,
     /// What the rounding of x makes of the slope where the bodies bend sharply.
     noise: T,
     /// What the series of the bodies leave open where their points are not at the nodes. What the two
@@ -33,6 +36,8 @@ pub(super) struct SampledBody<T> {
     off: T,
     /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
     missed: T,
+    /// By how much each body rises by its slopes, from the first node to a middle one and from there to the last.
+    pub(super) rises: [[T; 2]; 2],
 }
 
 impl<T: Real> PanelSet<T> {
@@ -47,8 +52,8 @@ impl<T: Real> PanelSet<T> {
         let [left, right] = panel.x;
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
-            let SampledBody { slope, bodies, noise, off, missed } =
-                by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
+            let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
+            let SampledBody { slope, bodies, noise, off, missed, .. } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -98,6 +103,12 @@ impl<T: Real> PanelSet<T> {
                 continue;
             } else if !split {
                 self.check_slopes(gap)?;
+                // The heights tell of what is too narrow for the nodes.
+                let heights = self.check_heights(panel, &seen);
+                (split, trial.hides) = (heights.is_err(), heights.is_err());
+                if level >= LEVELS_OF_A_STEP {
+                    heights?;
+                }
             }
             (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
             return Ok(());
@@ -177,6 +188,7 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        seen.rises = [&lower, &upper].map(|slopes| table.rises(slopes).map(|rise| reach * rise));
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
             seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.coarse));
         }
@@ -204,7 +216,9 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
+        let rises = [[zero; 2]; 2];
+        let mut seen =
+            SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero, rises };
         for i in 0..N {
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
