@@ -87,20 +87,28 @@ pub enum ContactError<T: Real> {
         source: SearchError<T>,
     },
     /// The load, half-width or peak pressure asked for is not finite; or it is not positive, which a
-    /// load needs to be only where limits are sought without adhesion.
+    /// load needs to be only where limits are sought without adhesion; or so small that it has lost digits.
     #[error(
-        "the load (or half-width, or peak pressure) is {load:?}: it must be finite, and positive where \
-         limits are sought"
+        "the {quantity} is {value:?}: it must be finite, and positive where limits are sought{}",
+        lost_digits(*value)
     )]
     InvalidLoad {
-        /// Load per unit length.
-        load: T,
+        /// What was asked for: `load`, `half-width` or `peak pressure`.
+        quantity: &'static str,
+        /// Its value.
+        value: T,
     },
-    /// The contact modulus, or κ, is not a positive finite number.
+    /// κ is not a positive finite number.
     #[error("κ = {kappa:?}: the scale must be positive and finite (κ = π E*/2)")]
     InvalidKappa {
-        /// κ as given, or π/2 times the modulus as given.
+        /// κ as given.
         kappa: T,
+    },
+    /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
+    #[error("E* = {modulus:?}: the contact modulus must be positive, and π E*/2 finite")]
+    InvalidModulus {
+        /// E* as given.
+        modulus: T,
     },
     /// Given or starting limits are not in order, or a half-width is lost in the rounding of `x`.
     #[error("the interval from -b = {:?} to a = {:?} is empty, reversed, not finite, or \
@@ -560,6 +568,19 @@ pub enum ContactError<T: Real> {
     },
 }
 
+/// Whether a number is so small that it has fewer digits than others.
+pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
+    value.is_finite() && !value.is_zero() && !(T::one() / value).is_finite()
+}
+
+fn lost_digits<T: Real>(value: T) -> &'static str {
+    if is_subnormal(value) {
+        "; of so small a number digits are lost: choose units in which it is nearer to 1"
+    } else {
+        ""
+    }
+}
+
 /// What may be missing where a contact turns out too wide.
 fn hint(kappa_is_default: bool) -> &'static str {
     if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
@@ -603,6 +624,7 @@ impl<T: Real> ContactError<T> {
             | Self::NoCommonRange { .. }
             | Self::InvalidLoad { .. }
             | Self::InvalidKappa { .. }
+            | Self::InvalidModulus { .. }
             | Self::InvalidLimits { .. }
             | Self::InvalidEdgePressure { .. }
             | Self::InvalidSegments { .. }

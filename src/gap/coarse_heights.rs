@@ -460,8 +460,7 @@ impl<T: Real> Samples<'_, T> {
                 };
                 let j = (0..self.scratch.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
                 let [k, next] = [self.scratch.k[j], self.scratch.k[j + 1]];
-                let (k, x) = first_turn(piece.curve, piece.k, [k, next]);
-                return Err(ProfileError::TurnsBack { k, x });
+                return Err(first_turn(piece.curve, piece.k, [k, next]));
             }
             if !y.is_finite() {
                 if x > self.range[0] && x < self.range[1] {

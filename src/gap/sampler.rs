@@ -192,7 +192,7 @@ impl<T: Real> Sampler<T> {
             }
         }
         if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
-            let source = ProfileError::TurnsBack { k, x: point.x };
+            let source = ProfileError::TurnsBack { k, x: point.x, domain: piece.k };
             return Err(ContactError::Profile { body, source });
         }
         let missed = found.point.x - x;

@@ -190,7 +190,7 @@ fn a_piece_that_turns_back_is_found_where_it_turns() {
     for (from, to, at) in [(-1.0, 1.0, -turning), (0.0, 1.0, turning), (-0.2, 1.3, turning)] {
         let body = fold(from, to);
         let error = Piece::checked(&body).map(|_| ()).unwrap_err();
-        let ProfileError::TurnsBack { k, x } = error else { panic!("{error}") };
+        let ProfileError::TurnsBack { k, x, .. } = error else { panic!("{error}") };
         assert!((k - at).abs() < 1e-15, "{k} for {at}");
         assert!((x - (at.powi(3) - at / 4.0)).abs() < 1e-15);
     }

@@ -21,6 +21,9 @@ const MOST_SPLITS: usize = 4096;
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
 
+/// Where a span whose heights contradict its slopes is halved.
+const ASIDE: f64 = 0.46;
+
 /// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
 
@@ -254,7 +257,9 @@ impl<T: Real> PanelSet<T> {
         let mut splits = 0;
         loop {
             let [left, right] = trial.panel.x;
-            let middle = T::of(0.5) * left + T::of(0.5) * right;
+            // A step in the heights may well lie in the middle, where neither half would have it.
+            let share = T::of(if trial.hides { ASIDE } else { 0.5 });
+            let middle = (T::one() - share) * left + share * right;
             let may = splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x);
             if trial.split && may {
                 splits += 1;
