@@ -264,7 +264,8 @@ impl<T: Real> PanelSet<T> {
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
-                let half = |x| Candidate { level, wave: trial.wave, ..Candidate::new(x) };
+                let Candidate { wave, hides, .. } = trial;
+                let half = |x| Candidate { level, wave, hides, ..Candidate::new(x) };
                 let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;

@@ -102,7 +102,10 @@ impl<T: Real> PanelSet<T> {
                 n = next;
                 continue;
             } else if !split {
-                self.check_slopes(gap)?;
+                // Beside a step in the heights any difference is large.
+                if !trial.hides {
+                    self.check_slopes(gap)?;
+                }
                 // The heights tell of what is too narrow for the nodes.
                 let heights = self.check_heights(panel, &seen);
                 (split, trial.hides) = (heights.is_err(), heights.is_err());
