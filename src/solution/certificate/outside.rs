@@ -177,13 +177,20 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 waiting.reverse();
             }
         }
+        // Short of the last cell: at the end of a body the slope may be infinite.
+        if let Some(panel) = waiting.first() {
+            let place = panel.x[usize::from(!self.right)];
+            let mut sampler = Sampler::default();
+            let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
+            let [at_edge, at_place] = heights;
+            panel_set.cost.heights += sampler.cost.evaluations;
+            let by_slopes = sign * self.risen;
+            compare([edge, place], at_place? - at_edge?, by_slopes, sampler.highest, left_out)?;
+        }
         for panel in waiting {
             self.take(&panel, &mut left_out, panel_set.cost)?;
         }
-        let mut sampler = Sampler::default();
-        let heights = [sampler.height(gap, gap.nearest(edge))?, sampler.height(gap, end)?];
-        panel_set.cost.heights += sampler.cost.evaluations;
-        compare([edge, end], heights[1] - heights[0], sign * self.risen, sampler.highest, left_out)
+        Ok(())
     }
 
     /// The slope and its error at a place where a row of panels ends.
