@@ -297,4 +297,26 @@ fn slopes_that_are_a_third_off() {
             }
         }
     }
+
+
+/// Many curves are no numbers beyond their ends, or another shape.
+#[test]
+fn a_curve_is_not_looked_at_beyond_its_ends() {
+    struct Bounded([f64; 2]);
+    impl ParametricProfile<f64> for Bounded {
+        fn domain(&self) -> [f64; 2] {
+            self.0
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            assert!(k >= self.0[0] && k <= self.0[1], "{k} is beyond {:?}", self.0);
+            CurvePoint { x: 2.0 * k, y: k * k, dx: 2.0, dy: 2.0 * k }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            assert!(x >= 2.0 * self.0[0] && x <= 2.0 * self.0[1], "{x} is beyond {:?}", self.0);
+            Some(0.5 * x)
+        }
+    }
+    for domain in [[-1.0, 1.0], [0.1, 0.2], [5.0, 8.0], [-3.0, -2.9]] {
+        assert_eq!(check_derivatives(&Bounded(domain)), Ok(()));
+    }
 }

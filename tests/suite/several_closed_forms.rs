@@ -369,3 +369,17 @@ fn what_makes_no_sense_is_refused() {
         assert!(Quartic::under_load(1.0, 1.0, 1.0, wrong).is_err());
     }
 }
+
+/// Bumps of any height and distance.
+#[test]
+fn two_bumps_merge_under_the_load_that_the_form_tells() {
+    for (depth, radius, kappa) in [(0.3f64, 2.0, 1.7), (2.5, 0.4, 0.2)] {
+        let under = |load| Quartic::under_load(depth, radius, load, kappa).unwrap();
+        let merger = under(1.0).merger(kappa);
+        for (share, count) in [(1.0f64 - 1e-9, 2), (1.0 + 1e-9, 1)] {
+            let form = under(share * merger);
+            assert_eq!(form.contacts().len(), count, "{share}");
+            assert!((form.load(kappa) / merger / share - 1.0).abs() < 1e-14);
+        }
+    }
+}
