@@ -359,6 +359,13 @@ fn what_makes_no_sense_is_refused() {
             other => panic!("{name}: {other:?}"),
         }
     }
+    // On either side one of the limits alone is further out.
+    for (left, right) in [(1.0, 0.3), (0.3, 1.0)] {
+        let form = UnequalRadii::new(left, right, 0.5).unwrap();
+        let [near, far] = [-form.limits().left, form.limits().right];
+        let refused = PolynomialMap::new(form, 2, 0.5 * (near + far), 1.0);
+        assert!(matches!(refused, Err(ReferenceError::Parameter { name: "the amplitude", .. })));
+    }
     let sticky = Jkr::new(1.0, 0.1, 0.5).unwrap();
     let refused = PolynomialMap::new(sticky, 2, 2.0, 1.0);
     assert!(matches!(refused, Err(ReferenceError::Parameter { name: "the work of adhesion", .. })));
