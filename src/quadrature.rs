@@ -205,6 +205,13 @@ pub struct Estimate<T> {
     pub error: T,
 }
 
+impl<T: Real> Estimate<T> {
+    /// Whether the error is at most a third of the value.
+    pub(crate) fn is_resolved(&self) -> bool {
+        T::of(3.0) * self.error <= self.value.abs()
+    }
+}
+
 /// The integrals of the gap slope that decide on the edges of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments<T> {

@@ -58,6 +58,9 @@ impl<T: Real> Trials<'_, T> {
         let load_case = LoadCase { kappa: contact.kappa, load: found.load, free: found.free };
         let (x, Estimate { value: pressure, error: doubt }) =
             largest_pressure(self.integrator, &contact.gap, &load_case, (0, on), self.cost)?;
+        if !doubt.is_finite() {
+            return Err(ContactError::Unresolved { x, pressure, error: doubt });
+        }
         self.last = Some(on.plain());
         // The half-width goes with the peak, and is known no better.
         let error = found.error.map(|error| error + doubt / pressure.abs());

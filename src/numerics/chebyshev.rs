@@ -167,11 +167,12 @@ impl Table {
 
     /// The integrals of the polynomial with these values at the nodes, from the first node to a [middle](middle)
     /// one, and from there to the last.
-    pub fn rises<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
+    pub fn rises<T: Real>(&self, values: &[T]) -> [T; 2] {
         let [mut first, mut second] = [T::zero(); 2];
-        for j in 0..N {
-            first = fma(values[j], T::of(self.in_rises[0][j]), first);
-            second = fma(values[j], T::of(self.in_rises[1][j]), second);
+        for ((&value, &one), &other) in values.iter().zip(&self.in_rises[0]).zip(&self.in_rises[1])
+        {
+            first = fma(value, T::of(one), first);
+            second = fma(value, T::of(other), second);
         }
         [first, second]
     }

@@ -250,13 +250,15 @@ impl<T: Real> MidpointSums<T> {
         let [value, of_one, of_t] =
             [0, 1, 2].map(|i| self.extrapolate(rows.iter().map(|row| row[i]).collect()));
 
-        // The line through the slopes next to the two edges, A + B t.
-        let [left, right] = self.levels[self.levels.len() - 1].end_slopes();
+        // The line through the slopes at the two edges, A + B t.
+        let [left, right] = self.levels[self.levels.len() - 1].edge_slopes();
         let [a, b] = [T::of(0.5) * (right + left), T::of(0.5) * (right - left)];
         let z = (x - self.on.centre()) / self.on.half_width();
         let one_missed = of_one.0 - T::pi() * z;
         let t_missed = of_t.0 - T::pi() * (z * z - T::of(0.5));
-        let error = (a * one_missed + b * t_missed).abs() + value.1.abs();
+        // g is not quite that line.
+        let bend = T::one() + T::count(self.levels[0].n).recip();
+        let error = bend * (a * one_missed + b * t_missed).abs() + value.1.abs();
         let error = error + self.jump_error(x) + self.coarse_error();
         let half_width = self.on.half_width();
         Ok(Estimate { value: half_width * value.0, error: half_width * error })

@@ -45,7 +45,8 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
-    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others); those of
+    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others);
+    /// [`ContactError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer than four segments; those of
     /// sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         self.integrator.complete(&self.gap)?;
@@ -64,7 +65,7 @@ impl<T: Real> Solution<'_, T> {
     pub(super) fn peak_in(&self, contact: usize) -> Result<Peak<T>, ContactError<T>> {
         let contacts = self.intervals();
         let (on, last) = (contacts[contact], contacts.len() - 1);
-        let (x, Estimate { value: pressure, .. }) = largest_pressure(
+        let (x, Estimate { value: pressure, error }) = largest_pressure(
             &**self.integrator,
             &self.gap,
             &self.load_case(),
@@ -73,6 +74,9 @@ impl<T: Real> Solution<'_, T> {
         )?;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
+        }
+        if !error.is_finite() {
+            return Err(ContactError::Unresolved { x, pressure, error });
         }
         let ContactState { strengths, free, .. } = self.found;
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
@@ -113,13 +117,22 @@ pub(crate) fn largest_pressure<T: Real>(
             }
         }
     }
+    let mut top = (place(best), integrator.estimate(gap, load_case, place(best), cost)?);
+    if top.1.value.is_finite() && !top.1.is_resolved() {
+        // Next to an edge a rule of few segments has no digit, and any value.
+        for i in 0..points {
+            let there = integrator.estimate(gap, load_case, place(i), cost)?;
+            let larger = there.value > top.1.value || !top.1.is_resolved();
+            if there.is_resolved() && larger {
+                (best, top) = (i, (place(i), there));
+            }
+        }
+    }
     let mut lo = if best + 1 < points { place(best + 1) } else { on.left };
     let mut hi = if best == 0 { on.right } else { place(best - 1) };
-    let best = place(best);
-    let mut top = (best, integrator.estimate(gap, load_case, best, cost)?);
     let mut at = |x: T| -> Result<T, ContactError<T>> {
         let pressure = integrator.estimate(gap, load_case, x, cost)?;
-        if pressure.value > top.1.value {
+        if pressure.value > top.1.value && (pressure.is_resolved() || !top.1.is_resolved()) {
             top = (x, pressure);
         }
         Ok(pressure.value)

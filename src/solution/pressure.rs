@@ -64,10 +64,11 @@ impl<T: Real> Pressure<'_, T> {
     /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
     /// beyond either body, and for NaN; those of sampling the gap at `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
-        let Estimate { value: pressure, error } = self.estimate(x, &mut Cost::default())?;
+        let estimate = self.estimate(x, &mut Cost::default())?;
+        let Estimate { value: pressure, error } = estimate;
         // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
         let free = self.load_case.free == [true; 2];
-        if free && T::of(3.0) * error > pressure.abs() && self.on.contains(x) {
+        if free && !estimate.is_resolved() && self.on.contains(x) {
             Err(ContactError::Unresolved { x, pressure, error })
         } else {
             Ok(pressure)

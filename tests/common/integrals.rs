@@ -1,70 +1,61 @@
 //! Integrals over a pressure by a rule that shares nothing with the crate: tanh-sinh, between the
 //! places where the pressure is not smooth.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use linecontact::Interval;
+use std::f64::consts::PI;
 
-/// `∫ f dθ` from one angle to another; `f` may have singularities at both ends.
-fn tanh_sinh(from: f64, to: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
+/// An integral over the contact in θ, from panels that end at the edges, the breakpoints and the pole:
+/// by the rule of Takahasi and Mori (tanh-sinh) on each.
+pub fn integral(on: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
+    let angle = |x: f64| 2.0 * (on.right - x).sqrt().atan2((x - on.left).sqrt());
+    let inside = ends.iter().filter(|&&x| on.contains(x));
+    let mut angles: Vec<f64> = inside.map(|&x| angle(x)).collect();
+    angles.extend([0.0, PI]);
+    angles.sort_by(f64::total_cmp);
+    let width = on.right - on.left;
+    let place = |theta: f64| {
+        let x = if theta < PI / 2.0 {
+            on.right - width * (theta / 2.0).sin().powi(2)
+        } else {
+            on.left + width * ((PI - theta) / 2.0).sin().powi(2)
+        };
+        // At the edges themselves P sin θ may be inf times 0.
+        x.clamp(on.left.next_up(), on.right.next_down())
+    };
     const STEP: f64 = 1.0 / 32.0;
-    let half = 0.5 * (to - from);
-    let mut sum = 0.0;
-    for i in -104i32..=104 {
-        let t = STEP * f64::from(i);
-        let u = FRAC_PI_2 * t.sinh();
-        // From the nearer end, so that no place is rounded to it.
-        let share = 2.0 / (1.0 + (2.0 * u.abs()).exp());
-        let theta = if i < 0 { from + half * share } else { to - half * share };
-        let weight = STEP * half * FRAC_PI_2 * t.cosh() / u.cosh().powi(2);
-        if theta > from && theta < to {
-            sum += weight * f(theta);
+    let mut total = 0.0;
+    for panel in angles.windows(2) {
+        let half = (panel[1] - panel[0]) / 2.0;
+        for i in -128i32..=128 {
+            let t = STEP * f64::from(i);
+            let u = PI / 2.0 * t.sinh();
+            // The distance from the nearer end of the panel.
+            let distance = half * (-u.abs()).exp() / u.cosh();
+            let theta = if i < 0 { panel[0] + distance } else { panel[1] - distance };
+            let weight = half * STEP * PI / 2.0 * t.cosh() / u.cosh().powi(2);
+            let value = integrand(place(theta));
+            if value.is_finite() {
+                total += weight * value;
+            }
         }
     }
-    sum
+    total
 }
 
-/// The contact `[-b, a]` by the angle: `x = c + L cos θ`.
-#[derive(Clone, Copy)]
-pub struct Angles {
-    centre: f64,
-    half_width: f64,
+/// `P sin θ` times the half-width, of the place as it is rounded: what is integrated over θ.
+pub fn strength(on: Interval<f64>, pressure: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
+    move |x| pressure(x) * (x - on.left).sqrt() * (on.right - x).sqrt()
 }
 
-impl Angles {
-    pub fn new(left: f64, right: f64) -> Self {
-        Self { centre: 0.5 * (left + right), half_width: 0.5 * (right - left) }
-    }
-
-    fn angle(&self, x: f64) -> f64 {
-        ((x - self.centre) / self.half_width).acos()
-    }
-
-    fn over(&self, breakpoints: &[f64], mut f: impl FnMut(f64) -> f64) -> f64 {
-        let inside = |x: &&f64| (**x - self.centre).abs() < self.half_width;
-        let mut ends: Vec<f64> =
-            breakpoints.iter().filter(inside).map(|&x| self.angle(x)).collect();
-        ends.extend([0.0, PI]);
-        ends.sort_by(f64::total_cmp);
-        ends.windows(2).map(|ends| tanh_sinh(ends[0], ends[1], &mut f)).sum()
-    }
-
-    /// `∫ P dx`.
-    pub fn load(&self, breakpoints: &[f64], pressure: &dyn Fn(f64) -> f64) -> f64 {
-        self.over(breakpoints, |theta| {
-            self.half_width * theta.sin() * pressure(self.centre + self.half_width * theta.cos())
-        })
-    }
-
-    /// `PV∫ P(s)/(x - s) ds`.
-    pub fn principal(&self, breakpoints: &[f64], x: f64, pressure: &dyn Fn(f64) -> f64) -> f64 {
-        let strength =
-            |theta: f64| theta.sin() * pressure(self.centre + self.half_width * theta.cos());
-        let phi = self.angle(x);
-        let at_x = strength(phi);
-        // PV∫ dθ/(cos φ - cos θ) is zero.
-        let with_x = [breakpoints, &[x]].concat();
-        self.over(&with_x, |theta| {
-            let distance = 2.0 * (0.5 * (theta + phi)).sin() * (0.5 * (theta - phi)).sin();
-            if distance == 0.0 { 0.0 } else { (strength(theta) - at_x) / distance }
-        })
-    }
+/// `PV∫ P(s)/(x - s) ds`.
+pub fn principal(
+    on: Interval<f64>,
+    breakpoints: &[f64],
+    x: f64,
+    pressure: impl Fn(f64) -> f64,
+) -> f64 {
+    let strength = strength(on, pressure);
+    let at_x = strength(x);
+    // PV∫ ds/((x - s) w(s)) is zero.
+    integral(on, &[breakpoints, &[x]].concat(), |s| (strength(s) - at_x) / (x - s))
 }

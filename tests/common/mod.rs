@@ -4,6 +4,9 @@
 #[path = "../../examples/paper/curves.rs"]
 pub mod paper;
 
+use linecontact::search::{
+    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
+};
 use linecontact::{
     Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise, Real, Solution,
 };
@@ -13,25 +16,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub type Profile = Box<dyn ParametricProfile<f64>>;
-
-/// A body that counts how often it is looked at.
-pub struct Counted(pub Profile, pub Arc<AtomicUsize>);
-
-impl ParametricProfile<f64> for Counted {
-    fn domain(&self) -> [f64; 2] {
-        self.0.domain()
-    }
-    fn at(&self, k: f64) -> CurvePoint<f64> {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0.at(k)
-    }
-    fn pieces(&self) -> usize {
-        self.0.pieces()
-    }
-    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
-        self.0.piece(index)
-    }
-}
 
 /// A solution to 25 digits, from `tests/data`.
 pub struct Reference {
@@ -55,11 +39,19 @@ impl Reference {
     }
 }
 
-pub fn reference(name: &str) -> Reference {
+/// A file of `tests/data`.
+fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let json: Value = serde_json::from_str(&text).expect("valid JSON");
-    let number = |v: &Value| v.as_str().expect("a decimal in a string").parse().expect("a number");
+    serde_json::from_str(&text).expect("valid JSON")
+}
+
+fn number(v: &Value) -> f64 {
+    v.as_str().expect("a decimal in a string").parse().expect("a number")
+}
+
+pub fn reference(name: &str) -> Reference {
+    let json = data(name);
     let list = |key: &str| json[key].as_array().cloned().unwrap_or_default();
     Reference {
         a: number(&json["a"]),
@@ -86,10 +78,7 @@ pub struct Several {
 }
 
 pub fn several(name: &str) -> Several {
-    let path = format!("{}/tests/data/several/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let json: Value = serde_json::from_str(&text).expect("valid JSON");
-    let number = |v: &Value| v.as_str().expect("a decimal in a string").parse().expect("a number");
+    let json = data(&format!("several/{name}"));
     let pairs = |key: &str| -> Vec<[f64; 2]> {
         let list = json[key].as_array().expect("a list");
         list.iter().map(|pair| [number(&pair[0]), number(&pair[1])]).collect()
@@ -129,6 +118,47 @@ pub fn graph(
 
 pub fn parabola(reach: f64) -> Profile {
     graph(-reach, reach, |x| [x * x / 2.0, x])
+}
+
+type Found = Result<Root<f64>, SearchError<f64>>;
+
+/// A user's strategy: it may look somewhere, and then says what it likes.
+pub struct Strategy(pub fn(&mut dyn FnMut(f64) -> f64, &Bracket<f64>) -> Found);
+
+impl LimitSearch<f64> for Strategy {
+    fn find(&self, f: &mut dyn FnMut(f64) -> f64, bracket: &Bracket<f64>) -> Found {
+        self.0(f, bracket)
+    }
+}
+
+impl Strategy {
+    /// Takes a point for the root, whatever the function is there.
+    pub fn take(x: f64, f: &mut dyn FnMut(f64) -> f64, bracket: &Bracket<f64>) -> Found {
+        Ok(Root { x, residual: f(x), bracket: [bracket.lo, bracket.hi], evaluations: 1 })
+    }
+}
+
+/// Bisection, secant, Brent, Newton.
+pub fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
+    [
+        Box::new(Bisection { tolerance }),
+        Box::new(Secant { tolerance }),
+        Box::new(Brent { tolerance }),
+        Box::new(Newton { tolerance }),
+    ]
+}
+
+/// A body above a flat.
+pub fn on_flat<'b>(body: Profile) -> Contact<'b, f64> {
+    Contact::owned(Arc::new(Flat), body.into()).unwrap()
+}
+
+/// A circle of radius 1 by its angle, from left to right for a sign of 1.
+pub fn circle(from: f64, to: f64, sign: f64) -> Profile {
+    Box::new(Curve::new([from, to], move |k: f64| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: sign * sin, y: 1.0 - cos, dx: sign * cos, dy: sin }
+    }))
 }
 
 pub fn join(pieces: Vec<Profile>) -> Profile {
@@ -252,6 +282,12 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
+/// Relative to the larger of the two.
+#[track_caller]
+pub fn assert_close(got: f64, want: f64, max_relative: f64) {
+    approx::assert_relative_eq!(got, want, epsilon = 0.0, max_relative = max_relative);
+}
+
 /// Errors of which NaN is the largest: `max` would lose it.
 pub trait NanSafe: Real {
     fn nan_max(self, other: Self) -> Self {
@@ -287,5 +323,11 @@ impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
     fn at(&self, k: f64) -> CurvePoint<f64> {
         self.1.fetch_add(1, Ordering::Relaxed);
         self.0.at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.0.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
+        self.0.piece(index)
     }
 }

@@ -13,12 +13,10 @@ mod profiles;
 mod scene;
 mod searches;
 
-use common::{Profile, power};
+use common::{Profile, power, strategies};
 use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
-use linecontact::search::{
-    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
-};
+use linecontact::search::{Bracket, Brent, Root, SearchError, StoppingCriteria};
 use linecontact::stress::Stress;
 use linecontact::{
     Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate,
@@ -105,6 +103,17 @@ impl Table {
         self.outcome(name, most, call, |outcome| outcome.as_ref().is_err_and(&expected));
     }
 
+    fn solve(
+        &mut self,
+        name: &str,
+        most: usize,
+        contact: &Contact<f64>,
+        control: Control<f64>,
+        expected: impl Fn(&Wrong) -> bool,
+    ) {
+        self.row(name, most, || Ok(contact.solve(control).map(|_| ())?), expected);
+    }
+
     fn outcome<R: std::fmt::Debug>(
         &mut self,
         name: &str,
@@ -158,13 +167,4 @@ use contact_error;
 fn solve(upper: &dyn ParametricProfile<f64>, load: Control<f64>) -> Result<(), Wrong> {
     Contact::new(&Flat, upper)?.solve(load)?;
     Ok(())
-}
-
-fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
-    [
-        Box::new(Bisection { tolerance }),
-        Box::new(Secant { tolerance }),
-        Box::new(Brent { tolerance }),
-        Box::new(Newton { tolerance }),
-    ]
 }

@@ -5,7 +5,8 @@ use crate::common;
 use common::paper;
 use linecontact::profile::Piece;
 use linecontact::{
-    Curve, CurvePoint, ParametricProfile, Piecewise, ProfileError, check_derivatives,
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise,
+    ProfileError, check_derivatives,
 };
 
 type Profile = Box<dyn ParametricProfile<f64>>;
@@ -132,26 +133,18 @@ fn factors_and_signs_are_found_in_every_curve_of_the_paper() {
         for profile in [&*example.lower, &*example.upper] {
             for Piece { curve, .. } in pieces(profile) {
                 for factor in [-1.0, 1.001, 0.9999, 1.0 + 1e-6, 0.0] {
-                    let dx = Changed {
-                        of: curve,
-                        change: |_, p: CurvePoint<f64>| CurvePoint { dx: factor * p.dx, ..p },
-                    };
-                    let (quantity, _, seen) = fault(&dx).expect("the fault of X'");
-                    assert_eq!(quantity, "X'");
-                    assert!(
-                        (seen - factor).abs() < 1e-2 * (1.0 - factor).abs(),
-                        "{seen} for {factor}"
-                    );
-                    let dy = Changed {
-                        of: curve,
-                        change: |_, p: CurvePoint<f64>| CurvePoint { dy: factor * p.dy, ..p },
-                    };
-                    let (quantity, _, seen) = fault(&dy).expect("the fault of Y'");
-                    assert_eq!(quantity, "Y'");
-                    assert!(
-                        (seen - factor).abs() < 1e-2 * (1.0 - factor).abs(),
-                        "{seen} for {factor}"
-                    );
+                    for (name, [fx, fy]) in [("X'", [factor, 1.0]), ("Y'", [1.0, factor])] {
+                        let change = |_, p: CurvePoint<f64>| CurvePoint {
+                            dx: fx * p.dx,
+                            dy: fy * p.dy,
+                            ..p
+                        };
+                        let (quantity, _, seen) =
+                            fault(&Changed { of: curve, change }).expect(name);
+                        assert_eq!(quantity, name);
+                        let off = (seen - factor).abs();
+                        assert!(off < 1e-2 * (1.0 - factor).abs(), "{seen} for {factor}");
+                    }
                 }
             }
         }
@@ -240,5 +233,94 @@ fn a_slope_by_x_that_is_another() {
         assert_eq!(quantity, "slope_at(x)");
         let x = k + 0.1 * k * k * k;
         assert!((difference / x - 1.0).abs() < 1e-14 && (given / x - factor).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn derivatives_that_are_wrong() {
+    let with = |fx: f64, fy: f64| {
+        Curve::new([-1.0, 1.0], move |k: f64| {
+            let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
+            CurvePoint { x, y: x * x / 2.0, dx: fx * dx, dy: fy * x * dx }
+        })
+    };
+    let solve = |body: &dyn ParametricProfile<f64>| {
+        Contact::new(&Flat, body).and_then(|contact| contact.solve(Control::Load(0.02)).map(|_| ()))
+    };
+    assert!(Piece::checked(&with(1.0, 1.0)).is_ok());
+    let twice = Piece::checked(&with(1.0, 2.0)).map(|_| ());
+    assert!(matches!(twice, Err(ProfileError::Derivative { quantity: "Y'", .. })), "{twice:?}");
+    assert_eq!(solve(&with(1.0, 1.0)), Ok(()));
+    for (fx, fy, name) in [(2.0, 1.0, "X'"), (0.5, 1.0, "X'"), (10.0, 1.0, "X'"), (1.0, -1.0, "Y'")]
+    {
+        let body = with(fx, fy);
+        let error = Piece::checked(&body).map(|_| ()).unwrap_err();
+        let ProfileError::Derivative { quantity, .. } = error else { panic!("{error}") };
+        assert_eq!(quantity, name);
+        // Without that check the solver finds that slopes and heights do not go together.
+        let error = solve(&body).unwrap_err();
+        let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
+        else {
+            panic!("{error}")
+        };
+        assert_eq!(quantity, "the slope Y'/X'");
+    }
+}
+
+#[test]
+fn slopes_that_are_a_third_off() {
+    // The slope of a parabola is x, whatever its parameter; heights may be counted from far away.
+    let with = |factor: f64, sign: f64, falls: f64, height: f64| {
+        Curve::new([-1.0, 1.0], move |k: f64| {
+            let (x, dx) = (falls * (k + 0.2 * k * k * k), falls * (1.0 + 0.6 * k * k));
+            let y = height + sign * x * x / 2.0;
+            CurvePoint { x, y, dx, dy: factor * sign * x * dx }
+        })
+    };
+    for (falls, height) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 1e3)] {
+        for (factor, seen) in [(0.6, false), (1.8, false), (0.45, true), (2.1, true), (9.0, true)] {
+            let bodies = [with(factor, -1.0, falls, height), with(factor, 1.0, falls, height)];
+            let (left, right) = (Contact::new(&bodies[0], &Flat), Contact::new(&Flat, &bodies[1]));
+            for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
+                let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
+                // What is less is seen in the rise of all of a panel.
+                let by_rise = matches!(error, ContactError::InconsistentHeights { .. });
+                assert_eq!(by_rise, !seen, "{factor}: {error:?}");
+                if by_rise {
+                    continue;
+                }
+                let ContactError::Profile { body: at_fault, source } = error else { panic!() };
+                let ProfileError::Derivative { k, given, difference, .. } = source else {
+                    panic!()
+                };
+                assert_eq!(at_fault, body);
+                let sign = if body == Body::Lower { -1.0 } else { 1.0 };
+                let slope = sign * falls * (k + 0.2 * k * k * k);
+                assert!((given / slope - factor).abs() < 1e-12, "{given} {slope}");
+                assert!((difference / slope - 1.0).abs() < 1e-4, "{difference} {slope}");
+            }
+        }
+    }
+}
+
+/// Many curves are no numbers beyond their ends, or another shape.
+#[test]
+fn a_curve_is_not_looked_at_beyond_its_ends() {
+    struct Bounded([f64; 2]);
+    impl ParametricProfile<f64> for Bounded {
+        fn domain(&self) -> [f64; 2] {
+            self.0
+        }
+        fn at(&self, k: f64) -> CurvePoint<f64> {
+            assert!(k >= self.0[0] && k <= self.0[1], "{k} is beyond {:?}", self.0);
+            CurvePoint { x: 2.0 * k, y: k * k, dx: 2.0, dy: 2.0 * k }
+        }
+        fn slope_at(&self, x: f64) -> Option<f64> {
+            assert!(x >= 2.0 * self.0[0] && x <= 2.0 * self.0[1], "{x} is beyond {:?}", self.0);
+            Some(0.5 * x)
+        }
+    }
+    for domain in [[-1.0, 1.0], [0.1, 0.2], [5.0, 8.0], [-3.0, -2.9]] {
+        assert_eq!(check_derivatives(&Bounded(domain)), Ok(()));
     }
 }

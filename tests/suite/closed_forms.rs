@@ -5,53 +5,17 @@
 use crate::common;
 use crate::common::NanSafe;
 use crate::forms;
+use crate::integrals::{integral, principal, strength};
 
 use approx::assert_relative_eq;
 use common::reference;
 use forms::{Form, KAPPA, Unrolled, forms};
+use linecontact::Edge;
 use linecontact::reference::{
     Biquadratic, ClosedForm, Cosine, Crowning, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola,
     Jkr, PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard,
 };
-use linecontact::{Edge, Interval};
 use std::f64::consts::PI;
-
-/// An integral over the contact in θ, from panels that end at the edges, the breakpoints and the pole:
-/// by the rule of Takahasi and Mori (tanh-sinh) on each.
-pub fn integral(limits: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
-    let angle = |x: f64| 2.0 * (limits.right - x).sqrt().atan2((x - limits.left).sqrt());
-    let mut angles: Vec<f64> = ends.iter().map(|&x| angle(x)).collect();
-    angles.extend([0.0, PI]);
-    angles.sort_by(f64::total_cmp);
-    let width = limits.right - limits.left;
-    let place = |theta: f64| {
-        let x = if theta < PI / 2.0 {
-            limits.right - width * (theta / 2.0).sin().powi(2)
-        } else {
-            limits.left + width * ((PI - theta) / 2.0).sin().powi(2)
-        };
-        // At the edges themselves P sin θ may be inf times 0.
-        x.clamp(limits.left.next_up(), limits.right.next_down())
-    };
-    const STEP: f64 = 1.0 / 32.0;
-    let mut total = 0.0;
-    for panel in angles.windows(2) {
-        let half = (panel[1] - panel[0]) / 2.0;
-        for i in -128i32..=128 {
-            let t = STEP * f64::from(i);
-            let u = PI / 2.0 * t.sinh();
-            // The distance from the nearer end of the panel.
-            let distance = half * (-u.abs()).exp() / u.cosh();
-            let theta = if i < 0 { panel[0] + distance } else { panel[1] - distance };
-            let weight = half * STEP * PI / 2.0 * t.cosh() / u.cosh().powi(2);
-            let value = integrand(place(theta));
-            if value.is_finite() {
-                total += weight * value;
-            }
-        }
-    }
-    total
-}
 
 /// The largest residuals of `PV∫ P(s)/(x - s) ds = κ g(x)`, in terms of the largest of either side,
 /// and of `∫ P ds = F`.
@@ -61,20 +25,15 @@ fn residuals(form: &dyn ClosedForm<f64>) -> [f64; 2] {
     if limits.contains(0.0) && !breakpoints.contains(&0.0) {
         breakpoints.push(0.0);
     }
-    // P sin θ/L of the place as it is rounded.
-    let strength =
-        |s: f64| form.pressure(s, KAPPA) * (s - limits.left).sqrt() * (limits.right - s).sqrt();
-    let load = integral(limits, &breakpoints, strength);
+    let pressure = |s: f64| form.pressure(s, KAPPA);
+    let strength = strength(limits, pressure);
+    let load = integral(limits, &breakpoints, &strength);
     let size = integral(limits, &breakpoints, |s| strength(s).abs());
     let mut worst = 0.0f64;
     let steepest = form.slope_left(limits.right).abs().max(form.slope(limits.left).abs());
     for i in 1..24 {
         let x = limits.at_angle(PI * (f64::from(i) + 0.2) / 24.6);
-        let at_x = strength(x);
-        let mut ends = breakpoints.clone();
-        ends.push(x);
-        // PV∫ ds/((x - s) w(s)) is zero.
-        let left = integral(limits, &ends, |s| (strength(s) - at_x) / (x - s));
+        let left = principal(limits, &breakpoints, x, pressure);
         let scale = (KAPPA * steepest).max(size / limits.half_width());
         worst = worst.nan_max((left - KAPPA * form.slope(x)).abs() / scale);
     }

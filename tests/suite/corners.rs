@@ -4,7 +4,7 @@
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{graph, parabola};
+use common::{graph, on_flat, parabola};
 use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
 
@@ -19,8 +19,7 @@ fn key(contact: Contact<f64>, load: Control<f64>) -> [f64; 4] {
 fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
     // The parabola reaches x = 0.3 under F = 0.3²/2 = 0.045.
     let (corner, free) = (Edge::FreeUntil(0.3), Edge::Free);
-    let body = parabola(2.0);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(parabola(2.0));
     for load in [1e-8, 1e-3, 0.03, 0.0449, 0.0451, 0.06, 0.3, 0.9] {
         let reached = load > 0.045;
         let (known, mirror) = if reached {
@@ -67,8 +66,7 @@ fn a_corner_may_be_the_end_of_the_body() {
 #[test]
 fn a_corner_far_away_does_not_matter() {
     // A contact held at the corner would have to reach beyond the other end of the body.
-    let body = graph(-0.25, 1.0, |x| [x * x / 2.0, x]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-0.25, 1.0, |x| [x * x / 2.0, x]));
     let load = Control::Load(0.005);
     let got = key(contact.clone().edges(Edge::Free, Edge::FreeUntil(0.9)), load);
     assert_relative_eq!(got[0], 0.1, epsilon = 0.0, max_relative = 4e-15);
@@ -77,8 +75,7 @@ fn a_corner_far_away_does_not_matter() {
 
 #[test]
 fn a_corner_serves_every_control() {
-    let body = parabola(2.0);
-    let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Free, Edge::FreeUntil(0.3));
+    let contact = on_flat(parabola(2.0)).edges(Edge::Free, Edge::FreeUntil(0.3));
     // Hertz below the corner.
     for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI), Control::Load(0.02)] {
         let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));

@@ -4,7 +4,7 @@
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{NanSafe, graph, parabola, power, reference, scenes, worst};
+use common::{NanSafe, graph, on_flat, parabola, power, reference, scenes, worst};
 use linecontact::reference::{ClosedForm, Jkr, body};
 use linecontact::search::Brent;
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise};
@@ -182,16 +182,12 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
     // Hertz, from limits that are only nearly right. P = κ sqrt(L² - x²)/(π R).
     use linecontact::search::{Brent, StoppingCriteria};
     for (length, kappa) in [(1.0, 1.0), (1e-4, 1e-3), (1e3, 1e4)] {
-        let body = Curve::new([-2.0 * length, 2.0 * length], move |x: f64| CurvePoint {
-            x,
-            y: x * x / (2.0 * length),
-            dx: 1.0,
-            dy: x / length,
-        });
+        let reach = 2.0 * length;
+        let body = graph(-reach, reach, move |x| [x * x / (2.0 * length), x / length]);
         let (l, scale) = (0.4 * length, kappa * 0.4 / PI);
         for relative in [1e-2, 1e-4, 1e-6] {
             let sloppy = Brent { tolerance: StoppingCriteria::relative(relative) };
-            let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).limit_search(&sloppy);
+            let contact = Contact::new(&Flat, &*body).unwrap().kappa(kappa).limit_search(&sloppy);
             let solution = contact.solve(Control::Load(kappa * 0.08 * length)).unwrap();
             let pressure = solution.pressure().unwrap();
             for z in [-0.999, -0.9, -0.3, 0.0, 0.5, 0.95, 0.99] {
@@ -254,8 +250,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
 
 /// The pressure at a breakpoint, and the error that is said of it.
 fn at_breakpoint(left: common::Profile, right: common::Profile, load: f64, x: f64) -> [f64; 3] {
-    let body = common::join(vec![left, right]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(common::join(vec![left, right]));
     let solution = contact.solve(Control::Load(load / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     let at = |x| pressure.estimate(x, &mut Cost::default()).unwrap();

@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 
-use common::{Profile, graph, join};
+use common::{Profile, graph, join, on_flat};
 use linecontact::search::Brent;
 use linecontact::{
     Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval,
@@ -114,8 +114,7 @@ fn a_steep_line_before_a_series() {
             2f64.powi(25) * x + 3.0 * (2.0 * x).exp(),
         ]
     };
-    let body = graph(-3.0, 3.0, at);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-3.0, 3.0, at));
     let exact = contact.solve(Control::HalfWidth(1.0)).unwrap().hull();
     for tolerance in [1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6] {
         let rule = Panels { tolerance };
@@ -163,11 +162,11 @@ fn a_step_of_a_millionth_of_the_bodies() {
         let on = Interval { left, right: left + 2.0 * l };
         let rise = move |x: f64| curvature * (x - x0) + step(x)[1];
         let [mean, first] = edge_integrals(on, rise);
-        let body = graph(-4.3, 4.5, move |x| {
+        let contact = on_flat(graph(-4.3, 4.5, move |x| {
             let (t, [y, slope]) = (x - x0, step(x));
             [curvature * t * t / 2.0 + y - mean * t, curvature * t + slope - mean]
-        });
-        let contact = Contact::new(&Flat, &*body).unwrap().edges(Edge::Fixed(left), Edge::Free);
+        }))
+        .edges(Edge::Fixed(left), Edge::Free);
         let brent = Brent::default();
         for contact in [contact.clone(), contact.limit_search(&brent)] {
             let solution = contact.solve(Control::Load(l * first)).unwrap();
@@ -252,11 +251,11 @@ fn pressures_of_a_given_width_by_the_midpoint_rule() {
         let step = tanh(c, w, x0);
         let rise = move |x: f64| x + step(x)[1];
         let [mean, first] = edge_integrals(Interval { left: -l, right: l }, rise);
-        let body = graph(-4.0, 4.0, move |x| {
+        let contact = on_flat(graph(-4.0, 4.0, move |x| {
             let [y, dy] = step(x);
             [x * x / 2.0 + y - mean * x, x + dy - mean]
-        });
-        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        }))
+        .quadrature(&rule);
         let solution = contact.solve(Control::HalfWidth(l)).unwrap();
         assert!((solution.load() / (l * first) - 1.0).abs() < 1e-7);
         let pressure = solution.pressure().unwrap();
@@ -292,11 +291,11 @@ fn limits_by_the_midpoint_rule_with_a_kink() {
         let (theta, sin) = (z.acos(), (1.0 - z * z).sqrt());
         let m0 = 3.0 * l * (sin - theta * z) / PI;
         let m1 = l / 2.0 + 3.0 * l * (theta - sin * z) / (2.0 * PI);
-        let body = graph(-4.0, 4.0, move |x| {
+        let contact = on_flat(graph(-4.0, 4.0, move |x| {
             let t = (x - l * z).max(0.0);
             [x * x / 2.0 + 1.5 * t * t - m0 * x, x + 3.0 * t - m0]
-        });
-        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        }))
+        .quadrature(&rule);
         let solution = contact.solve(Control::Load(l * m1)).unwrap();
         let off = (solution.a() - l).abs().nan_max((solution.b() - l).abs()) / l;
         let estimate = solution.limits_error().unwrap();
@@ -390,12 +389,11 @@ fn limits_beside_a_jump_that_is_not_declared() {
             let (theta, sin) = ((x0 / l).acos(), (1.0 - (x0 / l).powi(2)).sqrt());
             let tilt = -mean - jump * theta / PI;
             let load = l * (first + jump * sin / PI);
-            let body = graph(-4.0, 4.0, move |x| {
+            let contact = on_flat(graph(-4.0, 4.0, move |x| {
                 let more = if x > x0 { jump } else { 0.0 };
                 let y = (steep * x).cosh() / steep + x * x / 2.0 + tilt * x;
                 [y + more * (x - x0), rise(x) + tilt + more]
-            });
-            let contact = Contact::new(&Flat, &*body).unwrap();
+            }));
             for contact in [contact.clone(), contact.edges(Edge::Fixed(-l), Edge::Free)] {
                 let solution = contact.solve(Control::Load(load)).unwrap();
                 let off = (solution.a() - l).abs().nan_max((solution.b() - l).abs()) / l;

@@ -2,11 +2,10 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counted, Profile, graph};
+use common::{Counting, Profile, graph};
 use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat};
 use std::f64::consts::PI;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What a body bears on a flat, κ = 1: load, half-width, peak pressure and the end it reaches. Without a
@@ -123,8 +122,8 @@ fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
 fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     let mut faults = Vec::new();
     for Scene { name, body, bears: exact, end } in scenes() {
-        let count = Arc::new(AtomicUsize::new(0));
-        let body = Counted(body, Arc::clone(&count));
+        let count = AtomicUsize::new(0);
+        let body = Counting(body, &count);
         let contact = Contact::new(&Flat, &body).unwrap();
         let taken = |load: Control<f64>| {
             let before = count.load(Ordering::Relaxed);

@@ -2,10 +2,9 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counted, Profile, graph};
+use common::{Counting, Profile, graph};
 use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// x⁴ - 2 x² on the flat.
@@ -95,7 +94,7 @@ fn scenes() -> Vec<Scene> {
 fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     let mut faults = Vec::new();
     for Scene { name, body, edges, contacts } in scenes() {
-        let body = Counted(body, Arc::new(AtomicUsize::new(0)));
+        let body = Counting(body, &AtomicUsize::new(0));
         let contact = Contact::new(&Flat, &body).unwrap().edges(edges[0], edges[1]);
         let first = bears(&contact, 1e3);
         let [load, half_width, peak, end] = first;
@@ -147,7 +146,7 @@ fn random_waves_bear_what_the_error_says() {
         let body = graph(from, to, move |x: f64| {
             [x * x / 2.0 + tall / wave * (wave * x + phase).cos(), slope(x)]
         });
-        let body = Counted(body, Arc::new(AtomicUsize::new(0)));
+        let body = Counting(body, &AtomicUsize::new(0));
         let contact = Contact::new(&Flat, &body).unwrap();
         let asked = 10f64.powf(random(0.5, 4.0));
         match contact.solve(Control::Load(asked)).map(|_| ()).unwrap_err() {

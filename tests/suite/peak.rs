@@ -3,7 +3,7 @@
 
 use crate::common;
 
-use common::{graph, parabola, power};
+use common::{graph, on_flat, parabola, power};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise,
 };
@@ -12,8 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 #[test]
 fn of_a_parabola_away_from_zero() {
-    let body = graph(-1.0, 1.0, |x| [(x - 0.1).powi(2) / 2.0, x - 0.1]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-1.0, 1.0, |x| [(x - 0.1).powi(2) / 2.0, x - 0.1]));
     let paper = Midpoint::paper(256, 2);
     for (contact, accuracy) in [(contact.clone(), 1e-14), (contact.quadrature(&paper), 1e-4)] {
         let solution = contact.solve(Control::Load(0.02)).unwrap();
@@ -48,8 +47,7 @@ fn infinite_at_a_fixed_edge_and_at_a_wedge() {
 
 #[test]
 fn inside_an_adhesive_contact() {
-    let body = parabola(1.0);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(parabola(1.0));
     let contact = contact.edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     let peak = solution.peak().unwrap();
@@ -64,12 +62,7 @@ fn of_many_pieces_one_of_which_has_a_corner() {
     let make = |corner: f64| {
         let arcs = (0..PIECES).map(|i| {
             let bend = if i >= 517 { corner } else { 0.0 };
-            Curve::new([end(i), end(i + 1)], move |k: f64| CurvePoint {
-                x: k,
-                y: k * k / 2.0 + bend * (k - end(517)),
-                dx: 1.0,
-                dy: k + bend,
-            })
+            graph(end(i), end(i + 1), move |x| [x * x / 2.0 + bend * (x - end(517)), x + bend])
         });
         Piecewise::new(arcs.collect()).unwrap()
     };
@@ -95,13 +88,11 @@ fn of_many_pieces_one_of_which_has_a_corner() {
 fn an_infinite_peak_is_refused_whatever_its_unit() {
     // A flat punch, tilted: K > 0 at both edges. And a wedge, of which one point is infinite.
     for unit in [1e-150, 1e-20, 1.0, 1e20] {
-        let punch = graph(-1.0, 1.0, |x| [0.1 * x, 0.1]);
-        let contact = Contact::new(&Flat, &*punch).unwrap().kappa(unit);
+        let contact = on_flat(graph(-1.0, 1.0, |x| [0.1 * x, 0.1])).kappa(unit);
         let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
         let solution = contact.solve(Control::Load(2.0 * unit)).unwrap();
         assert_eq!(solution.peak(), Err(ContactError::Singular { x: 0.5 }), "{unit}");
-        let wedge = power(1.0);
-        let contact = Contact::new(&Flat, &*wedge).unwrap().kappa(unit);
+        let contact = on_flat(power(1.0)).kappa(unit);
         let solution = contact.solve(Control::HalfWidth(0.5)).unwrap();
         let pressure = solution.pressure().unwrap();
         let mut three = [0.0; 3];

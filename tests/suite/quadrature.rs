@@ -5,14 +5,15 @@ use crate::common;
 use crate::common::NanSafe;
 
 use approx::assert_relative_eq;
-use common::{example_1_exact, example_2_exact, graph, order, paper, reference, scenes};
-use linecontact::gap::Sampler;
-use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
+use common::{
+    example_1_exact, example_2_exact, graph, join, on_flat, order, paper, parabola, reference,
+    scenes,
+};
+use linecontact::Cost;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Midpoint,
+    Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
     Solution,
 };
-use linecontact::{Cost, Estimate, Gap, Panels};
 use std::f64::consts::PI;
 
 const EVEN: Exponents = Exponents::Even;
@@ -94,33 +95,28 @@ fn the_trapezoidal_sum_is_of_first_order() {
     assert_relative_eq!(2.0 * fine - coarse, midpoint, epsilon = 0.0, max_relative = 1e-13);
 }
 
-/// Entries of the paper's tables: N, ET, x, printed error.
-#[test]
-fn entries_of_table_1() {
-    let rows = [(64, 1, -0.75, 4.26e-5), (64, 2, 0.5, 2.40e-9), (256, 2, 0.25, 1.83e-12)];
-    for (n, et, x, printed) in rows {
-        let error = (pressure(1, rule(n, et, EVEN), &[x])[0] - example_1_exact(x)).abs();
-        assert!((error / printed - 1.0).abs() < 3e-3, "N {n} ET {et} x {x}: {error:e}");
+/// Entries of tables: N, ET, x, printed error; held to so much.
+fn assert_printed(example: usize, exponents: Exponents, rows: &[(usize, u32, f64, f64)], to: f64) {
+    for &(n, et, x, printed) in rows {
+        let error = (pressure(example, rule(n, et, exponents), &[x])[0] - exact(example, x)).abs();
+        assert!((error / printed - 1.0).abs() < to, "N {n} ET {et} x {x}: {error:e}");
     }
 }
 
 #[test]
-fn entries_of_table_2() {
-    let rows = [(256, 1, -0.5, 4.33e-3), (1024, 2, 0.2, 8.36e-6), (4096, 2, 0.9, 9.21e-6)];
-    for (n, et, x, printed) in rows {
-        let error = (pressure(2, rule(n, et, EVEN), &[x])[0] - example_2_exact(x)).abs();
-        assert!((error / printed - 1.0).abs() < 3e-3, "N {n} ET {et} x {x}: {error:e}");
-    }
-}
-
-#[test]
-fn the_error_table_of_the_right_exponents() {
-    // Measured elsewhere, in 20 digits: Example 2 at x = 0.2, N = 64 and 256.
-    let table = [(64, 2, 2.2e-6), (64, 3, 6.0e-10), (256, 2, 7.0e-8), (256, 3, 4.7e-12)];
-    for (n, et, printed) in table {
-        let error = (pressure(2, rule(n, et, HALF_ODD), &[0.2])[0] - example_2_exact(0.2)).abs();
-        assert!((error / printed - 1.0).abs() < 0.03, "N {n} ET {et}: {error:e}");
-    }
+fn entries_of_the_papers_tables() {
+    let of_1 = [(64, 1, -0.75, 4.26e-5), (64, 2, 0.5, 2.40e-9), (256, 2, 0.25, 1.83e-12)];
+    assert_printed(1, EVEN, &of_1, 3e-3);
+    let of_2 = [(256, 1, -0.5, 4.33e-3), (1024, 2, 0.2, 8.36e-6), (4096, 2, 0.9, 9.21e-6)];
+    assert_printed(2, EVEN, &of_2, 3e-3);
+    // Measured elsewhere, in 20 digits, with the right exponents.
+    let right = [
+        (64, 2, 0.2, 2.2e-6),
+        (64, 3, 0.2, 6.0e-10),
+        (256, 2, 0.2, 7.0e-8),
+        (256, 3, 0.2, 4.7e-12),
+    ];
+    assert_printed(2, HALF_ODD, &right, 0.03);
 }
 
 #[test]
@@ -248,7 +244,7 @@ fn a_pressure_carries_its_doubt() {
                 let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
                 let error = (estimate.value - p).abs();
                 let place = format!("{name} {rule:?} at z = {}: {error:e}", want.z(x));
-                assert!(error <= 1.5 * estimate.error + 1e-11 * p, "{place} {estimate:?}");
+                assert!(error <= estimate.error + 1e-11 * p, "{place} {estimate:?}");
                 if rule.exponents == EVEN && want.z(x).abs() > 1e-9 {
                     assert!(estimate.error <= 6.0 * error, "{place} {estimate:?}");
                 }
@@ -263,43 +259,8 @@ fn a_pressure_carries_its_doubt() {
 }
 
 #[test]
-fn a_breakpoint_shows_in_the_estimate() {
-    for (name, scene) in
-        [("paper_example_4_scale_one", paper::four()), ("paper_example_5_scale_one", paper::five())]
-    {
-        let want = reference(name);
-        let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap();
-        let solution = contact.solve(Control::Load(want.c / PI)).unwrap();
-        let pressure = solution.pressure().unwrap();
-        for &[x, p] in want.points.iter().filter(|[x, _]| want.z(*x).abs() < 0.97) {
-            let estimate = pressure.estimate(x, &mut linecontact::Cost::default()).unwrap();
-            let error = (estimate.value - p).abs();
-            assert!(error <= 20.0 * estimate.error, "{name} at {x:e}: {error:e} {estimate:?}");
-        }
-    }
-}
-
-#[test]
-fn a_sharp_flat_punch() {
-    // P = (F - m x)/(π sqrt(L² - x²)), κ = 1, as a rule with smooth ends finds to rounding.
-    let (m, load) = (0.3, 2.0);
-    let tilted =
-        Curve::new([-0.5, 0.5], move |k: f64| CurvePoint { x: k, y: m * k, dx: 1.0, dy: m });
-    let contact = Contact::new(&Flat, &tilted).unwrap();
-    let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let solution = contact.solve(Control::Load(load)).unwrap();
-    let pressure = solution.pressure().unwrap();
-    for x in [-0.4, -0.1, 0.0, 0.27, 0.45] {
-        let exact = (load - m * x) / (PI * (0.25f64 - x * x).sqrt());
-        assert_relative_eq!(pressure.at(x).unwrap(), exact, epsilon = 0.0, max_relative = 1e-9);
-    }
-    assert_eq!(pressure.at(0.5), Err(ContactError::Singular { x: 0.5 }));
-}
-
-#[test]
 fn outside_the_contact_and_outside_the_bodies() {
-    let body = common::parabola(1.0);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(common::parabola(1.0));
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [solution.a(), -solution.b(), 0.21, -0.9, 1.0] {
@@ -328,98 +289,6 @@ fn cost_is_counted() {
 }
 
 #[test]
-fn segments_that_cannot_be_used() {
-    let body = common::parabola(1.0);
-    for (segments, extrapolations) in [(0, 2), (0, 0), (1 << 20, 20), (3, 200), (usize::MAX, 1)] {
-        let rule = rule(segments, extrapolations, EVEN);
-        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
-        let error = contact.solve(Control::Load(0.02)).unwrap_err();
-        assert_eq!(error, ContactError::InvalidSegments { segments, extrapolations });
-    }
-    let one = rule(1, 1, EVEN);
-    let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&one);
-    let solution = contact.solve(Control::Load(0.02)).unwrap();
-    // Fewer than four segments leave nothing to judge the result by.
-    let pressure = solution.pressure().unwrap();
-    assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
-    let estimate = pressure.estimate(0.0, &mut linecontact::Cost::default()).unwrap();
-    assert!(estimate.value.is_finite() && estimate.error.is_infinite());
-}
-
-/// The panels, without what an integrator need not know; and what it is asked wrongly.
-struct Reticent(Box<dyn Integrator<f64>>);
-
-struct ReticentPanels;
-
-impl Quadrature<f64> for ReticentPanels {
-    fn integrator(&self) -> Result<Box<dyn Integrator<f64>>, ContactError<f64>> {
-        Ok(Box::new(Reticent(Panels::FULL.integrator()?)))
-    }
-}
-
-impl Integrator<f64> for Reticent {
-    fn fork(&self) -> Box<dyn Integrator<f64>> {
-        Box::new(Self(self.0.fork()))
-    }
-    fn reset(&mut self, same_bodies: bool) {
-        self.0.reset(same_bodies);
-    }
-    fn sample_over(
-        &mut self,
-        gap: &Gap<f64>,
-        on: Interval<f64>,
-        rough: bool,
-    ) -> Asked<Option<f64>> {
-        self.0.sample_over(gap, on, rough)
-    }
-    fn moments(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<Moments<f64>> {
-        let range = gap.range();
-        for x in [range[0] - 1.0, range[1] + 0.5, f64::NAN] {
-            let beyond = Sampler::default().slope(gap, x).unwrap_err();
-            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
-            let beyond = self.0.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
-            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
-        }
-        // An integrator that was not prepared knows nothing.
-        let load_case = LoadCase { kappa: 1.0, load: 1.0, free: [true; 2] };
-        let unprepared = Midpoint::DEFAULT.integrator()?;
-        let estimate = unprepared.estimate(gap, &load_case, on.centre(), &mut Cost::default())?;
-        assert_eq!(estimate.error, f64::INFINITY);
-        self.0.moments(gap, on)
-    }
-    fn prepare(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<()> {
-        self.0.prepare(gap, on)
-    }
-    fn estimate(
-        &self,
-        gap: &Gap<f64>,
-        load_case: &LoadCase<f64>,
-        x: f64,
-        cost: &mut Cost,
-    ) -> Asked<Estimate<f64>> {
-        self.0.estimate(gap, load_case, x, cost)
-    }
-    fn cost(&self) -> Cost {
-        self.0.cost()
-    }
-}
-
-type Asked<R> = Result<R, ContactError<f64>>;
-
-#[test]
-fn an_integrator_need_not_keep_samples_or_tell_slopes() {
-    // F = L²/2, p₀ = L/π.
-    let body = crate::common::parabola(1.0);
-    let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&ReticentPanels);
-    for l in [0.1, 0.7] {
-        let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
-        assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-14);
-        let peak = solution.pressure().unwrap().at(0.0).unwrap();
-        assert_relative_eq!(peak, l / PI, epsilon = 0.0, max_relative = 1e-14);
-    }
-}
-
-#[test]
 fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
     // Within a sixteenth of a segment the pole is taken with the point; the two formulas are one.
     let body = graph(-1.0, 1.0, |x| {
@@ -440,5 +309,55 @@ fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
             let [below, above] = [at(border - 1e-9), at(border + 1e-9)];
             assert!((above / below - 1.0).abs() < 1e-8, "{i}: {below} {above}");
         }
+    }
+}
+
+#[test]
+fn pressure_next_to_a_jump_of_the_slope() {
+    // The wedge m|x|: P = (2 m/π²) arcosh(L/|x|), infinite at the breakpoint.
+    let m = 0.25;
+    let wedge =
+        join(vec![graph(-1.0, 0.0, move |x| [-m * x, -m]), graph(0.0, 1.0, move |x| [m * x, m])]);
+    let rule = Midpoint::default();
+    let contact = Contact::new(&Flat, &*wedge).unwrap().quadrature(&rule);
+    let solution = contact.solve(Control::Load(2.0 * m * 0.2 / PI)).unwrap();
+    let pressure = solution.pressure().unwrap();
+    for x in [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.05, 0.15] {
+        let exact = 2.0 * m / (PI * PI) * (0.2f64 / x).acosh();
+        for x in [x, -x] {
+            let estimate = pressure.estimate(x, &mut Cost::default()).unwrap();
+            let error = (estimate.value - exact).abs();
+            assert!(error <= estimate.error, "{x:e}: {error:e} {estimate:?}");
+            if let Ok(value) = pressure.at(x) {
+                assert!((value / exact - 1.0).abs() < 0.5, "{x:e}: {value} for {exact}");
+            }
+        }
+    }
+    assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
+}
+
+#[test]
+fn rules_too_coarse_to_know() {
+    let body = parabola(1.0);
+    for (segments, extrapolations) in [(1, 0), (1, 1), (2, 0), (2, 1), (3, 0), (3, 2)] {
+        let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
+        let solution = contact.solve(Control::Load(0.02)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        for z in [-0.9, -0.4, 0.0, 0.01, 0.6, 0.99] {
+            let exact = 0.2 * (1.0f64 - z * z).sqrt() / PI;
+            let estimate = pressure.estimate(0.2 * z, &mut Cost::default()).unwrap();
+            assert!((estimate.value - exact).abs() <= estimate.error + 1e-15, "{rule:?} {z}");
+            assert!(estimate.value.is_finite() && estimate.error.is_infinite(), "{estimate:?}");
+        }
+        // Fewer than four segments leave nothing to judge the result by.
+        assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
+    }
+    // So are the limits that such a rule finds by Eq. (6).
+    let rule = Midpoint::paper(1, 0);
+    let edges = EdgePressure::zero(0.01, 1e-6);
+    let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges).quadrature(&rule);
+    if let Ok(solution) = contact.solve(Control::Load(0.02)) {
+        assert!(solution.limits_error().unwrap() > 0.1, "{solution:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! The four strategies as root finders in their own right.
 #![allow(missing_docs)]
 
+use crate::common::strategies;
 use linecontact::search::{
     Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
 };
@@ -8,15 +9,6 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 const NAMES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
-
-fn all(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
-    [
-        Box::new(Bisection { tolerance }),
-        Box::new(Secant { tolerance }),
-        Box::new(Brent { tolerance }),
-        Box::new(Newton { tolerance }),
-    ]
-}
 
 /// A function with its slope, a bracket, and where its root is.
 struct Case {
@@ -59,7 +51,7 @@ fn run(
 
 #[test]
 fn roots_are_found_to_the_last_digits() {
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         for case in cases() {
             let root = run(&**search, &case, 1.0, 1.0).unwrap();
             let what = format!("{name}, {}: {root:?}", case.name);
@@ -73,7 +65,7 @@ fn roots_are_found_to_the_last_digits() {
 
 #[test]
 fn powers_of_two_change_nothing() {
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         for case in cases() {
             let plain = run(&**search, &case, 1.0, 1.0).unwrap();
             for (x, y) in [(-30, 90), (40, -200), (-200, 3), (0, 700)]
@@ -92,7 +84,7 @@ fn powers_of_two_change_nothing() {
 
 #[test]
 fn evaluations_are_counted_and_none_is_made_twice() {
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         for case in cases() {
             let mut seen = Vec::new();
             let mut f = |x: f64| {
@@ -115,7 +107,7 @@ fn known_ends_and_a_guess_save_evaluations() {
     let wide = Bracket::new(-3.0, 3.0);
     let known = wide.values((-3f64).exp() - 2.0, 3f64.exp() - 2.0);
     let close = known.guess(2f64.ln() + 1e-5);
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         let count = |f: &mut dyn FnMut(f64) -> (f64, f64), bracket| {
             let root = search.find_with_slope(f, bracket).unwrap();
             assert!((root.x / 2f64.ln() - 1.0).abs() < 1e-15, "{name}: {root:?}");
@@ -132,7 +124,7 @@ fn known_ends_and_a_guess_save_evaluations() {
 fn typical_costs() {
     // What the table in the module's doc promises.
     let most = [60, 14, 14, 9];
-    for (i, search) in all(StoppingCriteria::FULL).iter().enumerate() {
+    for (i, search) in strategies(StoppingCriteria::FULL).iter().enumerate() {
         let cost = |case: &Case| run(&**search, case, 1.0, 1.0).unwrap().evaluations;
         let simple: Vec<Case> = cases().into_iter().take(3).filter(|c| c.hi < 10.0).collect();
         assert!(simple.iter().all(|case| cost(case) <= most[i]), "{}", NAMES[i]);
@@ -142,7 +134,7 @@ fn typical_costs() {
 #[test]
 fn multiple_roots_are_slow_but_right() {
     let tolerance = StoppingCriteria::FULL;
-    for (search, name) in all(tolerance).iter().zip(NAMES) {
+    for (search, name) in strategies(tolerance).iter().zip(NAMES) {
         let mut f = |x: f64| ((x - 1.0).powi(9), 9.0 * (x - 1.0).powi(8));
         let root = search.find_with_slope(&mut f, &Bracket::new(-1.0, 4.0)).unwrap();
         assert!((root.x - 1.0).abs() < 2e-14, "{name}: {root:?}");
@@ -155,7 +147,7 @@ fn noise_ends_a_search() {
     let f = |k: f64| 12.0 * k.cos() - 5.0 * k.sin() - 12.0;
     let slope = |k: f64| -12.0 * k.sin() - 5.0 * k.cos();
     for target in [1e-3, -4e-4, 3e-16, -1e-9] {
-        for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+        for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
             let mut g = |k: f64| (f(k) - target, slope(k));
             let bracket = Bracket::new(-0.5, 0.5).guess(-target / 5.0 + 1e-5);
             let root = search.find_with_slope(&mut g, &bracket).unwrap();
@@ -175,17 +167,17 @@ fn tolerances_are_kept() {
         StoppingCriteria::relative(1e-3),
         StoppingCriteria { residual: 1e-3, ..StoppingCriteria::FULL },
     ] {
-        for (search, name) in all(tolerance).iter().zip(NAMES) {
+        for (search, name) in strategies(tolerance).iter().zip(NAMES) {
             let root = search.find_with_slope(&mut f, &bracket).unwrap();
             assert!(error(root) < 1.5e-3, "{name}: {root:?}");
-            let full = all(StoppingCriteria::FULL);
+            let full = strategies(StoppingCriteria::FULL);
             let index = NAMES.iter().position(|n| *n == name).unwrap();
             let most = full[index].find_with_slope(&mut f, &bracket).unwrap();
             assert!(root.evaluations < most.evaluations, "{name}: nothing saved");
         }
     }
     // Below what numbers can resolve, a tolerance is taken for the least that they can.
-    for (search, name) in all(StoppingCriteria::relative(1e-300)).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::relative(1e-300)).iter().zip(NAMES) {
         let root = search.find_with_slope(&mut f, &bracket).unwrap();
         assert!(error(root) < 1e-15, "{name}");
     }
@@ -193,7 +185,7 @@ fn tolerances_are_kept() {
 
 #[test]
 fn an_end_that_is_the_root_is_found_at_once() {
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         for bracket in [Bracket::new(2.0, 5.0), Bracket::new(-1.0, 2.0), Bracket::new(2.0, 2.0)] {
             let root = search.find(&mut |x| x - 2.0, &bracket).unwrap();
             assert_eq!((root.x, root.residual, root.bracket), (2.0, 0.0, [2.0, 2.0]), "{name}");
@@ -205,7 +197,7 @@ fn an_end_that_is_the_root_is_found_at_once() {
 #[test]
 fn what_is_wrong_is_said() {
     let nan = f64::NAN;
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         let same_sign = search.find(&mut |x| x * x + 1.0, &Bracket::new(-1.0, 2.0));
         let expected = SearchError::NoSignChange { lo: -1.0, hi: 2.0, f_lo: 2.0, f_hi: 5.0 };
         assert_eq!(same_sign, Err(expected), "{name}");
@@ -224,7 +216,7 @@ fn what_is_wrong_is_said() {
         assert!(matches!(infinite, Err(SearchError::NotFinite { x: 0.0, .. })), "{name}");
     }
     for (search, name) in
-        all(StoppingCriteria { relative: -1.0, ..StoppingCriteria::FULL }).iter().zip(NAMES)
+        strategies(StoppingCriteria { relative: -1.0, ..StoppingCriteria::FULL }).iter().zip(NAMES)
     {
         let found = search.find(&mut |x| x, &Bracket::new(-1.0, 2.0));
         assert_eq!(found, Err(SearchError::Tolerance { value: -1.0 }), "{name}");
@@ -235,7 +227,7 @@ fn what_is_wrong_is_said() {
 fn a_spent_budget_carries_the_best_point() {
     for budget in [3, 5, 6] {
         let tolerance = StoppingCriteria { max_evaluations: budget, ..StoppingCriteria::FULL };
-        for (search, name) in all(tolerance).iter().zip(NAMES) {
+        for (search, name) in strategies(tolerance).iter().zip(NAMES) {
             let mut count = 0;
             let mut f = |x: f64| {
                 count += 1;
@@ -280,7 +272,7 @@ proptest! {
             let u = x - root;
             (u + bend * u.powi(3), 1.0 + 3.0 * bend * u * u)
         };
-        for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+        for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
             let bracket = Bracket::new(root - left, root + right);
             let found = search.find_with_slope(&mut |x| f(x), &bracket).unwrap();
             prop_assert!((found.x - root).abs() <= 1e-14 * root.abs(), "{}: {:?}", name, found);
@@ -291,7 +283,7 @@ proptest! {
     /// Whatever the function returns, a search ends with a root or an error.
     #[test]
     fn nonsense_ends(values in prop::collection::vec(prop::num::f64::ANY, 1..20)) {
-        for search in all(StoppingCriteria::FULL) {
+        for search in strategies(StoppingCriteria::FULL) {
             let mut i = 0;
             let mut next = |_| { i += 1; values[i % values.len()] };
             let found = search.find(&mut next, &Bracket::new(-1.0, 1.5));
@@ -324,7 +316,7 @@ fn ends_of_any_size_are_no_trap() {
     // The length of the first bracket overflows; the second goes down to the smallest number;
     // in the third the chord says that the root is at the flat end.
     let tiny = f64::MIN_POSITIVE / 4.0;
-    for (search, name) in all(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         let found = search.find(&mut |x| x - 1.0, &Bracket::new(-1.7e308, 1.7e308)).unwrap();
         assert!((found.x - 1.0).abs() < 1e-15, "{name}: {found:?}");
         let mut step = |x: f64| if x < 0.0 { -1.0 } else { 1.0 + x };

@@ -7,7 +7,7 @@
 
 use crate::boundary_elements::{height, solve};
 use crate::common::NanSafe;
-use crate::common::{Counting, Profile, graph, intervals};
+use crate::common::{Counting, Profile, graph, intervals, on_flat};
 
 use approx::assert_relative_eq;
 use linecontact::profile::{
@@ -267,10 +267,9 @@ fn an_overloaded_body_is_an_error() {
 #[test]
 fn an_overloaded_logarithm_is_an_error() {
     let p = 1e-3;
-    let body = graph(0.0, 2.0, move |k: f64| {
+    let contact = on_flat(graph(0.0, 2.0, move |k: f64| {
         [if k == 0.0 { 0.0 } else { k * (k / p).ln() - k }, (k / p).ln()]
-    });
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    }));
     for load in [2.1e-3, 0.01, 0.1, 1.0] {
         assert_too_short("k ln k", &contact, load, 2.0 * p, 0.0, 1e-6);
     }
@@ -442,28 +441,6 @@ fn peaks_of_a_punch_with_a_flat() {
     }
 }
 
-/// 5: nearly all of a circle turns back in X, which both ends show.
-#[test]
-fn a_circle_that_closes() {
-    let circle = |end: f64| {
-        Curve::new([-end, end], |k: f64| {
-            let (sin, cos) = k.sin_cos();
-            CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
-        })
-    };
-    for end in [PI - 2.65e-6, 3.0, 2.0] {
-        let body = circle(end);
-        let error = Contact::new(&Flat, &body).map(|_| ()).unwrap_err();
-        let turns = matches!(
-            error,
-            ContactError::Profile { source: ProfileError::TurnsBack { k, .. }, .. }
-                if (k.abs() - PI / 2.0).abs() < 1e-6
-        );
-        assert!(turns, "±{end}: {error}");
-    }
-    assert!(Contact::new(&Flat, &circle(1.5)).is_ok());
-}
-
 /// 6: X that has saturated far from the contact has no slope there, and needs none.
 #[test]
 fn a_parameter_that_saturates() {
@@ -525,8 +502,7 @@ fn the_flat_of_a_punch_on_a_circle() {
 /// 6: F = L I₁(L) of cosh: a contact of 1.4e-3 on bodies with slopes of e^300.
 #[test]
 fn a_small_contact_on_steep_bodies() {
-    let body = graph(-300.0, 300.0, |x| [(x - 3.7).cosh(), (x - 3.7).sinh()]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-300.0, 300.0, |x| [(x - 3.7).cosh(), (x - 3.7).sinh()]));
     let half_width = 1.4e-3;
     let load = half_width * half_width / 2.0 * (1.0 + half_width * half_width / 8.0);
     let solution = contact.solve(Control::Load(load)).unwrap();
@@ -536,106 +512,34 @@ fn a_small_contact_on_steep_bodies() {
     assert_relative_eq!(on.half_width(), half_width, epsilon = 0.0, max_relative = 3e-12);
 }
 
-/// What a new user ran into with corners, tilt and solvers.
-mod second_hour {
-    use crate::common::graph;
-    use linecontact::{Contact, ContactError, Control, Edge, Flat, Solver};
-
-    #[test]
-    fn corners_on_both_sides_that_pull_are_refused() {
-        let corners = |left: Edge<f64>, right: Edge<f64>| {
-            Contact::new(&Flat, &Flat).unwrap().edges(left, right)
-        };
-        let held = corners(Edge::Fixed(-5.0), Edge::Fixed(5.0));
-        for at in [4.0, -4.0] {
-            let control = Control::CentreOfPressure { load: 1000.0, at };
-            let error = held.solve(control).map(|_| ()).unwrap_err();
-            assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
-            // The punch lifts off until its contact is four times as wide as the way to its corner.
-            let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));
-            let hull = free.solve(control).unwrap().hull();
-            let inner = if at > 0.0 { hull.left } else { -hull.right };
-            assert!((inner - 1.0).abs() < 1e-12, "{hull:?}");
-        }
-        let pressed = held.solve(Control::CentreOfPressure { load: 1000.0, at: 2.0 }).unwrap();
-        assert!(pressed.edge_singularities().into_iter().all(|strength| strength > 0.0));
+#[test]
+fn corners_on_both_sides_that_pull_are_refused() {
+    let corners =
+        |left: Edge<f64>, right: Edge<f64>| Contact::new(&Flat, &Flat).unwrap().edges(left, right);
+    let held = corners(Edge::Fixed(-5.0), Edge::Fixed(5.0));
+    for at in [4.0, -4.0] {
+        let control = Control::CentreOfPressure { load: 1000.0, at };
+        let error = held.solve(control).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
+        // The punch lifts off until its contact is four times as wide as the way to its corner.
+        let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));
+        let hull = free.solve(control).unwrap().hull();
+        let inner = if at > 0.0 { hull.left } else { -hull.right };
+        assert!((inner - 1.0).abs() < 1e-12, "{hull:?}");
     }
+    let pressed = held.solve(Control::CentreOfPressure { load: 1000.0, at: 2.0 }).unwrap();
+    assert!(pressed.edge_singularities().into_iter().all(|strength| strength > 0.0));
+}
 
-    #[test]
-    fn several_tilted_contacts_are_certified() {
-        let body = graph(-2.0, 2.0, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
-        let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
-        for at in [0.1, -0.3] {
-            let solution = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap();
-            assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);
-            solution.certify().unwrap();
-        }
-    }
-
-    #[test]
-    fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
-        let two = |tilt: f64| {
-            graph(-1.2, 1.2, move |x: f64| {
-                [(x * x - 0.25).powi(2) + tilt * x, 4.0 * x * (x * x - 0.25) + tilt]
-            })
-        };
-        let (one, other) = (two(0.05), two(-0.05));
-        let [one, other] = [&one, &other].map(|body| Contact::new(&Flat, &**body).unwrap());
-        let control = Control::HalfWidth(0.005);
-        let mut solver = Solver::new();
-        for contact in [&one, &other, &one] {
-            let cold = contact.solve(control).unwrap().hull();
-            let warm = solver.solve(contact, control).unwrap().hull();
-            assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
-        }
-    }
-
-    /// The slopes are those of each contact, whatever was sampled before.
-    #[test]
-    fn steepness_of_several_contacts() {
-        let body = |scale: f64| {
-            graph(-2.0, 2.0, move |x: f64| {
-                [scale * x * x * (x * x - 2.0), 4.0 * scale * x * (x * x - 1.0)]
-            })
-        };
-        for (scale, steep) in [(0.01, false), (1.0, true)] {
-            let body = body(scale);
-            let contact = Contact::new(&Flat, &*body).unwrap();
-            let solution = contact.solve(Control::Load(0.3 * scale)).unwrap();
-            assert_eq!(solution.intervals().len(), 2);
-            assert_eq!(solution.is_steep(), steep);
-            assert_eq!(
-                solution.steepest_slope().unwrap() > linecontact::STEEPEST_HALF_PLANE,
-                steep
-            );
-        }
-    }
-
-    /// The largest of 20 000 pressures is no more than the peak.
-    #[test]
-    fn the_peak_among_fine_waves() {
-        let q = 400.0;
-        let body = graph(-1.0, 1.0, move |x: f64| {
-            [x * x / 2.0 + 0.15 / q / q * (q * x + 0.3).sin(), x + 0.15 / q * (q * x + 0.3).cos()]
-        });
-        let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Control::Load(0.08)).unwrap();
-        let points = solution.pressure().unwrap().sample(20_000).unwrap();
-        let most = points.iter().map(|point| point[1]).max_by(f64::total_cmp).unwrap();
-        let peak = solution.peak().unwrap().pressure;
-        assert!(peak >= most && peak < most * (1.0 + 1e-6), "{peak} {most}");
-        let again = contact.solve(Control::PeakPressure(peak)).unwrap();
-        assert!((again.load() / 0.08 - 1.0).abs() < 1e-9, "{}", again.load());
-    }
-
-    #[test]
-    fn no_number_of_points_is_too_many() {
-        let body = graph(-1.0, 1.0, |x: f64| [x * x / 2.0, x]);
-        let contact = Contact::new(&Flat, &*body).unwrap();
-        let solution = contact.solve(Control::Load(0.02)).unwrap();
-        let points = solution.pressure().unwrap().sample(usize::MAX).unwrap();
-        assert!(points.len() == 1 << 20 && points.is_sorted_by(|a, b| a[0] <= b[0]));
-        assert_eq!(solution.pressure().unwrap().sample(0).unwrap().len(), 2);
+#[test]
+fn several_tilted_contacts_are_certified() {
+    let contact =
+        on_flat(graph(-2.0, 2.0, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]))
+            .contact_modulus(1.0);
+    for at in [0.1, -0.3] {
+        let solution = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap();
+        assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);
+        solution.certify().unwrap();
     }
 }
 
@@ -787,4 +691,65 @@ fn errors_name_what_was_given() {
     };
     assert!(arc(-90.0, 90.0).contains("degrees") && arc(0.0, 90.0).contains("degrees"));
     assert!(!arc(-3.0, 3.0).contains("degrees"));
+}
+
+#[test]
+fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
+    let two = |tilt: f64| {
+        graph(-1.2, 1.2, move |x: f64| {
+            [(x * x - 0.25).powi(2) + tilt * x, 4.0 * x * (x * x - 0.25) + tilt]
+        })
+    };
+    let (one, other) = (two(0.05), two(-0.05));
+    let [one, other] = [&one, &other].map(|body| Contact::new(&Flat, &**body).unwrap());
+    let control = Control::HalfWidth(0.005);
+    let mut solver = Solver::new();
+    for contact in [&one, &other, &one] {
+        let cold = contact.solve(control).unwrap().hull();
+        let warm = solver.solve(contact, control).unwrap().hull();
+        assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
+    }
+}
+
+/// The slopes are those of each contact, whatever was sampled before.
+#[test]
+fn steepness_of_several_contacts() {
+    let body = |scale: f64| {
+        graph(-2.0, 2.0, move |x: f64| {
+            [scale * x * x * (x * x - 2.0), 4.0 * scale * x * (x * x - 1.0)]
+        })
+    };
+    for (scale, steep) in [(0.01, false), (1.0, true)] {
+        let body = body(scale);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Control::Load(0.3 * scale)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+        assert_eq!(solution.is_steep(), steep);
+        assert_eq!(solution.steepest_slope().unwrap() > linecontact::STEEPEST_HALF_PLANE, steep);
+    }
+}
+
+/// The largest of 20 000 pressures is no more than the peak.
+#[test]
+fn the_peak_among_fine_waves() {
+    let q = 400.0;
+    let contact = on_flat(graph(-1.0, 1.0, move |x: f64| {
+        [x * x / 2.0 + 0.15 / q / q * (q * x + 0.3).sin(), x + 0.15 / q * (q * x + 0.3).cos()]
+    }));
+    let solution = contact.solve(Control::Load(0.08)).unwrap();
+    let points = solution.pressure().unwrap().sample(20_000).unwrap();
+    let most = points.iter().map(|point| point[1]).max_by(f64::total_cmp).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    assert!(peak >= most && peak < most * (1.0 + 1e-6), "{peak} {most}");
+    let again = contact.solve(Control::PeakPressure(peak)).unwrap();
+    assert!((again.load() / 0.08 - 1.0).abs() < 1e-9, "{}", again.load());
+}
+
+#[test]
+fn no_number_of_points_is_too_many() {
+    let contact = on_flat(graph(-1.0, 1.0, |x: f64| [x * x / 2.0, x]));
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
+    let points = solution.pressure().unwrap().sample(usize::MAX).unwrap();
+    assert!(points.len() == 1 << 20 && points.is_sorted_by(|a, b| a[0] <= b[0]));
+    assert_eq!(solution.pressure().unwrap().sample(0).unwrap().len(), 2);
 }

@@ -86,13 +86,20 @@ impl<T: Real> Level<T> {
         Ok(level)
     }
 
-    /// The slopes at the first and the last point.
-    pub fn end_slopes(&self) -> [T; 2] {
+    /// The slopes at the edges, by the line through those at the first and the last point.
+    pub fn edge_slopes(&self) -> [T; 2] {
         let end = |h: Option<&T>, root: Option<&T>| match (h, root) {
             (Some(&h), Some(&root)) => h / root,
             _ => T::zero(),
         };
-        [end(self.h.first(), self.root.first()), end(self.h.last(), self.root.last())]
+        let [first, last] =
+            [end(self.h.first(), self.root.first()), end(self.h.last(), self.root.last())];
+        let between = T::count(self.n) - self.first - self.first;
+        if between <= T::zero() {
+            return [first, last];
+        }
+        let beyond = (last - first) * self.first / between;
+        [first - beyond, last + beyond]
     }
 
     fn place(&self, i: usize) -> T {

@@ -8,7 +8,7 @@ pub(crate) use derivative_check::compare;
 
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, SampleCache, Sampler, Side};
-use crate::numerics::chebyshev::{size_for, value_at};
+use crate::numerics::chebyshev::{MOST, Row, size_for, value_at};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
@@ -56,6 +56,8 @@ pub(crate) struct PanelSet<T> {
     /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
     /// first.
     derivatives: Vec<SampledBody<T>>,
+    /// The slopes of both bodies at the nodes of the last panel.
+    slopes: [Row<T>; 2],
     derivative_sizes: Vec<T>,
     /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
     pub tilt: T,
@@ -74,6 +76,7 @@ impl<T: Real> PanelSet<T> {
             cost: Cost::default(),
             held: [None; 2],
             derivatives: Vec::new(),
+            slopes: [[T::zero(); MOST]; 2],
             derivative_sizes: Vec::new(),
             tilt: T::zero(),
         }

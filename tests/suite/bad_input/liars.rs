@@ -2,7 +2,7 @@
 
 use super::answers::ask_all;
 use super::*;
-use crate::common::NanSafe;
+use crate::common::{NanSafe, Strategy};
 
 #[test]
 fn budgets_of_searches() {
@@ -43,19 +43,6 @@ fn budgets_of_searches() {
     table.finish();
 }
 
-/// A strategy that does not do what it says: it may look somewhere, and then says what it likes.
-struct Liar(fn(&mut dyn FnMut(f64) -> f64, &Bracket<f64>) -> Result<Root<f64>, SearchError<f64>>);
-
-impl LimitSearch<f64> for Liar {
-    fn find(
-        &self,
-        f: &mut dyn FnMut(f64) -> f64,
-        bracket: &Bracket<f64>,
-    ) -> Result<Root<f64>, SearchError<f64>> {
-        self.0(f, bracket)
-    }
-}
-
 fn root(x: f64) -> Result<Root<f64>, SearchError<f64>> {
     Ok(Root { x, residual: 0.0, bracket: [x, x], evaluations: usize::MAX })
 }
@@ -72,28 +59,28 @@ fn strategies_that_lie() {
     let flat = Contact::new(&Flat, &*flat).unwrap();
     let exact = 0.1f64.sqrt();
     let rule = Midpoint::default();
-    let liars: [(&str, Liar); 10] = [
-        ("says nothing was looked at", Liar(|_, b| root(b.lo))),
+    let liars: [(&str, Strategy); 10] = [
+        ("says nothing was looked at", Strategy(|_, b| root(b.lo))),
         (
             "says the other end",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 f(b.hi);
                 root(b.hi)
             }),
         ),
         (
             "the middle as the root",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 let x = b.lo + 0.37 * (b.hi - b.lo);
                 f(x);
                 root(x)
             }),
         ),
-        ("NaN", Liar(|_, _| root(NAN))),
-        ("infinite", Liar(|_, _| root(INF))),
+        ("NaN", Strategy(|_, _| root(NAN))),
+        ("infinite", Strategy(|_, _| root(INF))),
         (
             "beyond",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 let x = b.hi + 7.0 * (b.hi - b.lo);
                 f(x);
                 root(x)
@@ -101,14 +88,14 @@ fn strategies_that_lie() {
         ),
         (
             "looks at NaN",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 f(NAN);
                 root(b.lo)
             }),
         ),
         (
             "looks at infinity",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 f(INF);
                 f(-INF);
                 root(b.lo)
@@ -116,13 +103,16 @@ fn strategies_that_lie() {
         ),
         (
             "looks far away",
-            Liar(|f, b| {
+            Strategy(|f, b| {
                 f(1e300);
                 f(-1e300);
                 root(b.hi)
             }),
         ),
-        ("an error of its own", Liar(|_, b| Err(SearchError::NotFinite { x: b.lo, value: NAN }))),
+        (
+            "an error of its own",
+            Strategy(|_, b| Err(SearchError::NotFinite { x: b.lo, value: NAN })),
+        ),
     ];
     for (name, liar) in &liars {
         for (how, contact, most) in [

@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 
-use common::{Counting, graph, paper, power, scenes};
+use common::{Counting, graph, on_flat, paper, power, scenes};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
     ParametricProfile, Solution, Solver,
@@ -280,8 +280,7 @@ fn a_solver_works_on_after_an_error() {
 
 #[test]
 fn edges_and_controls_may_change_from_call_to_call() {
-    let body = graph(-2.0, 2.0, |x| [x * x / 2.0, x]);
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = on_flat(graph(-2.0, 2.0, |x| [x * x / 2.0, x]));
     let corner = contact.clone().edges(Edge::Fixed(-0.1), Edge::Free);
     let adhesive = contact.clone().edges(Edge::Adhesive(0.01), Edge::Adhesive(0.01));
     let stiffer = contact.clone().kappa(3.0);
@@ -343,5 +342,18 @@ fn the_papers_rule_starts_afresh_with_other_bodies() {
         let middle = [0.0, 0.4][i];
         assert!((solution.a() - 0.2 - middle).abs() < 1e-14, "{solution:?}");
         assert!((solution.b() - 0.2 + middle).abs() < 1e-14, "{solution:?}");
+    }
+}
+
+/// What was tried for the solution before is not in the report of the next.
+#[test]
+fn a_report_is_of_one_solution_only() {
+    let body = graph(-3.0, 3.0, |x| [0.5 * x * x, x]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let mut solver = Solver::new();
+    for load in [0.01, 1.0, 3.0, 0.1] {
+        let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+        assert_eq!(solution.report().trials().len(), 1, "F = {load}");
+        assert!(solution.report().is_checked());
     }
 }

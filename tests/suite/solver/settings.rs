@@ -3,26 +3,18 @@
 
 use crate::common;
 
-use common::join;
+use common::{circle, join};
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Panels,
-    ParametricProfile, Solution, Solver,
+    Contact, ContactError, Control, Flat, Interval, Midpoint, Panels, Solution, Solver,
 };
-
-fn arc(from: f64, to: f64) -> Box<dyn ParametricProfile<f64>> {
-    Box::new(Curve::new([from, to], |k: f64| {
-        let (sin, cos) = k.sin_cos();
-        CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
-    }))
-}
 
 #[test]
 fn loads_up_and_down() {
     let pieces = |n: i32| {
         let end = move |i: i32| 0.6 * f64::from(2 * i - n) / f64::from(n);
-        join((0..n).map(|i| arc(end(i), end(i + 1))).collect())
+        join((0..n).map(|i| circle(end(i), end(i + 1), 1.0)).collect())
     };
-    for body in [arc(-1.5, 1.5), pieces(2), pieces(7), pieces(50)] {
+    for body in [circle(-1.5, 1.5, 1.0), pieces(2), pieces(7), pieces(50)] {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let mut solver = Solver::new();
         for load in [0.03, 0.031, 0.02, 0.04, 0.03, 0.03, 1e-3, 0.05, 0.04, 0.005, 0.03] {
@@ -50,7 +42,7 @@ fn seen(solution: &Solution<f64>) -> (Interval<f64>, [f64; 2], usize) {
 
 #[test]
 fn the_quadrature_is_that_of_each_contact() {
-    let body = arc(-1.5, 1.5);
+    let body = circle(-1.5, 1.5, 1.0);
     let rules = [Midpoint::paper(16, 2), Midpoint::paper(32, 2)];
     let panels = [Panels::FULL, Panels { tolerance: 1e-6 }];
     let contact = Contact::new(&Flat, &*body).unwrap();

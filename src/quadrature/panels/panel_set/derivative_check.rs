@@ -1,7 +1,6 @@
 //! Whether a body's derivatives are those of its heights.
 
 use super::PanelSet;
-use super::sampling::SampledBody;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Table, middle};
 use crate::quadrature::panels::panel::{Panel, within};
@@ -76,21 +75,26 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// Whether the gap rises between the first node, a middle one and the last as much by its heights as by its
-    /// slopes, as far as both are known: a step in the heights shows in no slope. (Waves that both bodies have are in
+    /// slopes, as far as both are known: a step in the heights shows in no slope. `steepest` is the largest sum of the
+    /// slopes of both bodies. (Waves that both bodies have are in
     /// no gap, and their slopes need not be resolved.)
     pub(super) fn check_heights(
         &self,
         panel: &Panel<T>,
-        seen: &SampledBody<T>,
+        steepest: T,
     ) -> Result<(), ContactError<T>> {
+        if self.traces.iter().all(|trace| trace.direct) {
+            return Ok(());
+        }
         let zero = T::zero();
-        let (n, half) = (panel.n, panel.half());
+        let (n, half, table) = (panel.n, panel.half(), Table::of(panel.n));
         let nodes = [0, middle(n), n - 1];
-        let places = nodes.map(|i| panel.x[0] + half * T::of(1.0 + Table::of(n).z[i]));
+        let places = nodes.map(|i| panel.x[0] + half * T::of(1.0 + table.z[i]));
+        let sloped = [0, 1].map(|i| table.rises(&self.slopes[i][..n]).map(|rise| half * rise));
         let (mut by_heights, mut doubt, mut rounded) = ([zero; 2], [zero; 3], zero);
         for (i, trace) in self.traces.iter().enumerate() {
             let sign = if i == 0 { -T::one() } else { T::one() };
-            let mut rises = seen.rises[i];
+            let mut rises = sloped[i];
             if !trace.direct {
                 // A point is near a node; how steep the body is between the two is known from the next point.
                 let points = trace.curve_samples();
@@ -108,10 +112,10 @@ impl<T: Real> PanelSet<T> {
             }
             by_heights = [0, 1].map(|i| by_heights[i] + sign * rises[i]);
         }
-        let share = T::epsilon().cbrt() * seen.bodies + T::of(16.0) * panel.tail;
+        let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.tail;
         for i in 0..2 {
             let [between, doubts] = [places, doubt].map(|all| [all[i], all[i + 1]]);
-            let by_slopes = seen.rises[1][i] - seen.rises[0][i];
+            let by_slopes = sloped[1][i] - sloped[0][i];
             let open = doubts[0] + doubts[1] + share * (between[1] - between[0]);
             compare(between, by_heights[i], by_slopes, rounded, open)?;
         }

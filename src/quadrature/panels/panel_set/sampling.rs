@@ -28,7 +28,7 @@ pub(super) struct SampledBody<T> {
     /// The largest slope of the gap.
     slope: T,
     /// The largest sum of the slopes of the two bodies.
-    pub(super) bodies: T,
+    bodies: T,
     /// What the rounding of x makes of the slope where the bodies bend sharply.
     noise: T,
     /// What the series of the bodies leave open where their points are not at the nodes. What the two
@@ -36,8 +36,6 @@ pub(super) struct SampledBody<T> {
     off: T,
     /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
     missed: T,
-    /// By how much each body rises by its slopes, from the first node to a middle one and from there to the last.
-    pub(super) rises: [[T; 2]; 2],
 }
 
 impl<T: Real> PanelSet<T> {
@@ -53,7 +51,7 @@ impl<T: Real> PanelSet<T> {
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, off, missed, .. } = seen;
+            let SampledBody { slope, bodies, noise, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -102,16 +100,19 @@ impl<T: Real> PanelSet<T> {
                 n = next;
                 continue;
             } else if !split {
-                // Beside a step in the heights any difference is large.
-                if !trial.hides {
-                    self.check_slopes(gap)?;
-                }
                 // The heights tell of what is too narrow for the nodes.
-                let heights = self.check_heights(panel, &seen);
-                (split, trial.hides) = (heights.is_err(), heights.is_err());
-                if level >= LEVELS_OF_A_STEP {
-                    heights?;
+                let heights = self.check_heights(panel, bodies);
+                if heights.is_err() {
+                    // Beside a step in them any difference is large.
+                    if !trial.hides {
+                        self.check_slopes(gap)?;
+                    }
+                    if level >= LEVELS_OF_A_STEP {
+                        heights?;
+                    }
+                    split = true;
                 }
+                trial.hides = split;
             }
             (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
             return Ok(());
@@ -191,7 +192,9 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-        seen.rises = [&lower, &upper].map(|slopes| table.rises(slopes).map(|rise| reach * rise));
+        for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
+            kept[..N].copy_from_slice(slopes);
+        }
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
             seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.coarse));
         }
@@ -219,9 +222,7 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let rises = [[zero; 2]; 2];
-        let mut seen =
-            SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero, rises };
+        let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
         for i in 0..N {
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());

@@ -1,0 +1,69 @@
+//! What both bodies have is in no gap, however they are bent or waved.
+#![allow(missing_docs)]
+
+use crate::common::{NanSafe, graph};
+use approx::assert_relative_eq;
+use linecontact::{Contact, Control, Curve, CurvePoint};
+
+#[test]
+fn a_wave_that_both_bodies_have_is_in_no_gap() {
+    // F = L²/2, however fast the wave.
+    for (height, count) in [(1e-3, 500.0), (1e-2, 3000.0)] {
+        let wave = move |x: f64| {
+            let (sin, cos) = (count * x).sin_cos();
+            [height * cos, -height * count * sin]
+        };
+        let lower = graph(-1.0, 1.0, wave);
+        let upper = graph(-1.0, 1.0, move |x| {
+            let [y, slope] = wave(x);
+            [y + x * x / 2.0, slope + x]
+        });
+        let contact = Contact::new(&*lower, &*upper).unwrap();
+        let solution = contact.solve(Control::Load(0.08)).unwrap();
+        assert!((solution.a() / 0.4 - 1.0).abs() < 1e-9, "{count}: {solution:?}");
+    }
+}
+
+/// A shape that both bodies have is no part of the gap, and where they have parameters of their own it
+/// must still be resolved.
+#[test]
+fn a_shape_common_to_both_bodies() {
+    let solve = |common: f64| {
+        let wave = move |x: f64| [-common / 1.094 * (1.094 * x).cos(), common * (1.094 * x).sin()];
+        let upper = Curve::new([-2.296, 2.27], move |k: f64| {
+            let (x, dx) = (k.sinh(), k.cosh());
+            let rise = 5.05 * (-0.1398 * x).exp() + 2.564 * (x + 0.6673).powi(2) + 0.694 * x;
+            let slope = -0.706 * (-0.1398 * x).exp() + 5.128 * (x + 0.6673) + 0.694;
+            CurvePoint { x, y: rise + wave(x)[0], dx, dy: (slope + wave(x)[1]) * dx }
+        });
+        let lower = Curve::new([-4.9, 4.7], move |x: f64| {
+            let (rise, slope) = (-0.256 * (x + 0.4004).powi(2), -0.512 * (x + 0.4004));
+            CurvePoint { x, y: rise + wave(x)[0], dx: 1.0, dy: slope + wave(x)[1] }
+        });
+        let contact = Contact::new(&lower, &upper).unwrap();
+        let solution = contact.solve(Control::Load(0.4519)).unwrap();
+        (solution.hull(), solution.limits_error().unwrap())
+    };
+    let (plain, _) = solve(0.0);
+    for common in [0.152, 1.0, 30.0] {
+        let (got, error) = solve(common);
+        let off = (got.left - plain.left).abs().nan_max((got.right - plain.right).abs());
+        let off = off / plain.half_width();
+        assert!(off <= error, "{common}: off {off:e}, said {error:e}");
+    }
+}
+
+#[test]
+fn a_wave_that_is_shorter_than_a_difference() {
+    // Both bodies have it, so that the gap is a parabola.
+    let wavy = |bend: f64| {
+        graph(-1.0, 1.0, move |x| {
+            let (sin, cos) = (3e5 * x).sin_cos();
+            [bend * x * x / 2.0 + 1e-5 * cos, bend * x - 3.0 * sin]
+        })
+    };
+    let bodies = [wavy(1.0), wavy(2.0)];
+    let contact = Contact::new(&*bodies[0], &*bodies[1]).unwrap();
+    let solution = contact.solve(Control::Load(0.005)).unwrap();
+    assert_relative_eq!(solution.a(), 0.1, epsilon = 0.0, max_relative = 1e-9);
+}

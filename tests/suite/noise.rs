@@ -1,0 +1,90 @@
+//! What the rounding of formulas leaves: slopes with noise, and heights that are nothing but rounding.
+#![allow(missing_docs)]
+
+use crate::common::{NanSafe, graph, on_flat};
+use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat};
+use std::f64::consts::PI;
+
+/// Between -1 and 1, at random but the same for the same k.
+fn hash(k: f64) -> f64 {
+    let mut bits = k.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    bits = (bits ^ (bits >> 32)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    bits ^= bits >> 32;
+    (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// Solves parabolas whose slope is noisy, at 40 levels a decade: what one of them takes, and how its error
+/// compares with its estimate, is a matter of luck.
+fn check_noise(powers: std::ops::Range<i32>) {
+    let l = 0.4;
+    let levels = powers.clone().flat_map(|power| {
+        (0..40).map(move |part| 10f64.powf(f64::from(power) + f64::from(part) / 40.0))
+    });
+    let (mut count, mut evaluations, mut most, mut beyond) = (0, 0, 0, 0);
+    for noise in levels {
+        let contact = on_flat(graph(-1.0, 1.0, move |x| [x * x / 2.0, x + noise * hash(x)]));
+        let solution = contact.solve(Control::Load(l * l / 2.0)).unwrap();
+        let (on, cost) = (solution.hull(), solution.cost());
+        let error = (on.left + l).abs().nan_max((on.right - l).abs()) / l;
+        let estimate = solution.limits_error().unwrap();
+        assert!(error <= 10.0 * noise / l, "noise {noise:e}: {on:?}");
+        assert!(estimate >= 0.1 * noise / l && estimate <= 100.0 * noise / l, "{estimate:e}");
+        assert!(error <= 2.0 * estimate, "error {error:e}, said to be {estimate:e}");
+        beyond += usize::from(error > estimate);
+        count += 1;
+        evaluations += cost.evaluations;
+        most = most.max(cost.evaluations);
+        let pressure = solution.pressure().unwrap();
+        for i in -9..10 {
+            let x = 0.1 * f64::from(i) * l;
+            let exact = (l * l - x * x).sqrt() / PI;
+            let got = pressure.estimate(x, &mut Cost::default()).unwrap();
+            let error = (got.value - exact).abs();
+            assert!(error <= 20.0 * noise, "noise {noise:e}: P({x}) is off by {error:e}");
+            // Known from a few coefficients only.
+            assert!(error <= 4.0 * got.error, "P({x}): {error:e}, said to be {:e}", got.error);
+        }
+    }
+    println!(
+        "{powers:?}: {evaluations} of {count}, at most {most}; {beyond} beyond their estimate"
+    );
+    assert!(evaluations <= 1200 * count && most <= 10_000, "{evaluations} of {count}, {most}");
+    assert!(50 * beyond <= count, "{beyond} of {count}");
+}
+
+#[test]
+fn a_little_noise_is_seen_reported_and_not_followed() {
+    check_noise(-13..-8);
+}
+
+#[test]
+fn much_noise_is_seen_reported_and_not_followed() {
+    check_noise(-8..-3);
+}
+
+/// The circle of radius 1 under F = L²/2, where its height `1 - cos k` keeps few digits or none;
+/// the slope, which counts, keeps all.
+fn touch_lightly<T: linecontact::Real>(half_widths: &[f64], tolerance: f64) {
+    let circle = Curve::new([-T::one(), T::one()], |k: T| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: sin, y: T::one() - cos, dx: cos, dy: sin }
+    });
+    let contact = Contact::new(&Flat, &circle).unwrap();
+    for &half_width in half_widths {
+        let l = T::of(half_width);
+        let solution = contact.solve(Control::Load(l * l * T::of(0.5)));
+        let solution = solution.unwrap_or_else(|error| panic!("L = {half_width:e}: {error}"));
+        // F = L²/2 (1 + 3 L²/8 + ...).
+        let close = T::of(tolerance + half_width * half_width);
+        for limit in [solution.a(), solution.b()] {
+            assert!((limit / l - T::one()).abs() <= close, "{limit} is not {half_width:e}");
+        }
+    }
+}
+
+#[test]
+fn a_circle_whose_height_has_few_digits_or_none() {
+    touch_lightly::<f64>(&[1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12], 1e-14);
+    let single = [1e-1, 1e-2, 2e-3, 1e-3, 7.5e-4, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6];
+    touch_lightly::<f32>(&single, 1e-5);
+}

@@ -1,0 +1,79 @@
+//! Searches of a user's own that do not do their work: what they leave shows.
+#![allow(missing_docs)]
+
+use crate::common::{Strategy, graph, on_flat};
+use linecontact::quadrature::Quadrature;
+use linecontact::search::{Brent, SearchError, StoppingCriteria};
+use linecontact::{
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Panels,
+};
+
+#[test]
+fn a_sloppy_search_for_the_limits_shows() {
+    let contact = on_flat(graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]));
+    let exact = contact.solve(Control::Load(0.03)).unwrap().a();
+    for relative in [0.1, 1e-2, 1e-4, 1e-8] {
+        let sloppy = Brent { tolerance: StoppingCriteria::relative(relative) };
+        let contact = contact.clone().limit_search(&sloppy);
+        let solution = contact.solve(Control::Load(0.03)).unwrap();
+        let error = (solution.a() - exact).abs() / solution.hull().half_width();
+        assert!(error <= 2.0 * solution.limits_error().unwrap(), "{relative}: {error:e}");
+    }
+}
+
+#[test]
+fn a_sloppy_inversion_shows() {
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
+        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+    });
+    let rule = Midpoint::default();
+    let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule);
+    let chord = Strategy(|f, b| {
+        let [f_lo, f_hi] = b.values.unwrap();
+        Strategy::take(b.lo - f_lo * (b.hi - b.lo) / (f_hi - f_lo), f, b)
+    });
+    let sloppy = contact.clone().inversion(&chord);
+    let solution = sloppy.solve(Control::Load(0.02)).unwrap();
+    let error = (solution.a() / 0.2 - 1.0).abs();
+    assert!(error > 0.05 && error <= 2.0 * solution.limits_error().unwrap(), "{error}");
+
+    for astray in [
+        Strategy(|f, b| Strategy::take(5.0 * b.hi, f, b)),
+        Strategy(|f, b| Strategy::take(f64::NAN, f, b)),
+    ] {
+        let contact = contact.clone().inversion(&astray);
+        let error = contact.solve(Control::Load(0.02)).unwrap_err();
+        assert!(
+            matches!(
+                error,
+                ContactError::Inversion { source: SearchError::LeftBracket { .. }, .. }
+            ),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn an_inversion_that_stops_where_it_begins_is_an_error() {
+    // The parabola by sinh 40 k: a few steps of Newton's do not invert it.
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let scale = 40f64.sinh();
+        let (x, dx) = ((40.0 * k).sinh() / scale, 40.0 * (40.0 * k).cosh() / scale);
+        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+    });
+    let idle = Strategy(|f, b| Strategy::take(b.lo, f, b));
+    let midpoint = Midpoint::DEFAULT;
+    let quadratures: [&dyn Quadrature<f64>; 2] = [&Panels::FULL, &midpoint];
+    for quadrature in quadratures {
+        let contact = Contact::new(&Flat, &body).unwrap().inversion(&idle).quadrature(quadrature);
+        let contact = contact.start(Interval { left: -0.9, right: 0.9 });
+        let error = contact.solve(Control::Load(0.3)).map(|_| ()).unwrap_err();
+        let ContactError::Inversion { body: Body::Upper, x, source } = error else {
+            panic!("{error}")
+        };
+        let SearchError::NotConverged { x: k, residual } = source else { panic!("{source}") };
+        let there = (40.0 * k).sinh() / 40f64.sinh();
+        assert!((there - x - residual).abs() < 1e-12 && residual.abs() > 1e-3, "{source}");
+    }
+}
