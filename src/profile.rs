@@ -321,8 +321,9 @@ pub enum ProfileError<T: Real> {
     },
     /// `X` does not rise, or fall, all the way.
     #[error(
-        "X turns back at k = {k:?} (x = {x:?}): end the domain there, or make a piece of each side{}",
-        in_degrees(*domain)
+        "X turns back at k = {k:?} (x = {x:?}) in the domain from {:?} to {:?}: end the domain there, or make a \
+         piece of each side{}",
+        domain[0], domain[1], in_degrees(*domain)
     )]
     TurnsBack {
         /// Parameter of the turning point, as near as it was found.

@@ -695,11 +695,10 @@ fn a_kink_between_two_cells_is_no_doubt_of_the_limits() {
     assert_eq!(found, 300);
 }
 
-/// A narrow step of the body, up or down, between two nodes of the solver: its slope has one sign only.
+/// A narrow step of the body, up or down, between two nodes of the solver: the heights tell of it, and it is resolved.
 #[test]
-fn a_step_that_the_panels_have_missed_is_not_certified() {
+fn a_step_between_two_nodes_is_resolved() {
     for sign in [1.0, -1.0] {
-        let mut missed = 0;
         for i in 0..50 {
             let (at, wide) = (0.19 * (f64::from(i) + 0.5) / 50.0, 0.006);
             // The slope rises by h cos⁴, and so the height by h (3 t/8 + sin(2t)/4 + sin(4t)/32).
@@ -711,15 +710,9 @@ fn a_step_that_the_panels_have_missed_is_not_certified() {
                 [x * x / 2.0 + high * rise / turn, x + high * t.cos().powi(4)]
             });
             let contact = Contact::new(&Flat, &*body).unwrap();
-            let Ok(solution) = contact.solve(Control::Load(0.02)) else { continue };
-            if (solution.a() - 0.2).abs() > 1e-12 {
-                continue;
-            }
-            let error = solution.certify().unwrap_err();
-            let ContactError::FeatureMissed { x, .. } = error else { panic!("{at}: {error}") };
-            assert!((x - at).abs() < wide / 2.0, "{x} {at}");
-            missed += 1;
+            let solution = contact.solve(Control::Load(0.02)).unwrap();
+            let certified = solution.certify();
+            assert!(certified.is_ok(), "{sign} {at}: {:?}", certified.err());
         }
-        assert!(missed > 5, "{missed}");
     }
 }

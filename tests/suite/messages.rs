@@ -186,7 +186,7 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
         (ProfileError::Domain { from: 2.5, to: 1.5 }, "from 2.5 to 1.5"),
         (not_finite, "X' is NaN at k = 1.5"),
         (ProfileError::Derivative { quantity, k: 1.5, given: 2.5, difference: 3.5 }, "X' is 2.5"),
-        (ProfileError::TurnsBack { k: 1.5, x: 2.5, domain: [0.0, 2.0] }, "X turns back at k = 1.5"),
+        (ProfileError::TurnsBack { k: 1.5, x: 2.5, domain: [3.5, 4.5] }, "X turns back at k = 1.5"),
         (ProfileError::Pieces { count: 13, index: 12 }, "13"),
     ] {
         assert_says(&error, &[words]);
