@@ -20,6 +20,7 @@ mod topology;
 pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
 
+use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::panels;
@@ -65,10 +66,7 @@ pub(crate) use topology::Workspace;
 pub struct Contact<'b, T: Real> {
     gap: Gap<'b, T>,
     kappa: T,
-    /// Whether nobody has set κ.
-    kappa_is_default: bool,
-    /// What they are made of, where κ follows from that.
-    materials: Option<([Material<T>; 2], PlaneState)>,
+    stiffness: Stiffness<T>,
     edges: [Edge<T>; 2],
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
@@ -76,6 +74,17 @@ pub struct Contact<'b, T: Real> {
     quadrature: &'b dyn Quadrature<T>,
     certified: bool,
     single_interval: bool,
+}
+
+/// Where κ is from.
+#[derive(Clone, Copy)]
+enum Stiffness<T> {
+    Default,
+    Kappa,
+    /// E* as given.
+    Modulus(T),
+    /// What the bodies are made of, as given.
+    Materials([Material<T>; 2], PlaneState),
 }
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
@@ -229,8 +238,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(Self {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
-            kappa_is_default: true,
-            materials: None,
+            stiffness: Stiffness::Default,
             edges: [Edge::Free; 2],
             edge_pressure: None,
             start: None,
@@ -245,14 +253,15 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Eq. (3).
     #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
-        Self { kappa, kappa_is_default: false, materials: None, ..self }
+        Self { kappa, stiffness: Stiffness::Kappa, ..self }
     }
 
     /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
     /// (1 - ν₂²)/E₂`: κ = π E*/2 (Johnson, *Contact Mechanics*, 1985, §4.2).
     #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
-        self.kappa(T::frac_pi_2() * modulus)
+        let (kappa, stiffness) = (T::frac_pi_2() * modulus, Stiffness::Modulus(modulus));
+        Self { kappa, stiffness, ..self }
     }
 
     /// The scale by what body 1 and body 2 are made of. Besides E*, which follows, the
@@ -277,7 +286,7 @@ impl<'b, T: Real> Contact<'b, T> {
         // What is wrong with them is said by the solve.
         let modulus = Elasticity::of_bodies(materials, state).map(|(_, modulus)| modulus);
         let this = self.contact_modulus(modulus.unwrap_or(T::one()));
-        Self { materials: Some((materials, state)), ..this }
+        Self { stiffness: Stiffness::Materials(materials, state), ..this }
     }
 
     /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
@@ -364,7 +373,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`Solution::pressure`].
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidLimits`],
+    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
     /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
     /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
     /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for what was set;
@@ -473,8 +482,12 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// The elasticity of both bodies, where it is known.
     fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
-        let bodies = |(materials, state)| Ok(Elasticity::of_bodies(materials, state)?.0);
-        self.materials.map(bodies).transpose()
+        match self.stiffness {
+            Stiffness::Materials(materials, state) => {
+                Ok(Some(Elasticity::of_bodies(materials, state)?.0))
+            }
+            _ => Ok(None),
+        }
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {
@@ -493,7 +506,8 @@ impl<'b, T: Real> Contact<'b, T> {
         control: Control<T>,
     ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
         let found = self.find_by(integrator, workspace, control);
-        found.map_err(|error| error.with_stiffness(self.kappa_is_default))
+        let is_default = matches!(self.stiffness, Stiffness::Default);
+        found.map_err(|error| error.with_stiffness(is_default))
     }
 
     fn find_by(
@@ -504,7 +518,10 @@ impl<'b, T: Real> Contact<'b, T> {
     ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
         let (kappa, bodies) = (self.kappa, self.elasticity()?);
         if !(kappa.is_finite() && kappa > T::zero()) {
-            return Err(ContactError::InvalidKappa { kappa });
+            return Err(match self.stiffness {
+                Stiffness::Modulus(modulus) => ContactError::InvalidModulus { modulus },
+                _ => ContactError::InvalidKappa { kappa },
+            });
         }
         if let Some(start) = self.start {
             check(start)?;
@@ -525,17 +542,13 @@ impl<'b, T: Real> Contact<'b, T> {
                 topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
             }
             (Control::HalfWidth(half_width), _) => {
-                if !(half_width.is_finite() && half_width > T::zero()) {
-                    return Err(ContactError::InvalidLoad { load: half_width });
-                }
+                check_positive("half-width", half_width)?;
                 let given = Given::HalfWidth(half_width);
                 let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
                 topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
             }
             (Control::PeakPressure(pressure), _) => {
-                if !(pressure.is_finite() && pressure > T::zero()) {
-                    return Err(ContactError::InvalidLoad { load: pressure });
-                }
+                check_positive("peak pressure", pressure)?;
                 topology::find(self, Sought::Peak(pressure), integrator, workspace, &mut cost)?
             }
             (Control::Approach { approach, references }, _) => {
@@ -582,9 +595,7 @@ impl<'b, T: Real> Contact<'b, T> {
     ) -> Result<ContactState<T>, ContactError<T>> {
         let kappa = self.kappa;
         wanted.check()?;
-        if !(load.is_finite() && load > T::zero()) {
-            return Err(ContactError::InvalidLoad { load });
-        }
+        check_positive("load", load)?;
         let equations = Equations::Pressure { kappa, load, wanted };
         let nested = nested::find(self, equations, integrator, self.start, cost)?;
         let m = integrator.moments(&self.gap, nested.on)?;
@@ -598,8 +609,10 @@ impl<'b, T: Real> Contact<'b, T> {
         let edges = self.checked_edges()?;
         let sought = edges.iter().any(|edge| edge.is_free());
         let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
-        if !load.is_finite() || (sought && !adhesive && load <= T::zero()) {
-            return Err(ContactError::InvalidLoad { load });
+        if sought && !adhesive {
+            check_positive("load", load)?;
+        } else if !load.is_finite() {
+            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
@@ -634,6 +647,15 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The strategy of the nested search.
     fn strategy(&self) -> &dyn LimitSearch<T> {
         self.search.unwrap_or(&Brent::DEFAULT)
+    }
+}
+
+/// Whether a number can be asked for where limits are sought.
+fn check_positive<T: Real>(quantity: &'static str, value: T) -> Result<(), ContactError<T>> {
+    if value.is_finite() && value > T::zero() && !is_subnormal(value) {
+        Ok(())
+    } else {
+        Err(ContactError::InvalidLoad { quantity, value })
     }
 }
 

@@ -86,21 +86,29 @@ pub enum ContactError<T: Real> {
         /// What the search says, in terms of `k`.
         source: SearchError<T>,
     },
-    /// The load, half-width or peak pressure asked for is not finite; or it is not positive, which a
-    /// load needs to be only where limits are sought without adhesion.
+    /// The load, half-width, peak pressure or approach asked for is not finite; or it is not positive, which a
+    /// load needs to be only where limits are sought without adhesion; or so small that it has lost digits.
     #[error(
-        "the load (or half-width, or peak pressure) is {load:?}: it must be finite, and positive where \
-         limits are sought"
+        "the {quantity} is {value:?}: it must be finite, and positive where limits are sought{}",
+        lost_digits(*value)
     )]
     InvalidLoad {
-        /// Load per unit length.
-        load: T,
+        /// What was asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        quantity: &'static str,
+        /// Its value.
+        value: T,
     },
-    /// The contact modulus, or κ, is not a positive finite number.
+    /// κ is not a positive finite number.
     #[error("κ = {kappa:?}: the scale must be positive and finite (κ = π E*/2)")]
     InvalidKappa {
-        /// κ as given, or π/2 times the modulus as given.
+        /// κ as given.
         kappa: T,
+    },
+    /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
+    #[error("E* = {modulus:?}: the contact modulus must be positive, and π E*/2 finite")]
+    InvalidModulus {
+        /// E* as given.
+        modulus: T,
     },
     /// Given or starting limits are not in order, or a half-width is lost in the rounding of `x`.
     #[error("the interval from -b = {:?} to a = {:?} is empty, reversed, not finite, or \
@@ -266,16 +274,15 @@ pub enum ContactError<T: Real> {
         /// Where.
         x: T,
     },
-    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other.
-    /// Seen where the bodies touch in several places; [`check_derivatives`](crate::check_derivatives)
-    /// tells which body it is.
+    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other: a step in
+    /// Y, or a wrong derivative, of which [`check_derivatives`](crate::check_derivatives) tells which body it is.
     #[error(
         "from x = {:?} to {:?} the gap rises by {by_heights:?} by the heights Y of the bodies, but by \
-         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y'",
+         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y",
         between[0], between[1]
     )]
     InconsistentHeights {
-        /// Two places in one contact.
+        /// Two places.
         between: [T; 2],
         /// `Y₂ - Y₁` at the second, less that at the first.
         by_heights: T,
@@ -516,12 +523,6 @@ pub enum ContactError<T: Real> {
         /// As given.
         length: T,
     },
-    /// The approach asked for is not a positive finite number.
-    #[error("the approach is {approach:?}: it must be positive and finite")]
-    InvalidApproach {
-        /// As given.
-        approach: T,
-    },
     /// No contact that stays on the bodies has this approach.
     #[error(
         "an approach of {wanted:?} is more than the bodies bear: they carry {load:?}, with an approach of \
@@ -679,6 +680,19 @@ pub enum ContactError<T: Real> {
     },
 }
 
+/// Whether a number is so small that it has fewer digits than others.
+pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
+    value.is_finite() && !value.is_zero() && !(T::one() / value).is_finite()
+}
+
+fn lost_digits<T: Real>(value: T) -> &'static str {
+    if is_subnormal(value) {
+        "; of so small a number digits are lost: choose units in which it is nearer to 1"
+    } else {
+        ""
+    }
+}
+
 /// What may be missing where a contact turns out too wide.
 fn hint(kappa_is_default: bool) -> &'static str {
     if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
@@ -722,6 +736,7 @@ impl<T: Real> ContactError<T> {
             | Self::NoCommonRange { .. }
             | Self::InvalidLoad { .. }
             | Self::InvalidKappa { .. }
+            | Self::InvalidModulus { .. }
             | Self::InvalidLimits { .. }
             | Self::InvalidEdgePressure { .. }
             | Self::InvalidSegments { .. }
@@ -738,7 +753,6 @@ impl<T: Real> ContactError<T> {
             | Self::BothRigid
             | Self::NoMaterials
             | Self::InvalidReference { .. }
-            | Self::InvalidApproach { .. }
             | Self::InconsistentHeights { .. }
             | Self::BothLimitsGiven { .. }
             | Self::TiltNotSupported { .. }

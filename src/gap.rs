@@ -162,7 +162,8 @@ pub struct Cost {
     /// Evaluations of the users' curves while solving: points asked for, one by one with
     /// [`ParametricProfile::at`] or in a batch with [`ParametricProfile::at_many`].
     pub evaluations: usize,
-    /// Evaluations of the users' curves for the heights of both bodies, besides those.
+    /// Besides those, evaluations of the users' curves for what is asked of the bodies as a whole: for their
+    /// heights, with what it takes to invert `X(k) = x` there, and to check what another quadrature has found.
     pub heights: usize,
 }
 

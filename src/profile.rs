@@ -321,13 +321,17 @@ pub enum ProfileError<T: Real> {
     },
     /// `X` does not rise, or fall, all the way.
     #[error(
-        "X turns back at k = {k:?} (x = {x:?}): end the domain there, or make a piece of each side"
+        "X turns back at k = {k:?} (x = {x:?}) in the domain from {:?} to {:?}: end the domain there, or make a \
+         piece of each side{}",
+        domain[0], domain[1], in_degrees(*domain)
     )]
     TurnsBack {
         /// Parameter of the turning point, as near as it was found.
         k: T,
         /// `X` there.
         x: T,
+        /// The range of `k` of the curve.
+        domain: [T; 2],
     },
     /// A compound profile does not have the pieces that it says it has.
     #[error(
@@ -341,4 +345,11 @@ pub enum ProfileError<T: Real> {
         /// A piece at fault.
         index: usize,
     },
+}
+
+/// What to ask of a parameter whose range may be an angle of so many degrees.
+fn in_degrees<T: Real>([from, to]: [T; 2]) -> &'static str {
+    let length = (to - from).abs();
+    let is_angle = [90.0, 180.0, 360.0].into_iter().any(|degrees| length == T::of(degrees));
+    if is_angle { " (is the parameter in degrees? sin and cos take radians)" } else { "" }
 }

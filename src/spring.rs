@@ -94,7 +94,7 @@ impl<T: Real> SpringTable<T> {
         let [least, largest] = loads;
         if !(least > T::zero() && least < largest && largest.is_finite()) {
             let load = if least > T::zero() { largest } else { least };
-            return Err(ContactError::InvalidLoad { load });
+            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         if !(tolerance > T::zero() && tolerance < T::one()) {
             return Err(ContactError::InvalidTolerance { tolerance });
@@ -166,7 +166,7 @@ fn node<T: Real>(
 ) -> Result<Node<T>, ContactError<T>> {
     let [approach, rate] = solution.approach_with_rate(references)?;
     let load = solution.load();
-    if !(rate > T::zero()) {
+    if !(rate > T::zero() && rate.is_finite()) {
         return Err(ContactError::ApproachFalls { load, rate });
     }
     let rates = solution.load_rates()?;

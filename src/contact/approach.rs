@@ -10,8 +10,9 @@ use crate::gap::Cost;
 use crate::material::Elasticity;
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, complete};
+use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, References, Report, Solved};
-use crate::{ContactError, Real};
+use crate::{ContactError, Interval, Real};
 
 /// Loads tried before the approach is given up.
 const MOST_LOADS: usize = 100;
@@ -41,9 +42,7 @@ pub(super) fn find<T: Real>(
     if bodies.is_none() {
         return Err(ContactError::NoMaterials);
     }
-    if !(wanted.is_finite() && wanted > T::zero()) {
-        return Err(ContactError::InvalidApproach { approach: wanted });
-    }
+    super::check_positive("approach", wanted)?;
     let mut at = |load: T| {
         workspace.report = Report::new();
         let sought = Contacts::By(contact.under(load)?);
@@ -67,12 +66,15 @@ pub(super) fn find<T: Real>(
     // Steps that are still to be made without a look at them, once the next squares what is left.
     let mut last_steps = None;
     let mut last_error = None;
+    let [left, right] = contact.ends();
+    let mut best = (Interval { left, right }, wanted);
     for _ in 0..MOST_LOADS {
         match at(load) {
             Ok((found, approach, rate)) => {
                 if !(rate > T::zero() && rate.is_finite()) {
                     return Err(ContactError::ApproachFalls { load, rate });
                 }
+                best = (found.interval, wanted - approach);
                 let step = (wanted - approach) / rate.component(0);
                 let size = step.abs() / load;
                 last_steps = match last_steps {
@@ -126,7 +128,11 @@ pub(super) fn find<T: Real>(
             ContactError::ApproachTooLarge { wanted, approach, load }
         }
         (_, Some(error)) => error,
-        _ => ContactError::InvalidApproach { approach: wanted },
+        _ => {
+            let (best, residual) = best;
+            let source = SearchError::NotConverged { x: load, residual };
+            ContactError::LimitSearch { best, source }
+        }
     })
 }
 

@@ -39,9 +39,7 @@ impl<T: Real> LineOfLoad<T> {
     }
 
     pub fn through(load: T, at: T) -> Result<Self, ContactError<T>> {
-        if !(load.is_finite() && load > T::zero()) {
-            return Err(ContactError::InvalidLoad { load });
-        }
+        super::check_positive("load", load)?;
         if !at.is_finite() {
             return Err(ContactError::InvalidMoment { value: at });
         }

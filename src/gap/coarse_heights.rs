@@ -465,8 +465,7 @@ impl<T: Real> Samples<'_, T> {
                 };
                 let j = (0..self.scratch.k.len() - 1).find(turns).unwrap_or(i.saturating_sub(1));
                 let [k, next] = [self.scratch.k[j], self.scratch.k[j + 1]];
-                let (k, x) = first_turn(piece.curve, piece.k, [k, next]);
-                return Err(ProfileError::TurnsBack { k, x });
+                return Err(first_turn(piece.curve, piece.k, [k, next]));
             }
             if !y.is_finite() {
                 if x > self.range[0] && x < self.range[1] {
@@ -478,6 +477,25 @@ impl<T: Real> Samples<'_, T> {
             if i == 0 || x > reached {
                 self.rows.push(BodyRow { x, y, slope: dy / dx });
                 reached = x;
+            }
+        }
+        self.check_slopes(piece)
+    }
+
+    /// Whether the slopes that a curve gives by x, if it does, are those of its points. (At its ends they may be
+    /// infinite.)
+    fn check_slopes(&self, piece: &Piece<'_, T>) -> Result<(), ProfileError<T>> {
+        let Scratch { k, points, .. } = &*self.scratch;
+        let slope = |i: usize| points[i].dy / points[i].dx;
+        for (i, at) in points.iter().enumerate().take(points.len() - 1).skip(1) {
+            let Some(given) = piece.curve.slope_at(at.x) else { return Ok(()) };
+            let difference = slope(i);
+            let changes = (slope(i + 1) - slope(i - 1)).abs();
+            let allowed =
+                T::epsilon().cbrt() * (given.abs() + difference.abs()) + T::of(1e-3) * changes;
+            if (given - difference).abs() > allowed {
+                let quantity = "slope_at(x)";
+                return Err(ProfileError::Derivative { quantity, k: k[i], given, difference });
             }
         }
         Ok(())

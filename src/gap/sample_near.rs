@@ -347,7 +347,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         } else if !slope.is_finite() {
             not_finite(self.body, "the slope Y'/X'", k, slope)
         } else {
-            let source = ProfileError::TurnsBack { k, x };
+            let source = ProfileError::TurnsBack { k, x, domain: self.piece.k };
             ContactError::Profile { body: self.body, source }
         }
     }
@@ -358,8 +358,8 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
     let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
         return error;
     };
-    let (k, x) = first_turn(piece.curve, piece.k, [piece.k[0], k]);
-    ContactError::Profile { body, source: ProfileError::TurnsBack { k, x } }
+    let source = first_turn(piece.curve, piece.k, [piece.k[0], k]);
+    ContactError::Profile { body, source }
 }
 
 fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {

@@ -19,6 +19,8 @@ pub struct Sampler<T: Real> {
     pub cost: Cost,
     /// The largest `|X(k) - x|` that the inversions have left.
     pub(crate) missed: T,
+    /// The largest |Y| of either body among the heights taken.
+    pub(crate) highest: T,
 }
 
 /// The last point of a curve, from which the next inversion starts.
@@ -31,7 +33,7 @@ struct Near<T> {
 
 impl<T: Real> Default for Sampler<T> {
     fn default() -> Self {
-        Self { near: [None; 2], cost: Cost::default(), missed: T::zero() }
+        Self { near: [None; 2], cost: Cost::default(), missed: T::zero(), highest: T::zero() }
     }
 }
 
@@ -99,7 +101,9 @@ impl<T: Real> Sampler<T> {
                 return Err(ContactError::Profile { body, source });
             }
         }
-        Ok(heights[1] - heights[0])
+        let [lower, upper] = heights;
+        self.highest = self.highest.max(lower.abs()).max(upper.abs());
+        Ok(upper - lower)
     }
 
     /// The slope of one of the bodies.
@@ -188,7 +192,7 @@ impl<T: Real> Sampler<T> {
             }
         }
         if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
-            let source = ProfileError::TurnsBack { k, x: point.x };
+            let source = ProfileError::TurnsBack { k, x: point.x, domain: piece.k };
             return Err(ContactError::Profile { body, source });
         }
         let missed = found.point.x - x;

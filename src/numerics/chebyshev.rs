@@ -50,10 +50,18 @@ pub(crate) struct Table {
     transform: [[f64; MOST]; MOST],
     /// The share of the value at node j in that at the right end.
     at_end: [f64; MOST],
+    /// The share of the value at node j in the integrals from the first node to a [middle](middle) one, and from
+    /// there to the last.
+    in_rises: [[f64; MOST]; 2],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
 static COARSE: LazyLock<Table> = LazyLock::new(Table::with_ends);
+
+/// The number of the middle one of so many nodes, or of that on its right.
+pub(crate) fn middle(n: usize) -> usize {
+    n / 2
+}
 
 impl Table {
     fn empty() -> Self {
@@ -63,6 +71,7 @@ impl Table {
             spacing: [0.0; MOST],
             transform: [[0.0; MOST]; MOST],
             at_end: [0.0; MOST],
+            in_rises: [[0.0; MOST]; 2],
         }
     }
 
@@ -78,6 +87,20 @@ impl Table {
                 table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
+        }
+        // 2 ∫ T_k dz = cos((k+1) θ)/(k+1) - cos((k-1) θ)/(k-1), with z = cos θ at node n - 1 - j for θ = (2j + 1) π/2n.
+        let cosine = |k: usize, j: usize| angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
+        let primitive = |k: usize, j: usize| match k {
+            0 => cosine(1, j),
+            1 => 0.25 * cosine(2, j),
+            k => 0.5 * (cosine(k + 1, j) / (k + 1) as f64 - cosine(k - 1, j) / (k - 1) as f64),
+        };
+        for (half, [from, to]) in [[0, middle(n)], [middle(n), n - 1]].into_iter().enumerate() {
+            for j in 0..n {
+                let term =
+                    |k: usize| table.transform[j][k] * (primitive(k, to) - primitive(k, from));
+                table.in_rises[half][j] = (0..n).map(term).sum();
+            }
         }
         table.set_spacing(n);
         table
@@ -140,6 +163,18 @@ impl Table {
             right = fma(values[j], T::of(self.at_end[j]), right);
         }
         [left, right]
+    }
+
+    /// The integrals of the polynomial with these values at the nodes, from the first node to a [middle](middle)
+    /// one, and from there to the last.
+    pub fn rises<T: Real>(&self, values: &[T]) -> [T; 2] {
+        let [mut first, mut second] = [T::zero(); 2];
+        for ((&value, &one), &other) in values.iter().zip(&self.in_rises[0]).zip(&self.in_rises[1])
+        {
+            first = fma(value, T::of(one), first);
+            second = fma(value, T::of(other), second);
+        }
+        [first, second]
     }
 
     /// The larger of the last two coefficients, after that of the two before.

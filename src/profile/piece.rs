@@ -96,16 +96,15 @@ impl<'a, T: Real> Piece<'a, T> {
         let slope = (ends[1].x - ends[0].x) / (k[1] - k[0]);
         let back = |end: &CurvePoint<T>| end.dx / slope < -T::epsilon().sqrt();
         if ends.iter().all(back) {
-            let (k, x) = first_turn(curve, k, [k[0]; 2]);
-            return Err(ProfileError::TurnsBack { k, x });
+            return Err(first_turn(curve, k, [k[0]; 2]));
         }
         if ends[0].x < ends[1].x {
             Ok(Self { curve, k, ends })
         } else if ends[0].x > ends[1].x {
             Ok(Self { curve, k: [k[1], k[0]], ends: [ends[1], ends[0]] })
         } else {
-            let k = T::of(0.5) * k[0] + T::of(0.5) * k[1];
-            Err(ProfileError::TurnsBack { k, x: curve.x(k) })
+            let (domain, k) = (k, T::of(0.5) * k[0] + T::of(0.5) * k[1]);
+            Err(ProfileError::TurnsBack { k, x: curve.x(k), domain })
         }
     }
 
@@ -162,8 +161,7 @@ impl<'a, T: Real> Piece<'a, T> {
                 // the wrong way.
                 let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
                 let j = (0..STEPS).find(turns).unwrap_or(i);
-                let (k, x) = first_turn(curve, [from, to], [k(j), k(j + 1)]);
-                return Err(ProfileError::TurnsBack { k, x });
+                return Err(first_turn(curve, [from, to], [k(j), k(j + 1)]));
             }
         }
         Ok((Self::between(curve, [from, to], [points[0], points[STEPS]])?, points))
@@ -212,7 +210,7 @@ pub(crate) fn first_turn<T: Real>(
     curve: &dyn ParametricProfile<T>,
     domain: [T; 2],
     met: [T; 2],
-) -> (T, T) {
+) -> ProfileError<T> {
     const STEPS: usize = 2048;
     let rising = |[one, other]: [T; 2]| [one.min(other), one.max(other)];
     let [from, to] = rising(domain);
@@ -226,12 +224,21 @@ pub(crate) fn first_turn<T: Real>(
         let next = [(middle - reach).max(from), (middle + reach).min(to)];
         for (last, next) in last.iter_mut().zip(next) {
             if back(next) != side {
-                return turning_point(curve, rising([*last, next]));
+                return turns_back(curve, [from, to], rising([*last, next]));
             }
             *last = next;
         }
     }
-    turning_point(curve, rising(met))
+    turns_back(curve, [from, to], rising(met))
+}
+
+fn turns_back<T: Real>(
+    curve: &dyn ParametricProfile<T>,
+    domain: [T; 2],
+    between: [T; 2],
+) -> ProfileError<T> {
+    let (k, x) = turning_point(curve, between);
+    ProfileError::TurnsBack { k, x, domain }
 }
 
 /// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.

@@ -31,7 +31,7 @@ use crate::{ContactError, Interval, Real};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
-pub(crate) use panel_set::PanelSet;
+pub(crate) use panel_set::{PanelSet, compare};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
 

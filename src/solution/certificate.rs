@@ -17,7 +17,7 @@ mod series_bounds;
 mod several;
 
 use super::ContactState;
-use crate::gap::{Cost, Gap, Sampler};
+use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Panel, PanelSet};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
 use crate::{ContactError, Interval, Panels, Real};
@@ -122,7 +122,8 @@ pub(crate) fn certify<T: Real>(
     }
     let ends = followed(ends, on);
     let spacing = (ends[1] - ends[0]) * T::of(SHARE);
-    let mut more = heights(gap, sampled)?;
+    let mut more = Cost::default();
+    panel_set.heights(gap, [sampled.left, sampled.centre(), sampled.right], &mut more)?;
     let cells = missed::compare(gap, [&panel_set, &solver], sampled, spacing, view.steepest())?;
     more += cells.cost;
     balanced(kappa, found, &cells)?;
@@ -185,15 +186,6 @@ fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Opti
         (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
         (one, other) => one.or(other),
     }
-}
-
-/// Heights that are not numbers are those of no body, however sound the slopes are.
-fn heights<T: Real>(gap: &Gap<'_, T>, on: Interval<T>) -> Result<Cost, ContactError<T>> {
-    let mut sampler = Sampler::default();
-    for x in [on.left, on.centre(), on.right] {
-        sampler.height(gap, x)?;
-    }
-    Ok(sampler.cost)
 }
 
 /// Whether free edges are as free by the cells as the limits were found to be.

@@ -124,11 +124,11 @@ impl<T: Real> LoadRates<T> {
             };
             limits.iter_mut().flatten().for_each(|rate| *rate /= kappa);
             let [b, a] = [-limits[0][0], limits[limits.len() - 1][1]];
-            return Ok(LoadRates { a, b, limits, punch: Touching::Several(punch) });
+            return Ok(Self { a, b, limits, punch: Touching::Several(punch) });
         }
         if found.free == [false; 2] {
             return if found.error.is_none() {
-                Ok(LoadRates::of_one([T::zero(); 2], on))
+                Ok(Self::of_one([T::zero(); 2], on))
             } else {
                 refuse("the limits were sought by Eq. (6), not by free edges")
             };
@@ -149,6 +149,6 @@ impl<T: Real> LoadRates<T> {
             if free { T::one() / stiffness } else { T::zero() }
         };
         let [free_b, free_a] = found.free;
-        Ok(LoadRates::of_one([-rate(free_b, -T::one()), rate(free_a, T::one())], on))
+        Ok(Self::of_one([-rate(free_b, -T::one()), rate(free_a, T::one())], on))
     }
 }

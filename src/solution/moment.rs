@@ -30,7 +30,7 @@ impl<T: Real> Solution<'_, T> {
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load();
         if load.is_zero() {
-            return Err(ContactError::InvalidLoad { load });
+            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
     }

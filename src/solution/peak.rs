@@ -160,5 +160,19 @@ pub(crate) fn largest_pressure<T: Real>(
             p_left = at(left)?;
         }
     }
+    // Half of them are not enough for derivatives: a step of Newton's rule takes the place where it goes.
+    for _ in 0..T::DERIVATIVE_ORDER {
+        let (x, here) = top;
+        let beside = |from: T, breakpoint: T| from.min((x - breakpoint).abs());
+        let room = gap.breakpoints(on).fold((x - on.left).min(on.right - x), beside);
+        let step = T::epsilon().sqrt().sqrt() * room;
+        let mut pressure = |x: T| integrator.estimate(gap, load_case, x, cost);
+        let [before, after] = [pressure(x - step)?.value, pressure(x + step)?.value];
+        let move_on =
+            T::of(0.5) * step * (after - before) / (here.value + here.value - before - after);
+        if move_on.abs() < step {
+            top = (x + move_on, pressure(x + move_on)?);
+        }
+    }
     Ok(top)
 }

@@ -60,7 +60,7 @@ impl<T: Real> ContactRegion<T> {
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
         if load.is_zero() {
-            return Err(ContactError::InvalidLoad { load });
+            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         Ok(self.interval.centre() + self.half_width() * (self.turning / load))
     }

@@ -239,3 +239,22 @@ fn second_derivatives() {
         }
     }
 }
+
+/// `P² = 4 u (u - α²)(β² - u)`, u = x²: half the digits of its place are not enough for the rate of a peak that moves.
+#[test]
+fn peak_by_the_load() {
+    let body = quartic(2.5, [plain(1.0), plain(2.0)]);
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(plain(1.0));
+    for load in [0.01, 0.3, 1.0, 2.5] {
+        let peak = contact.solve(Control::Load(plain(load).derivative())).unwrap().peak().unwrap();
+        // u - 1 = t: 4 (1 + t)(s² - t²) is largest at t = (sqrt(1 + 3 s²) - 1)/3, with s² = F/π.
+        let square: f64 = load / PI;
+        let u = (2.0 + (1.0 + 3.0 * square).sqrt()) / 3.0;
+        let pressure = 2.0 * (u * (square - (u - 1.0).powi(2))).sqrt();
+        // By s² alone, since it is flat in u.
+        let rate = 2.0 * u / (pressure * PI);
+        assert!((peak.pressure.re / pressure - 1.0).abs() < 1e-12, "{load}: {peak:?}, {pressure}");
+        let off = (peak.pressure.eps / rate - 1.0).abs();
+        assert!(off < 1e-12, "{load}: {off:e}");
+    }
+}

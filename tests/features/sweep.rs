@@ -76,7 +76,8 @@ fn a_scene_that_fails_fails_alone() {
         if radius == 0.0 {
             assert_eq!(result, Err(Fault::Radius));
         } else if load < 0.0 {
-            assert_eq!(result, Err(Fault::Contact(ContactError::InvalidLoad { load })));
+            let (quantity, value) = ("load", load);
+            assert_eq!(result, Err(Fault::Contact(ContactError::InvalidLoad { quantity, value })));
         } else {
             // What is solved after others is what is solved alone.
             let arc = Curve::new([-1.5, 1.5], |k: f64| {

@@ -128,7 +128,7 @@ fn it_is_the_integral_of_the_pressure_at_any_place() {
     let edges = [Edge::Free, Edge::Free];
     let punch = [Edge::Fixed(-0.3), Edge::Free];
     // The sum cannot come nearer to the infinite pressure at a corner than the rounding of s, and its root goes in.
-    let scenes: [(&Profile, [Edge<f64>; 2], f64, [f64; 5], f64); 3] = [
+    let scenes = [
         (&lopsided, edges, 0.1, [0.0, 0.1, -0.3, 0.9, -1.2], 2e-12),
         (&lopsided, punch, 0.2, [0.0, 0.3, -0.29, 0.9, -0.4], 1e-7),
         (&quartic, edges, 0.5, [1.0, -1.05, 0.0, 0.4, 1.8], 2e-12),
@@ -396,7 +396,7 @@ fn what_cannot_be_answered_is_refused() {
     let contact = with(STEEL, STEEL);
     for approach in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = contact.solve(control(approach)).unwrap_err();
-        assert!(matches!(error, ContactError::InvalidApproach { .. }), "{error}");
+        assert!(matches!(error, ContactError::InvalidLoad { quantity: "approach", .. }), "{error}");
     }
     let solution = contact.solve(Control::Load(0.01)).unwrap();
     for depth in [0.0, -1.0, f64::NAN, f64::INFINITY] {

@@ -694,3 +694,25 @@ fn a_kink_between_two_cells_is_no_doubt_of_the_limits() {
     }
     assert_eq!(found, 300);
 }
+
+/// A narrow step of the body, up or down, between two nodes of the solver: the heights tell of it, and it is resolved.
+#[test]
+fn a_step_between_two_nodes_is_resolved() {
+    for sign in [1.0, -1.0] {
+        for i in 0..50 {
+            let (at, wide) = (0.19 * (f64::from(i) + 0.5) / 50.0, 0.006);
+            // The slope rises by h cos⁴, and so the height by h (3 t/8 + sin(2t)/4 + sin(4t)/32).
+            let body = graph(-1.0, 1.0, move |x| {
+                let turn = PI / wide;
+                let t = (turn * (x - at)).clamp(-PI / 2.0, PI / 2.0);
+                let rise = 0.375 * t + (2.0 * t).sin() / 4.0 + (4.0 * t).sin() / 32.0;
+                let high = sign * 0.01;
+                [x * x / 2.0 + high * rise / turn, x + high * t.cos().powi(4)]
+            });
+            let contact = Contact::new(&Flat, &*body).unwrap();
+            let solution = contact.solve(Control::Load(0.02)).unwrap();
+            let certified = solution.certify();
+            assert!(certified.is_ok(), "{sign} {at}: {:?}", certified.err());
+        }
+    }
+}

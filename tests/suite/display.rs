@@ -69,3 +69,36 @@ fn a_certificate_in_a_line() {
     assert!(text.starts_with("no tension, no overlap, in cells of 4.88281e-4: "), "{text}");
     assert!(text.ends_with(&certificate.cost.to_string()));
 }
+
+#[test]
+fn bodies_that_would_have_to_pull_are_told_of_unless_they_adhere() {
+    let pull = "would have to pull at each other at x = ";
+    let punch = Contact::new(&Flat, &Flat).unwrap().edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+    let text = punch.solve(Control::Load(-0.3)).unwrap().to_string();
+    assert!(text.contains(&format!("{pull}-1")) && text.contains(&format!("{pull}1")), "{text}");
+    let text = punch.solve(Control::Load(0.3)).unwrap().to_string();
+    assert!(!text.contains(pull), "{text}");
+
+    let body = Parabola::new(1.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let contact = contact.edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
+    assert!(solution.edge_singularities().iter().all(|&strength| strength < 0.0));
+    let text = solution.to_string();
+    assert!(!text.contains(pull), "{text}");
+}
+
+/// P is proportional to (L²/2 - 0.1 + x²) sqrt(L² - x²): nearest to zero in the middle.
+#[test]
+fn a_certificate_tells_the_least_ratio() {
+    let hollow = Curve::new([-1.0, 1.0], |k: f64| {
+        let k2 = k * k;
+        CurvePoint { x: k, y: k2 * (k2 / 4.0 - 0.05), dx: 1.0, dy: k * (k2 - 0.1) }
+    });
+    let contact = Contact::new(&Flat, &hollow).unwrap();
+    let certificate = contact.solve(Control::HalfWidth(0.6)).unwrap().certify().unwrap();
+    let text = format!("{certificate:.3}");
+    // F = κ (3 L⁴/8 - 0.1 L²/2), and the ratio 2 κ L² (L²/2 - 0.1)/(π F) in the middle.
+    let ratio = 0.72 * 0.08 / (std::f64::consts::PI * (0.375 * 0.1296 - 0.05 * 0.36));
+    assert!(text.starts_with(&format!("no tension (least ratio {ratio:.3} at x = ")), "{text}");
+}

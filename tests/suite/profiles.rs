@@ -4,9 +4,10 @@
 use crate::common;
 
 use common::{graph, paper, parabola};
+use linecontact::reference::{ClosedForm, Hertz, Wedge};
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piece, Piecewise, PiecewiseError,
-    ProfileError,
+    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Piece,
+    Piecewise, PiecewiseError, ProfileError,
 };
 use std::sync::Arc;
 
@@ -190,7 +191,7 @@ fn a_piece_that_turns_back_is_found_where_it_turns() {
     for (from, to, at) in [(-1.0, 1.0, -turning), (0.0, 1.0, turning), (-0.2, 1.3, turning)] {
         let body = fold(from, to);
         let error = Piece::checked(&body).map(|_| ()).unwrap_err();
-        let ProfileError::TurnsBack { k, x } = error else { panic!("{error}") };
+        let ProfileError::TurnsBack { k, x, .. } = error else { panic!("{error}") };
         assert!((k - at).abs() < 1e-15, "{k} for {at}");
         assert!((x - (at.powi(3) - at / 4.0)).abs() < 1e-15);
     }
@@ -324,4 +325,102 @@ fn pointers_to_a_profile_pass_everything_on() {
     }
     let want = [10.5, 20.5, 30.5, 40.5];
     assert_eq!([told(&Told), told(Box::new(Told)), told(std::sync::Arc::new(Told))], [want; 3]);
+}
+
+/// X = ±k², Y = m x + x²/2 with x = k²: a wedge and a parabola. At the tip the slope is 0/0 on both sides.
+#[test]
+fn a_tip_where_both_derivatives_vanish() {
+    for m in [0.3, 2.0] {
+        let side = |sign: f64| {
+            Curve::new([0.0, 1.5], move |k: f64| {
+                let (x, dx) = (k * k, 2.0 * k);
+                CurvePoint { x: sign * x, y: x * (m + x / 2.0), dx: sign * dx, dy: dx * (m + x) }
+            })
+        };
+        let body = Piecewise::new(vec![side(-1.0), side(1.0)]).unwrap();
+        for l in [0.1, 1.3] {
+            // Of the same limits, loads and pressures add up.
+            let (wedge, round) = (Wedge::new(m, l).unwrap(), Hertz::new(1.0, l).unwrap());
+            let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
+            let solution = contact.solve(Control::Load(wedge.load(1.0) + round.load(1.0))).unwrap();
+            assert!(
+                (solution.a() / l - 1.0).abs() < 1e-13 && (solution.b() / l - 1.0).abs() < 1e-13
+            );
+            let error = solution.limits_error().unwrap();
+            assert!(error < 1e-12, "{error:e}");
+            let pressure = solution.pressure().unwrap();
+            for x in [0.01, 0.3, 0.9].map(|z| z * l) {
+                let exact = wedge.pressure(x, 1.0) + round.pressure(x, 1.0);
+                assert!((pressure.at(x).unwrap() / exact - 1.0).abs() < 1e-12);
+            }
+            assert!(solution.cost().evaluations < 2000, "{:?}", solution.cost());
+        }
+    }
+}
+
+#[test]
+fn joined_bodies_bulge_as_their_pieces_and_corners_do() {
+    let line = |slope: f64, from: f64, to: f64| graph(from, to, move |x| [slope * x, slope]);
+    let of = |left: f64, right: f64| {
+        let told = |profile: Profile| Told { profile, convexity: Convexity::Straight };
+        let pieces = vec![told(line(left, -1.0, 0.0)), told(line(right, 0.0, 1.0))];
+        Piecewise::new(pieces).unwrap().convexity()
+    };
+    assert_eq!(of(-0.5, 0.3), Convexity::Convex);
+    assert_eq!(of(0.3, -0.5), Convexity::Concave);
+    assert_eq!(of(0.3, 0.3), Convexity::Straight);
+}
+
+/// A profile and which way it bulges.
+struct Told {
+    profile: Profile,
+    convexity: Convexity,
+}
+
+impl ParametricProfile<f64> for Told {
+    fn domain(&self) -> [f64; 2] {
+        self.profile.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.profile.at(k)
+    }
+    fn pieces(&self) -> usize {
+        self.profile.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
+        self.profile.piece(index)
+    }
+    fn convexity(&self) -> Convexity {
+        self.convexity
+    }
+}
+
+/// x²/2 from -1 to 0.2 and from 2.2 on: the first contact that reaches into the hole is an error, also where no
+/// heights are taken.
+#[test]
+fn a_hole_between_two_pieces_is_no_body() {
+    struct Holed([Profile; 2]);
+    impl ParametricProfile<f64> for Holed {
+        fn domain(&self) -> [f64; 2] {
+            [0.0, 1.0]
+        }
+        fn at(&self, _: f64) -> CurvePoint<f64> {
+            unreachable!("it is asked by its pieces")
+        }
+        fn pieces(&self) -> usize {
+            2
+        }
+        fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
+            self.0.get(index).map(|piece| Piece::new(piece).unwrap())
+        }
+        fn convexity(&self) -> Convexity {
+            Convexity::Convex
+        }
+    }
+    let part = |from: f64, to: f64| graph(from, to, |x| [x * x / 2.0, x]);
+    let body = Holed([part(-1.0, 0.2), part(2.2, 3.0)]);
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let error = contact.solve(Control::Load(0.2)).unwrap_err();
+    let wanted = ProfileError::Pieces { count: 2, index: 1 };
+    assert!(matches!(&error, ContactError::Profile { source, .. } if *source == wanted), "{error}");
 }

@@ -311,3 +311,12 @@ fn a_solution_shows_its_limits_and_its_load() {
         assert!(shown.contains(&part), "{shown}");
     }
 }
+
+/// There the body is all of the gap; what the contact adds is beyond the last digit.
+#[test]
+fn the_gap_of_hertz_far_from_a_contact_of_next_to_no_width() {
+    for (l, x) in [(1e-200f64, 1.0), (1e-100, -1e100), (1e-150, 1e10)] {
+        let gap = Hertz::new(2.0, l).unwrap().gap(x);
+        assert!((gap / (0.25 * x * x) - 1.0).abs() < 1e-15, "{l:e} {x:e}: {gap:e}");
+    }
+}

@@ -12,7 +12,7 @@ fn a_closed_curve_turns_back_at_once() {
         for end in [PI - 2.65e-6, 2.0, 3.0, 3.1, PI, 3.125] {
             let body = circle(-end, end, sign);
             let error = Contact::new(&Flat, &*body).map(|_| ()).unwrap_err();
-            let ContactError::Profile { source: ProfileError::TurnsBack { k, x }, .. } = error
+            let ContactError::Profile { source: ProfileError::TurnsBack { k, x, .. }, .. } = error
             else {
                 panic!("{error}")
             };

@@ -359,6 +359,13 @@ fn what_makes_no_sense_is_refused() {
             other => panic!("{name}: {other:?}"),
         }
     }
+    // On either side one of the limits alone is further out.
+    for (left, right) in [(1.0, 0.3), (0.3, 1.0)] {
+        let form = UnequalRadii::new(left, right, 0.5).unwrap();
+        let [near, far] = [-form.limits().left, form.limits().right];
+        let refused = PolynomialMap::new(form, 2, 0.5 * (near + far), 1.0);
+        assert!(matches!(refused, Err(ReferenceError::Parameter { name: "the amplitude", .. })));
+    }
     let sticky = Jkr::new(1.0, 0.1, 0.5).unwrap();
     let refused = PolynomialMap::new(sticky, 2, 2.0, 1.0);
     assert!(matches!(refused, Err(ReferenceError::Parameter { name: "the work of adhesion", .. })));
@@ -367,5 +374,19 @@ fn what_makes_no_sense_is_refused() {
         assert!(Quartic::under_load(1.0, wrong, 1.0, 1.0).is_err());
         assert!(Quartic::under_load(1.0, 1.0, wrong, 1.0).is_err());
         assert!(Quartic::under_load(1.0, 1.0, 1.0, wrong).is_err());
+    }
+}
+
+/// Bumps of any height and distance.
+#[test]
+fn two_bumps_merge_under_the_load_that_the_form_tells() {
+    for (depth, radius, kappa) in [(0.3f64, 2.0, 1.7), (2.5, 0.4, 0.2)] {
+        let under = |load| Quartic::under_load(depth, radius, load, kappa).unwrap();
+        let merger = under(1.0).merger(kappa);
+        for (share, count) in [(1.0f64 - 1e-9, 2), (1.0 + 1e-9, 1)] {
+            let form = under(share * merger);
+            assert_eq!(form.contacts().len(), count, "{share}");
+            assert!((form.load(kappa) / merger / share - 1.0).abs() < 1e-14);
+        }
     }
 }

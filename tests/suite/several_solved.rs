@@ -9,7 +9,9 @@ use crate::forms::KAPPA;
 use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
-use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, Real, Solution, Solver};
+use linecontact::{
+    Contact, ContactError, Control, Cost, Edge, Flat, Interval, Real, Solution, Solver,
+};
 use std::f64::consts::PI;
 
 const COUNTS: [usize; 5] = [2, 3, 5, 8, 16];
@@ -242,5 +244,22 @@ fn heights_that_do_not_go_with_the_slopes() {
             panic!("{share}: {error}")
         };
         assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-9, "{by_heights} {by_slopes}");
+    }
+}
+
+/// x⁴ - 2x² has two bumps. Several contacts with adhesion are not solved for: there is none rather than two
+/// without it.
+#[test]
+fn one_adhesive_edge_is_not_forgotten_between_two_bumps() {
+    let body = graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for edges in [[Edge::Adhesive(1e-3), Edge::Free], [Edge::Free, Edge::Adhesive(1e-3)]] {
+        let contact = contact.clone().edges(edges[0], edges[1]);
+        for load in [0.1, 0.5, 1.0] {
+            match contact.solve(Control::Load(load)) {
+                Ok(solution) => assert_eq!(solution.intervals().len(), 1),
+                Err(error) => println!("{load}: {error}"),
+            }
+        }
     }
 }

@@ -299,6 +299,7 @@ fn what_is_no_shape_is_refused() {
     named(Crowning::new(0.0, 1.0, unit), "the depth");
     named(Crowning::new(1.0, -1.0, unit), "the half-length");
     named(Crowning::new(1.0, 1.0, [-1.0, 1.5]), "an end");
+    named(Crowning::new(1.0, 1.0, [-1.5, 1.0]), "an end");
     let parabola = Parabola::new(1.0, unit).unwrap();
     // The first step that cannot be done, and what was asked for.
     let place = Placement::default;

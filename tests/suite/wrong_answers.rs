@@ -16,7 +16,7 @@ use linecontact::profile::{
 use linecontact::reference::{ClosedForm, RoundedPunch};
 use linecontact::{
     Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Flat, Panels, ParametricProfile,
-    Solution, Solver,
+    Piecewise, ProfileError, Solution, Solver,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -541,6 +541,156 @@ fn several_tilted_contacts_are_certified() {
         assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);
         solution.certify().unwrap();
     }
+}
+
+/// A step of Y that no slope shows was seen by nobody. Heights may be counted from far away.
+#[test]
+fn a_step_of_the_heights() {
+    let with = |at: f64, step: f64, from: f64| {
+        graph(-1.0, 1.0, move |x| [from + x * x / 2.0 + if x > at { step } else { 0.0 }, x])
+    };
+    for load in [0.02, 0.001] {
+        for from in [0.0, 1e4, 1e8] {
+            let body = with(0.0, 0.0, from);
+            let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(load)).unwrap();
+            assert_relative_eq!(solution.a(), (2.0 * load).sqrt(), max_relative = 1e-14);
+            assert_eq!(solution.cost().evaluations, 12);
+            solution.certify().unwrap();
+        }
+        // Within the contact in every solve, beside it where it is certified.
+        for at in [0.0, 0.03, -0.0123, 0.044, 0.0711, 0.5, -0.777] {
+            for (step, from) in [(1e-4, 0.0), (-1e-3, 0.0), (0.01, 0.0), (0.01, 1e4)] {
+                let body = with(at, step, from);
+                let solved = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(load));
+                let seen = f64::abs(at) < (2.0 * load).sqrt();
+                let at_once = solved.is_err();
+                assert!(at_once == seen || step == 1e-4 && !at_once, "{step} at {at}");
+                let error = solved.and_then(|found| found.certify().map(|_| ())).unwrap_err();
+                let ContactError::InconsistentHeights {
+                    between: [one, two],
+                    by_heights,
+                    by_slopes,
+                } = error
+                else {
+                    panic!("{step} at {at}: {error}")
+                };
+                assert!(one.min(two) <= at && at <= one.max(two), "{step} at {at}: {error}");
+                let found = (by_heights - by_slopes) * (two - one).signum();
+                assert!((found / step - 1.0).abs() < 1e-6, "{step} at {at}: {error}");
+                assert!(!at_once || two - one < 1e-3, "{step} at {at}: {error}");
+            }
+        }
+    }
+    // A steep ramp between the nodes is resolved.
+    let ramp = |step: f64| {
+        graph(-1.0, 1.0, move |x| {
+            let t = (1e3 * (x - 0.07)).tanh();
+            [x * x / 2.0 + step * t, x + 1e3 * step * (1.0 - t * t)]
+        })
+    };
+    let body = ramp(-1e-5);
+    let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(0.02)).unwrap();
+    assert!(solution.cost().evaluations > 50);
+    solution.certify().unwrap();
+}
+
+/// A body whose slope by x is not that of its points.
+struct WrongSlope(f64, linecontact::Convexity);
+
+impl ParametricProfile<f64> for WrongSlope {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k }
+    }
+    fn slope_at(&self, x: f64) -> Option<f64> {
+        Some(x + self.0 * x * x)
+    }
+    fn convexity(&self) -> linecontact::Convexity {
+        self.1
+    }
+}
+
+/// It was seen by nobody. Where the body is said to be convex nothing is looked at before it is certified.
+#[test]
+fn a_slope_by_x_that_is_wrong() {
+    use linecontact::Convexity::{Convex, Unknown};
+    for off in [1e-3, 0.3, -0.3] {
+        let body = WrongSlope(off, Unknown);
+        let error = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap_err();
+        let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
+        else {
+            panic!("{error}")
+        };
+        assert_eq!(quantity, "slope_at(x)");
+        let body = WrongSlope(off, Convex);
+        let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap();
+        let error = solution.certify().unwrap_err();
+        assert!(matches!(error, ContactError::InconsistentHeights { .. }), "{error}");
+    }
+    let body = WrongSlope(0.0, Unknown);
+    Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();
+}
+
+/// The middle of the gap lies beside the roof by rounding: what there was of a panel was continued, and the gap was
+/// left undecided.
+#[test]
+fn a_roof_between_two_contacts() {
+    for (roof, bend, load) in [(0.6, 2.0, 0.05), (1.0, 0.5, 0.2), (0.6, 0.5, 0.1), (0.3, 2.0, 0.01)]
+    {
+        let half = |side: f64, domain: [f64; 2]| {
+            Curve::new(domain, move |k: f64| CurvePoint {
+                x: k,
+                y: bend * k * k - side * roof / 2.0 * k,
+                dx: 1.0,
+                dy: 2.0 * bend * k - side * roof / 2.0,
+            })
+        };
+        let body = Piecewise::new(vec![half(-1.0, [-2.0, 0.0]), half(1.0, [0.0, 2.0])]).unwrap();
+        let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+        assert!(solution.gap_at(0.0).unwrap() > 0.0);
+        assert_eq!(solution.certify().unwrap().gap, None, "{roof} {bend} {load}");
+    }
+}
+
+/// What was prescribed was not named; κ was, where E* was given; nobody asked for degrees.
+#[test]
+fn errors_name_what_was_given() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let text = |contact: &Contact<f64>, control| {
+        contact.solve(control).map(|_| ()).unwrap_err().to_string()
+    };
+    for (name, control) in [
+        ("the load is", Control::Load as fn(f64) -> _),
+        ("the half-width is", Control::HalfWidth),
+        ("the peak pressure is", Control::PeakPressure),
+    ] {
+        for value in [f64::NAN, -1.0, 5e-324, 1e-310] {
+            let text = text(&contact, control(value));
+            assert!(text.starts_with(name), "{text}");
+            assert_eq!(text.contains("digits are lost"), value > 0.0, "{text}");
+        }
+    }
+    for modulus in [-2.0, f64::NAN, 1.7e308] {
+        let contact = contact.clone().contact_modulus(modulus);
+        let error = contact.solve(Control::Load(0.01)).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidModulus { .. }), "{error}");
+        assert!(error.to_string().starts_with("E* = "), "{error}");
+    }
+    let arc = |from: f64, to: f64| {
+        let arc = Curve::new([from, to], |k: f64| {
+            let (sin, cos) = k.sin_cos();
+            CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
+        });
+        let solved =
+            Contact::new(&Flat, &arc).and_then(|c| c.solve(Control::Load(0.01)).map(|_| ()));
+        solved.unwrap_err().to_string()
+    };
+    assert!(arc(-90.0, 90.0).contains("degrees") && arc(0.0, 90.0).contains("degrees"));
+    assert!(!arc(-3.0, 3.0).contains("degrees"));
 }
 
 #[test]

@@ -88,6 +88,29 @@ impl<T: Real> Panel<T> {
         value_at(self.coefficients(), self.local(x))
     }
 
+    /// `∫ g dx` from one place to another.
+    pub fn rise(&self, from: T, to: T) -> T {
+        self.half() * (self.primitive(self.local(to)) - self.primitive(self.local(from)))
+    }
+
+    /// An integral of the series.
+    fn primitive(&self, s: T) -> T {
+        let series = self.coefficients();
+        let (half, mut sum) = (T::of(0.5), series[0] * s);
+        // ∫ T_k = (T_{k+1}/(k+1) - T_{k-1}/(k-1))/2
+        let (mut before, mut here) = (T::one(), s);
+        for (k, &a) in series.iter().enumerate().skip(1) {
+            let after = (s + s) * here - before;
+            sum += a * if k == 1 {
+                half * s * s
+            } else {
+                half * (after / T::count(k + 1) - before / T::count(k - 1))
+            };
+            (before, here) = (here, after);
+        }
+        sum
+    }
+
     /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`.
     pub fn over(&self, on: Interval<T>) -> Series<T> {
         let mut series = ([T::zero(); MOST], 0);

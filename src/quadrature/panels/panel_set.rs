@@ -4,9 +4,11 @@ mod candidate;
 mod derivative_check;
 mod sampling;
 
+pub(crate) use derivative_check::compare;
+
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, SampleCache, Sampler, Side};
-use crate::numerics::chebyshev::{size_for, value_at};
+use crate::numerics::chebyshev::{MOST, Row, size_for, value_at};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
@@ -18,6 +20,9 @@ const MOST_SPLITS: usize = 4096;
 /// How often a span is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
+
+/// Where a span whose heights contradict its slopes is halved.
+const ASIDE: f64 = 0.46;
 
 /// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
@@ -51,6 +56,8 @@ pub(crate) struct PanelSet<T> {
     /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
     /// first.
     derivatives: Vec<SampledBody<T>>,
+    /// The slopes of both bodies at the nodes of the last panel.
+    slopes: [Row<T>; 2],
     derivative_sizes: Vec<T>,
     /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
     pub tilt: T,
@@ -69,6 +76,7 @@ impl<T: Real> PanelSet<T> {
             cost: Cost::default(),
             held: [None; 2],
             derivatives: Vec::new(),
+            slopes: [[T::zero(); MOST]; 2],
             derivative_sizes: Vec::new(),
             tilt: T::zero(),
         }
@@ -252,12 +260,15 @@ impl<T: Real> PanelSet<T> {
         let mut splits = 0;
         loop {
             let [left, right] = trial.panel.x;
-            let middle = T::of(0.5) * left + T::of(0.5) * right;
+            // A step in the heights may well lie in the middle, where neither half would have it.
+            let share = T::of(if trial.hides { ASIDE } else { 0.5 });
+            let middle = (T::one() - share) * left + share * right;
             let may = splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x);
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
-                let half = |x| Candidate { level, wave: trial.wave, ..Candidate::new(x) };
+                let Candidate { wave, hides, .. } = trial;
+                let half = |x| Candidate { level, wave, hides, ..Candidate::new(x) };
                 let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
@@ -274,7 +285,7 @@ impl<T: Real> PanelSet<T> {
                     let by_value = ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0));
                     let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
                     let derived = half.derivatives > T::zero();
-                    half.split && if derived { by_derivative } else { by_value }
+                    half.split && !half.hides && if derived { by_derivative } else { by_value }
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     let derived = one.derivatives > T::zero() || other.derivatives > T::zero();

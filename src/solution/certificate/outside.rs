@@ -13,10 +13,10 @@
 
 use super::series_bounds::{above, below, integral, least, truncation_error};
 use super::{Extremum, undecided};
-use crate::gap::{Cost, Gap};
+use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels::{Panel, PanelSet};
+use crate::quadrature::panels::{Panel, PanelSet, compare};
 use crate::{ContactError, Interval, Real};
 
 /// Nodes of a cell.
@@ -54,6 +54,8 @@ pub(super) struct OutsideOf<'o, T: Real> {
     pub strengths: [T; 2],
     /// Overlaps up to this are none.
     pub allowed: T,
+    /// By how much the gap between the bodies, before they are loaded, rises towards larger x over what was followed.
+    risen: T,
     /// The height of the gap at `y`, and what the slopes of the bodies have added since.
     height: T,
     y: T,
@@ -78,7 +80,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     ) -> Self {
         let strengths = if right { [at_a, at_b] } else { [at_b, at_a] };
         let zero = T::zero();
-        let (height, y, pending) = (zero, zero, zero);
+        let (risen, height, y, pending) = (zero, zero, zero, zero);
         let (open, cells) = (false, 0);
         let (worst, closest, falling) = (None, None, None);
         Self {
@@ -86,6 +88,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             right,
             strengths,
             allowed,
+            risen,
             height,
             y,
             pending,
@@ -174,6 +177,16 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 waiting.reverse();
             }
         }
+        // Short of the last cell: at the end of a body the slope may be infinite.
+        if let Some(panel) = waiting.first() {
+            let place = panel.x[usize::from(!self.right)];
+            let mut sampler = Sampler::default();
+            let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
+            let [at_edge, at_place] = heights;
+            panel_set.cost.heights += sampler.cost.evaluations;
+            let by_slopes = sign * self.risen;
+            compare([edge, place], at_place? - at_edge?, by_slopes, sampler.highest, left_out)?;
+        }
         for panel in waiting {
             self.take(&panel, &mut left_out, panel_set.cost)?;
         }
@@ -194,6 +207,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
+        self.risen += panel.rise(panel.x[0], panel.x[1]);
         let rounding = T::of(16.0) * T::epsilon();
         *left_out += length * (panel.tail + rounding * panel.series[0].abs());
         let series = panel.coefficients();
@@ -273,7 +287,8 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
                 let x = self.edge() + sign * distance;
-                let g = panel.value(x);
+                // Rounding of x is more than the length of a panel that ends beside a breakpoint.
+                let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
                 let opens = sign * self.view.left_of(g, distance, self.right);
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);

@@ -10,9 +10,7 @@ use super::inside::Inside;
 use super::missed::{Solved, compare};
 use super::opening_integral::extremes;
 use super::outside::{OpeningRate, OutsideOf};
-use super::{
-    Certificate, Extremum, MOST_EVALUATIONS, SHARE, followed, heights, nearer, share, undecided,
-};
+use super::{Certificate, Extremum, MOST_EVALUATIONS, SHARE, followed, nearer, share, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{self, PanelSet, Several, System};
@@ -88,7 +86,7 @@ pub(super) fn certify<T: Real>(
     let (mut cells, mut doubt, mut steepest) = (Vec::new(), T::zero(), T::zero());
     for (i, &on) in contacts.iter().enumerate() {
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
-        cost += heights(gap, on)?;
+        own.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
         let [least, most] = extremes(&own.panel_set(i).panels, on);
         let steep = least.abs().max(most.abs());
         let assumed = Solved(solved.panel_set(i));

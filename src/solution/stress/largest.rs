@@ -83,7 +83,8 @@ impl<T: Real> Subsurface<'_, T> {
                 best = Some(peak);
             }
         }
-        best.ok_or(ContactError::InvalidLoad { load: self.solution.load() })
+        let value = self.solution.load();
+        best.ok_or(ContactError::InvalidLoad { quantity: "load", value })
     }
 
     /// Below one contact.

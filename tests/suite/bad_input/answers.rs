@@ -175,7 +175,7 @@ fn what_is_asked_of_a_solution() {
         "centre of no load",
         0,
         || Ok(idle.centre_of_pressure()?),
-        contact_error!(ContactError::InvalidLoad { load: 0.0 }),
+        contact_error!(ContactError::InvalidLoad { quantity: "load", value: 0.0 }),
     );
     let sticky = contact.clone().edges(Edge::Adhesive(1e-3), Edge::Free);
     let sticky = sticky.solve(Control::Load(0.05)).unwrap();

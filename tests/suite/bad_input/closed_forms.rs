@@ -118,3 +118,29 @@ fn ranges_of_bodies() {
     }
     table.finish();
 }
+
+/// Not the half-width that would follow from it.
+#[test]
+fn a_load_and_a_modulus_that_are_none_are_named() {
+    for (name, count, make) in CONSTRUCTORS.into_iter().filter(|row| row.0.ends_with("under load"))
+    {
+        let named = |place: usize, value: f64| {
+            let mut numbers = [0.5, 2.6, 0.6, 0.9];
+            numbers[place] = value;
+            let error = make(numbers).err().unwrap_or_else(|| panic!("{name}: {numbers:?}"));
+            let ReferenceError::Parameter { name, .. } = error else { panic!("{name}: {error}") };
+            name
+        };
+        for value in [NAN, INF, -INF] {
+            assert_eq!(named(count - 2, value), "the load", "{name}: {value}");
+        }
+        for value in [NAN, INF, 0.0, -1.0] {
+            assert_eq!(named(count - 1, value), "κ", "{name}: {value}");
+        }
+        // Each by a name of its own.
+        let mut names: Vec<_> = (0..count).map(|place| named(place, INF)).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count, "{name}: {names:?}");
+    }
+}

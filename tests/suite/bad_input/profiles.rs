@@ -60,7 +60,7 @@ fn bodies() {
         3,
         || Ok(Contact::new(&Flat, &*still).map(|_| ())?),
         contact_error!(ContactError::Profile {
-            source: ProfileError::TurnsBack { k: 0.0, x: 0.25 },
+            source: ProfileError::TurnsBack { k: 0.0, x: 0.25, .. },
             ..
         }),
     );

@@ -344,3 +344,16 @@ fn the_papers_rule_starts_afresh_with_other_bodies() {
         assert!((solution.b() - 0.2 + middle).abs() < 1e-14, "{solution:?}");
     }
 }
+
+/// What was tried for the solution before is not in the report of the next.
+#[test]
+fn a_report_is_of_one_solution_only() {
+    let body = graph(-3.0, 3.0, |x| [0.5 * x * x, x]);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let mut solver = Solver::new();
+    for load in [0.01, 1.0, 3.0, 0.1] {
+        let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+        assert_eq!(solution.report().trials().len(), 1, "F = {load}");
+        assert!(solution.report().is_checked());
+    }
+}

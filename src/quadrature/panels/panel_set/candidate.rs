@@ -30,6 +30,8 @@ pub(super) struct Candidate<T> {
     pub falls: bool,
     /// Whether it is part of what looked like noise and is none.
     pub wave: bool,
+    /// Whether its heights contradict its slopes.
+    pub hides: bool,
     /// The share of its size by which a derivative is off that calls for a split, or zero.
     pub derivatives: T,
 }
@@ -38,8 +40,8 @@ impl<T: Real> Candidate<T> {
     /// Not tried yet.
     pub fn new(x: [T; 2]) -> Self {
         let (panel, zero) = (Panel::new(x), T::zero());
-        let (falls, wave) = (false, false);
-        Self { panel, split: false, allowed: zero, level: 0, falls, wave, derivatives: zero }
+        let (falls, wave, hides) = (false, false, false);
+        Self { panel, split: false, allowed: zero, level: 0, falls, wave, hides, derivatives: zero }
     }
 
     /// Whether it is better than what it is a half of; with other nodes it cannot be told.

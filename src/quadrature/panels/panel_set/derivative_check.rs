@@ -1,8 +1,10 @@
 //! Whether a body's derivatives are those of its heights.
 
 use super::PanelSet;
-use crate::gap::{CurveSample, Gap};
-use crate::{Body, ContactError, ProfileError, Real};
+use crate::gap::{Cost, CurveSample, Gap, Sampler};
+use crate::numerics::chebyshev::{Table, middle};
+use crate::quadrature::panels::panel::{Panel, within};
+use crate::{Body, ContactError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
     /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
@@ -71,4 +73,107 @@ impl<T: Real> PanelSet<T> {
         }
         Ok(())
     }
+
+    /// Whether the gap rises between the first node, a middle one and the last as much by its heights as by its
+    /// slopes, as far as both are known: a step in the heights shows in no slope. `steepest` is the largest sum of the
+    /// slopes of both bodies. (Waves that both bodies have are in
+    /// no gap, and their slopes need not be resolved.)
+    pub(super) fn check_heights(
+        &self,
+        panel: &Panel<T>,
+        steepest: T,
+    ) -> Result<(), ContactError<T>> {
+        if self.traces.iter().all(|trace| trace.direct) {
+            return Ok(());
+        }
+        let zero = T::zero();
+        let (n, half, table) = (panel.n, panel.half(), Table::of(panel.n));
+        let nodes = [0, middle(n), n - 1];
+        let places = nodes.map(|i| panel.x[0] + half * T::of(1.0 + table.z[i]));
+        let sloped = [0, 1].map(|i| table.rises(&self.slopes[i][..n]).map(|rise| half * rise));
+        let (mut by_heights, mut doubt, mut rounded) = ([zero; 2], [zero; 3], zero);
+        for (i, trace) in self.traces.iter().enumerate() {
+            let sign = if i == 0 { -T::one() } else { T::one() };
+            let mut rises = sloped[i];
+            if !trace.direct {
+                // A point is near a node; how steep the body is between the two is known from the next point.
+                let points = trace.curve_samples();
+                let mut heights = [zero; 3];
+                for (j, &node) in nodes.iter().enumerate() {
+                    let [near, next] =
+                        [node, if node == 0 { 1 } else { node - 1 }].map(|i| points[i]);
+                    let missed = places[j] - near.x;
+                    heights[j] = near.y + missed * near.slope;
+                    doubt[j] += (missed * (next.slope - near.slope)).abs();
+                    rounded = rounded.max(near.y.abs() + (near.x * near.slope).abs());
+                }
+                rises = [heights[1] - heights[0], heights[2] - heights[1]];
+                rounded = rounded.max(trace.height());
+            }
+            by_heights = [0, 1].map(|i| by_heights[i] + sign * rises[i]);
+        }
+        let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.tail;
+        for i in 0..2 {
+            let [between, doubts] = [places, doubt].map(|all| [all[i], all[i + 1]]);
+            let by_slopes = sloped[1][i] - sloped[0][i];
+            let open = doubts[0] + doubts[1] + share * (between[1] - between[0]);
+            compare(between, by_heights[i], by_slopes, rounded, open)?;
+        }
+        Ok(())
+    }
+
+    /// `∫ g dx` from one place to another.
+    pub fn rise(&self, from: T, to: T) -> T {
+        if to < from {
+            return -self.rise(to, from);
+        }
+        let span = within(&self.panels, Interval { left: from, right: to });
+        let last = span.len() - 1;
+        span.iter().enumerate().fold(T::zero(), |sum, (i, panel)| {
+            let start = if i == 0 { from } else { panel.x[0] };
+            let end = if i == last { to } else { panel.x[1] };
+            sum + panel.rise(start, end)
+        })
+    }
+
+    /// The heights of the gap before the bodies are turned at places that rise, which must go with the slopes
+    /// between them.
+    pub fn heights<const N: usize>(
+        &self,
+        gap: &Gap<'_, T>,
+        places: [T; N],
+        cost: &mut Cost,
+    ) -> Result<[T; N], ContactError<T>> {
+        let mut sampler = Sampler::default();
+        let mut heights = [T::zero(); N];
+        for (height, x) in heights.iter_mut().zip(places) {
+            *height = sampler.height_untilted(gap, x)?;
+        }
+        cost.heights += sampler.cost.evaluations;
+        let tail = self.panels.iter().fold(T::zero(), |tail, panel| tail.max(panel.tail));
+        for (between, heights) in places.windows(2).zip(heights.windows(2)) {
+            let (from, to) = (between[0], between[1]);
+            let by_slopes = self.rise(from, to) - self.tilt * (to - from);
+            let off = T::of(8.0) * tail * (to - from);
+            compare([from, to], heights[1] - heights[0], by_slopes, sampler.highest, off)?;
+        }
+        Ok(heights)
+    }
+}
+
+/// Whether the gap rises as much by its heights, of which the largest is this, as by its slopes, which leave so much
+/// open.
+pub(crate) fn compare<T: Real>(
+    between: [T; 2],
+    by_heights: T,
+    by_slopes: T,
+    highest: T,
+    open: T,
+) -> Result<(), ContactError<T>> {
+    let rounding = T::of(128.0) * T::epsilon() * highest;
+    let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
+    if (by_heights - by_slopes).abs() <= rounding + share + open {
+        return Ok(());
+    }
+    Err(ContactError::InconsistentHeights { between, by_heights, by_slopes })
 }

@@ -15,6 +15,9 @@ const NEAR: [f64; 2] = [0.1, 0.45];
 /// formula may be wrong there, as signum is at 0.)
 const LEVELS_OF_A_TIP: usize = 40;
 
+/// How often a span is halved to resolve what only the heights tell of. What is left is a step.
+const LEVELS_OF_A_STEP: usize = 12;
+
 /// How often a span is halved for the sake of derivatives alone, which may have a kink where the
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
@@ -47,8 +50,8 @@ impl<T: Real> PanelSet<T> {
         let [left, right] = panel.x;
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
-            let SampledBody { slope, bodies, noise, off, missed } =
-                by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
+            let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
+            let SampledBody { slope, bodies, noise, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -97,7 +100,19 @@ impl<T: Real> PanelSet<T> {
                 n = next;
                 continue;
             } else if !split {
-                self.check_slopes(gap)?;
+                // The heights tell of what is too narrow for the nodes.
+                let heights = self.check_heights(panel, bodies);
+                if heights.is_err() {
+                    // Beside a step in them any difference is large.
+                    if !trial.hides {
+                        self.check_slopes(gap)?;
+                    }
+                    if level >= LEVELS_OF_A_STEP {
+                        heights?;
+                    }
+                    split = true;
+                }
+                trial.hides = split;
             }
             (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
             return Ok(());
@@ -177,6 +192,9 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
+            kept[..N].copy_from_slice(slopes);
+        }
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
             seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.coarse));
         }

@@ -23,21 +23,29 @@ impl<T: Real> Several<T> {
     /// no further than in the next gap, given the conditions on these contacts.
     pub fn pull(&self, system: &System<T>, contact: usize, right: bool, distance: T) -> T {
         let on = self.parts[contact].on;
-        let x = if right { on.right + distance } else { on.left - distance };
-        let value = self.outside(0..self.count, x, Some((contact, distance)));
+        let place = |distance: T| if right { on.right + distance } else { on.left - distance };
+        let x = place(distance);
+        let value =
+            |distance| self.outside(0..self.count, place(distance), Some((contact, distance)));
         let in_gap = if right {
             Some(contact).filter(|k| k + 1 < self.count)
         } else {
             contact.checked_sub(1)
         };
         let Some(k) = in_gap else {
-            return -self.weight.beyond(right, x, distance) * value / T::pi();
+            return -self.weight.beyond(right, x, distance) * value(distance) / T::pi();
         };
-        let rest = self.parts[k + 1].on.left - self.parts[k].on.right - distance;
+        let width = self.parts[k + 1].on.left - self.parts[k].on.right;
+        let rest = width - distance;
         let distances = if right { [distance, rest] } else { [rest, distance] };
         let without = match self.weight.zeros().get(k) {
-            Some(&zero) => (value - system.at_zeros[k]) / (x - zero),
-            None => value,
+            Some(&zero) => {
+                // At the zero itself that is a derivative: by a place aside from it.
+                let aside = T::epsilon().sqrt() * width;
+                let distance = if (x - zero).abs() < aside { distance + aside } else { distance };
+                (value(distance) - system.at_zeros[k]) / (place(distance) - zero)
+            }
+            None => value(distance),
         };
         -self.weight.in_gap(k, x, distances) * without / T::pi()
     }

@@ -6,7 +6,7 @@ use super::super::near_far_sum::NearFarSum;
 use super::super::panel::{Panel, Series, within};
 use super::super::panel_set::PanelSet;
 use super::distant_contacts::DistantContacts;
-use crate::gap::{Gap, Sampler};
+use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MOST, SIZES, Table, by_size, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
@@ -120,59 +120,22 @@ impl<T: Real> OneOfSeveral<T> {
         }
         self.panel_set.turn(gap.tilt());
         if self.height.is_none() {
-            let mut sampler = Sampler::default();
             let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
-            let [first, second] = places;
-            let heights =
-                [sampler.height_untilted(gap, first)?, sampler.height_untilted(gap, second)?];
-            self.panel_set.cost += sampler.cost;
-            self.compare(places, heights, gap.tilt())?;
-            self.height = Some([first, heights[0]]);
+            let mut cost = Cost::default();
+            let [height, _] = self.panel_set.heights(gap, places, &mut cost)?;
+            self.panel_set.cost += cost;
+            self.height = Some([places[0], height]);
         }
         self.tilt = gap.tilt();
-        Ok(())
-    }
-
-    /// Whether heights of the gap before the bodies are turned go with the integral of the slope.
-    fn compare(&self, [from, to]: [T; 2], heights: [T; 2], tilt: T) -> Result<(), ContactError<T>> {
-        let by_slopes = self.rise(from, to) - tilt * (to - from);
-        let by_heights = heights[1] - heights[0];
-        let rounding = T::of(64.0) * T::epsilon() * (heights[0].abs() + heights[1].abs());
-        let tail = |tail: T, panel: &Panel<T>| tail.max(panel.tail);
-        let tail = self.panel_set.panels.iter().fold(T::zero(), tail);
-        let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
-        let allowed = rounding + share + T::of(8.0) * tail * (to - from);
-        if (by_heights - by_slopes).abs() > allowed {
-            return Err(ContactError::InconsistentHeights {
-                between: [from, to],
-                by_heights,
-                by_slopes,
-            });
-        }
         Ok(())
     }
 
     /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
     /// the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
-        self.height
-            .map_or(T::zero(), |[place, height]| height + self.tilt * place + self.rise(place, x))
-    }
-
-    /// `∫ g dx` from one place to another.
-    pub fn rise(&self, from: T, to: T) -> T {
-        if to < from {
-            return -self.rise(to, from);
-        }
-        let span = within(&self.panel_set.panels, Interval { left: from, right: to });
-        let mut sum = T::zero();
-        for (i, panel) in span.iter().enumerate() {
-            let start = if i == 0 { from } else { panel.x[0] };
-            let end = if i + 1 == span.len() { to } else { panel.x[1] };
-            sum += panel.half()
-                * (primitive(panel, panel.local(end)) - primitive(panel, panel.local(start)));
-        }
-        sum
+        self.height.map_or(T::zero(), |[place, height]| {
+            height + self.tilt * place + self.panel_set.rise(place, x)
+        })
     }
 
     /// Multiplies the slope by a weight, and makes ready for the conditions on the limits.
@@ -314,24 +277,6 @@ pub(super) fn multiply<T: Real>(
         }
     }
     (product, resolved, moved)
-}
-
-/// `∫ g ds` from 0 to s on a panel, in its own variable.
-fn primitive<T: Real>(panel: &Panel<T>, s: T) -> T {
-    let series = panel.coefficients();
-    let (half, mut sum) = (T::of(0.5), series[0] * s);
-    // ∫ T_k = (T_{k+1}/(k+1) - T_{k-1}/(k-1))/2
-    let (mut before, mut here) = (T::one(), s);
-    for (k, &a) in series.iter().enumerate().skip(1) {
-        let after = (s + s) * here - before;
-        sum += a * if k == 1 {
-            half * s * s
-        } else {
-            half * (after / T::count(k + 1) - before / T::count(k - 1))
-        };
-        (before, here) = (here, after);
-    }
-    sum
 }
 
 /// The rule on a span of the way through a gap.
