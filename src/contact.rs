@@ -325,7 +325,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { search: Some(strategy), ..self }
     }
 
-    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
+    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`]
     /// that has solved with another takes up this one.
     #[must_use]
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
@@ -383,7 +383,10 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
     /// [`ContactError::NoPeak`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
-    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment; where [`certified`](Self::certified), those of
+    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
+    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`], [`ContactError::BothRigid`] for materials;
+    /// [`ContactError::NoMaterials`], [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
+    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach; where [`certified`](Self::certified), those of
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());

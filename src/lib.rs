@@ -37,6 +37,8 @@
 //!   number of contacts is found; [`Solution::report`] says from where, and what was checked.
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
+//! - [`Material`], [`Solution::approach`], [`Solution::stiffness`], [`SpringTable`]: how far the bodies come together.
+//! - [`PartialSlip`]: a tangential force that friction carries.
 //! - [`Certificate`]: that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with [each contact](ContactRegion), moment,
 //!   [`LoadRates`], the gap beside the contact and a check of the equation on request. [`Solver`]: solving again and again; with the

@@ -96,7 +96,7 @@ impl<T: Real> Solution<'_, T> {
     /// use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References};
     ///
     /// // A steel roller of 10 mm between steel blocks, of which this is one: mm, MPa, N/mm.
-    /// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+    /// let roller = Parabola::new(10.0f64, [-1.0, 1.0])?;
     /// let steel = Material::elastic(210e3, 0.3);
     /// let contact = Contact::new(&Flat, &roller)?.materials(steel, steel, PlaneState::Strain);
     /// let solution = contact.solve(Control::Load(500.0))?;
@@ -129,7 +129,7 @@ impl<T: Real> Solution<'_, T> {
     /// use linecontact::profile::Parabola;
     /// use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References};
     ///
-    /// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+    /// let roller = Parabola::new(10.0f64, [-1.0, 1.0])?;
     /// let steel = Material::elastic(210e3, 0.3);
     /// let contact = Contact::new(&Flat, &roller)?.materials(Material::Rigid, steel, PlaneState::Strain);
     /// let solution = contact.solve(Control::Load(500.0))?;
