@@ -164,8 +164,11 @@ pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
     bodies: [Elasticity<T>; 2],
     references: References<T>,
-    /// The contact in which the bodies touched first.
-    first: usize,
+}
+
+/// The contact in which the bodies touched first, by its number, and the heights of the gap there.
+struct First<T> {
+    contact: usize,
     heights: UndeformedGap<T>,
 }
 
@@ -189,43 +192,55 @@ impl<'s, T: Real> Approaching<'s, T> {
                 return Err(ContactError::InvalidReference { length });
             }
         }
-        let first = UndeformedGap::new(solved, 0, Some(x))?;
-        let (mut least, mut first) = (first.least, (0, first));
+        Ok(Self { solved, bodies, references: *references })
+    }
+
+    fn first(&self) -> Result<First<T>, ContactError<T>> {
+        let (solved, x) = (self.solved, Some(self.references.x));
+        let mut first = First { contact: 0, heights: UndeformedGap::new(solved, 0, x)? };
         if let Some(several) = solved.several() {
-            least += several.height(0, false);
+            let mut least = several.height(0, false) + first.heights.least;
             for contact in 1..solved.contacts().len() {
-                let heights = UndeformedGap::new(solved, contact, Some(x))?;
+                let heights = UndeformedGap::new(solved, contact, x)?;
                 let lowest = several.height(contact, false) + heights.least;
                 if lowest < least {
-                    (least, first) = (lowest, (contact, heights));
+                    (least, first) = (lowest, First { contact, heights });
                 }
             }
         }
-        let (first, heights) = first;
-        Ok(Self { solved, bodies, references: *references, first, heights })
+        Ok(first)
     }
 
-    /// `Σ 1/(π M_i) ∫ p (k_i + 2 ln|ξ| - 2 G) ds` for a density p of a given integral.
+    /// What all lengths in logarithms are counted in.
+    fn scale(&self) -> T {
+        self.solved.contacts()[0].half_width()
+    }
+
+    /// `Σ 1/(π M_i) ∫ p (k_i + 2 ln|ξ| - 2 G) ds` for a density p of a given integral, with the G of this contact.
     fn sum(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
         load: T,
+        contact: usize,
     ) -> Result<T, ContactError<T>> {
-        let on = self.solved.contacts()[self.first];
-        let shares = self.bodies.map(|body| body.compliance);
         let smooth = self.smooth(integrals, load)?;
-        let mean = self.mean_logarithm(integrals, load, on)?;
-        let sum = shares[0] * (smooth[0] - mean - mean) + shares[1] * (smooth[1] - mean - mean);
-        Ok(sum * T::frac_1_pi())
+        let mean = self.mean_logarithm(integrals, load, self.solved.contacts()[contact])?;
+        Ok(self.both(smooth.map(|smooth| smooth - mean - mean)))
     }
 
-    /// `∫ p (k_i + 2 ln(|ξ|/L)) ds` of each body, with L the half-width of the first contact.
+    /// `Σ 1/(π M_i)` times what is given for each body.
+    fn both(&self, [lower, upper]: [T; 2]) -> T {
+        let shares = self.bodies.map(|body| body.compliance);
+        (shares[0] * lower + shares[1] * upper) * T::frac_1_pi()
+    }
+
+    /// `∫ p (k_i + 2 ln|ξ|) ds` of each body.
     fn smooth(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
         load: T,
     ) -> Result<[T; 2], ContactError<T>> {
-        let scale = self.solved.contacts()[self.first].half_width();
+        let scale = self.scale();
         let References { x, lower, upper } = self.references;
         let (two, one) = (T::of(2.0), T::one());
         let [lower, upper] = [(lower, self.bodies[0]), (upper, self.bodies[1])];
@@ -252,7 +267,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         }
     }
 
-    /// `∫ p (G - ln L) ds` of a contact, with L the half-width of the first.
+    /// `∫ p G ds` of a contact.
     fn mean_logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
@@ -260,7 +275,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         on: Interval<T>,
     ) -> Result<T, ContactError<T>> {
         let (contacts, half) = (self.solved.contacts(), T::of(0.5));
-        let (scale, half_width) = (contacts[self.first].half_width(), on.half_width());
+        let (scale, half_width) = (self.scale(), on.half_width());
         let inside = (half * half_width / scale).ln();
         if contacts.len() == 1 {
             return Ok(load * inside);
@@ -275,46 +290,89 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// The approach of the bodies alone, and its rate dδ/dF.
     pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
-        Ok([self.of_bodies(&Integrals::new(self.solved)?)?, self.rate()?])
+        let approach = self.of_bodies(&Integrals::new(self.solved)?, &self.first()?)?;
+        Ok([approach, self.rate()?])
     }
 
-    fn of_bodies(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<T, ContactError<T>> {
-        let UndeformedGap { mean, least, .. } = self.heights;
-        Ok(mean - least + self.sum(integrals, self.solved.found.load)?)
+    fn of_bodies(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+        first: &First<T>,
+    ) -> Result<T, ContactError<T>> {
+        let UndeformedGap { mean, least, .. } = first.heights;
+        Ok(mean - least + self.sum(integrals, self.solved.found.load, first.contact)?)
     }
 
+    /// dδ/dF: with ∂P/∂F any contact may be the first.
     fn rate(&self) -> Result<T, ContactError<T>> {
         let rates = LoadRates::new(self.solved)?;
-        let integrals = Integrals::of_smooth(&rates, self.solved.contacts());
-        self.sum(&integrals, T::one())
+        if let [on] = *self.solved.contacts() {
+            let References { lower, upper, .. } = self.references;
+            let [one, other] = self.bodies;
+            return Ok(self.both([self.of_punch(on, lower, one), self.of_punch(on, upper, other)]));
+        }
+        self.sum(&Integrals::of_smooth(&rates, self.solved.contacts()), T::one(), 0)
+    }
+
+    /// `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact, under a unit load. With the
+    /// ellipse through the reference whose foci are the limits, and η the logarithm of the sum of its half-axes
+    /// over L, the first part is 2 η; the second is the real part of `d ∂/∂d`.
+    fn of_punch(&self, on: Interval<T>, reference: Reference<T>, body: Elasticity<T>) -> T {
+        let (one, two, half_width) = (T::one(), T::of(2.0), on.half_width());
+        match reference {
+            _ if body.compliance.is_zero() => T::zero(),
+            Reference::Disc(radius) => two * ((T::of(4.0) * radius / half_width).ln() - one),
+            Reference::Length(length) => two * (two * length / half_width).ln(),
+            Reference::Depth(depth) => {
+                let x = self.references.x;
+                let along = [x - on.left, on.right - x];
+                let radii = along.map(|along| along.hypot(depth));
+                // r less the distance along x, without cancellation.
+                let excess = |i: usize| {
+                    let (along, radius) = (along[i], radii[i]);
+                    let beside = along > T::zero();
+                    if beside { depth * (depth / (radius + along)) } else { radius - along }
+                };
+                // cosh η - 1, with cosh η = (r₁ + r₂)/(2 L), and sinh η.
+                let rise = (excess(0) + excess(1)) / (two * half_width);
+                let sinh = (rise * (rise + two)).sqrt();
+                let eta = (rise + sinh).ln_1p();
+                // d ∂η/∂d
+                let turn =
+                    depth * (depth / radii[0] + depth / radii[1]) / (two * half_width * sinh);
+                two * eta - turn / (one - body.ratio)
+            }
+        }
     }
 
     fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
         let (integrals, load) = (Integrals::new(self.solved)?, self.solved.found.load);
         let smooth = self.smooth(&integrals, load)?;
-        let logarithm = self.logarithm(&integrals, load)?;
+        let first = self.first()?;
+        let logarithm = self.logarithm(&integrals, load, &first)?;
         let of = |i: usize| {
             self.bodies[i].compliance * T::frac_1_pi() * (smooth[i] - T::of(2.0) * logarithm)
         };
-        Ok(Approach { bodies: self.of_bodies(&integrals)?, lower: of(0), upper: of(1) })
+        Ok(Approach { bodies: self.of_bodies(&integrals, &first)?, lower: of(0), upper: of(1) })
     }
 
-    /// `∫ P ln(|ξ|/L) ds`, with L the half-width of the first contact.
+    /// `∫ P ln|ξ| ds`.
     fn logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
         load: T,
+        first: &First<T>,
     ) -> Result<T, ContactError<T>> {
         let (Solved { kappa, .. }, x) = (self.solved, self.references.x);
         let contacts = self.solved.contacts();
         let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
-            let scale = contacts[self.first].half_width();
+            let scale = self.scale();
             let logarithm = |distance: T, strength: T| [strength * (distance.abs() / scale).ln()];
             return integrals.over(x, logarithm).map(|[sum]| sum);
         };
         // In a contact it changes as the heights do.
-        let heights = if i == self.first {
-            self.heights
+        let heights = if i == first.contact {
+            first.heights
         } else {
             UndeformedGap::new(self.solved, i, Some(x))?
         };

@@ -126,10 +126,7 @@ impl<T: Real> UndeformedGap<T> {
         let (zero, on) = (T::zero(), solved.contacts()[contact]);
         let at = at.filter(|&x| x >= on.left && x <= on.right);
         let mut slopes = Slopes { solved, contact, on, sampler: Sampler::default() };
-        let mut cuts: Vec<T> = solved.gap.breakpoints(on).collect();
-        cuts.extend(at);
-        cuts.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        let angles = cuts.iter().map(|&x| on.angle(x));
+        let angles = solved.gap.breakpoints(on).map(|x| on.angle(x));
         let angles: Vec<T> =
             std::iter::once(T::pi()).chain(angles).chain(std::iter::once(zero)).collect();
         // The leftmost last.
@@ -147,9 +144,6 @@ impl<T: Real> UndeformedGap<T> {
         let mut before = slopes.at_limit(on.left);
         while let Some(span) = pending.pop() {
             let [from, to] = span.theta;
-            if stop == Some(from) {
-                found.at = Some(height);
-            }
             let middle = T::of(0.5) * (from + to);
             let halves = [slopes.span([from, middle])?, slopes.span([middle, to])?];
             let agrees = |k: usize| {
@@ -165,7 +159,10 @@ impl<T: Real> UndeformedGap<T> {
                 continue;
             }
             for half in halves {
-                let start = half.theta[0];
+                let [start, end] = half.theta;
+                if let Some(stop) = stop.filter(|&stop| stop <= start && stop >= end) {
+                    found.at = Some(height + slopes.span([start, stop])?.sum[0]);
+                }
                 for node in half.nodes {
                     slopes.dip(&mut found, [before, Some(node)], height, start)?;
                     before = Some(node);
@@ -179,9 +176,6 @@ impl<T: Real> UndeformedGap<T> {
         }
         let last = slopes.at_limit(on.right);
         slopes.dip(&mut found, [before, last], height, zero)?;
-        if stop == Some(zero) {
-            found.at = Some(height);
-        }
         Ok(Self { mean: mean / T::pi(), ..found })
     }
 }
