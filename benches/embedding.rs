@@ -48,7 +48,7 @@ fn roller<T: Real>(radius: f64, tilt: f64, pieces: usize) -> Box<dyn ParametricP
             let [y, x] = [double * half_sin * half_sin, double * half_sin * half_cos];
             CurvePoint { x, y: y + tilt * x, dx: radius - y, dy: x + tilt * (radius - y) }
         })
-        .bulging(Convexity::Convex)
+        .with_convexity(Convexity::Convex)
     };
     if pieces == 1 {
         return Box::new(arc(-1.0, 1.0));

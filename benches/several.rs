@@ -86,7 +86,7 @@ fn case(name: &str) -> Case {
         });
         // π F for a half-width of half the radius: 2 (K(m) - E(m)), m = 1/4.
         let load = 0.436_576_291_006_337_8 / PI;
-        Case { body: Box::new(curve.bulging(convexity)), load, contacts: [1, 1] }
+        Case { body: Box::new(curve.with_convexity(convexity)), load, contacts: [1, 1] }
     };
     match name {
         "word" => circle(Convexity::Convex),

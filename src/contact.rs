@@ -27,7 +27,7 @@ use crate::quadrature::panels;
 use crate::quadrature::{Integrator, Moments, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{
-    ContactState, PartialSlip, References, Report, Shear, Solution, Start, Verdict, certify,
+    ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
 };
 use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
 use edges::{Conditions, Given};
@@ -362,7 +362,7 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of the
     /// equations, with tension inside or overlap outside if that is what solves them, and
-    /// [`Verdict::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
+    /// [`Outcome::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
     /// or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
@@ -537,7 +537,7 @@ impl<'b, T: Real> Contact<'b, T> {
         let mut cost = Cost::default();
         let mut found = match (control, self.edge_pressure) {
             (Control::Load(load), Some(wanted)) => {
-                workspace.report.add(Start::Middle, Verdict::Unchecked);
+                workspace.report.add(Start::Middle, Outcome::Unchecked);
                 self.by_edge_pressure(wanted, integrator, load, &mut cost)?
             }
             (Control::Load(load), None) => {

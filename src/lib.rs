@@ -50,15 +50,21 @@
 //! # Example
 //! ```
 //! use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+//! use std::f64::consts::PI;
 //!
-//! let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
-//! let contact = Contact::new(&Flat, &parabola)?;
-//! let solution = contact.solve(Control::Load(0.02))?;
-//! assert!((solution.a() - 0.2).abs() < 1e-15);
-//! assert!((solution.b() - 0.2).abs() < 1e-15);
+//! // A roller of 10 mm radius as a parabola, E* of steel on steel, 500 N/mm: mm, MPa, N/mm.
+//! let (radius, modulus, load) = (10.0, 115e3, 500.0);
+//! let parabola = Curve::new([-1.0, 1.0], move |k: f64| {
+//!     CurvePoint { x: k, y: k * k / (2.0 * radius), dx: 1.0, dy: k / radius }
+//! });
+//! let contact = Contact::new(&Flat, &parabola)?.contact_modulus(modulus);
+//! let solution = contact.solve(Control::Load(load))?;
+//! let hertz = (4.0 * load * radius / (PI * modulus)).sqrt(); // 0.235 mm
+//! assert!((solution.a() / hertz - 1.0).abs() < 1e-14);
+//! assert!((solution.b() / hertz - 1.0).abs() < 1e-14);
 //!
 //! let pressure = solution.pressure()?;
-//! let exact = (0.2f64.powi(2) - 0.1f64.powi(2)).sqrt() / std::f64::consts::PI;
+//! let exact = 2.0 * load / (PI * hertz) * (1.0 - (0.1 / hertz).powi(2)).sqrt(); // 1225 MPa
 //! assert!((pressure.at(0.1)? / exact - 1.0).abs() < 1e-14);
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
@@ -105,10 +111,10 @@ pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::stress;
 pub use solution::{Approach, Reference, References};
-pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
 pub use solution::{
-    ContactRegion, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary, Trial, Verdict,
+    Attempt, ContactRegion, Outcome, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary,
 };
+pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
 pub use solution::{PartialSlip, Shear, SlipStress, Traction};
 pub use solver::Solver;
 pub use spring::{SpringPoint, SpringTable};

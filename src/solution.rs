@@ -55,7 +55,7 @@ pub use peak::Peak;
 pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
 pub use region::ContactRegion;
-pub use report::{Report, Start, Trial, Verdict};
+pub use report::{Attempt, Outcome, Report, Start};
 pub(crate) use solved::Solved;
 pub use steepness::STEEPEST_HALF_PLANE;
 pub use summary::Summary;

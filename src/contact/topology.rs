@@ -18,7 +18,7 @@ use super::{Contact, peak};
 use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::solution::{ContactState, largest_pressure};
-use crate::solution::{Report, Start, Verdict};
+use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Interval, Real};
 
 /// Sets of contacts tried before the search is given up.
@@ -131,7 +131,7 @@ pub(super) fn find<T: Real>(
     let turns = search.turns();
     if contact.single_interval || given {
         let (start, found) = search.one(false);
-        search.workspace.report.add(start, Verdict::Unchecked);
+        search.workspace.report.add(start, Outcome::Unchecked);
         let found = found?;
         // Between two given limits a load leaves nothing to be sought: that is the equation's solution, whatever it
         // is. Bodies that turn have a contact.
@@ -151,11 +151,11 @@ pub(super) fn find<T: Real>(
         match found {
             Ok(found) => match search.checked(&found, convex)? {
                 None => {
-                    search.workspace.report.add(start, Verdict::Passed);
+                    search.workspace.report.add(start, Outcome::Passed);
                     return Ok(found);
                 }
                 Some(error) => {
-                    search.workspace.report.add(start, Verdict::of(&error));
+                    search.workspace.report.add(start, Outcome::of(&error));
                     fault = Some(error);
                 }
             },
@@ -167,7 +167,7 @@ pub(super) fn find<T: Real>(
                 return Err(error);
             }
             Err(error) => {
-                search.workspace.report.add(start, Verdict::NotFound);
+                search.workspace.report.add(start, Outcome::NotFound);
                 fault = Some(error);
             }
         }
@@ -321,7 +321,7 @@ impl<T: Real> Search<'_, '_, T> {
         if !self.may_be_several() {
             return Err(fault.unwrap_or(no_balance));
         }
-        let first = fault.clone().filter(|fault| Verdict::of(fault) == Verdict::NotFound);
+        let first = fault.clone().filter(|fault| Outcome::of(fault) == Outcome::NotFound);
         let mut fault = fault;
         let ends = self.contact.ends();
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
@@ -360,7 +360,7 @@ impl<T: Real> Search<'_, '_, T> {
             let found = match self.converge(&conditions, corners, ends) {
                 Ok(found) => found,
                 Err(error) if error.may_be_several() => {
-                    self.workspace.report.add(start, Verdict::NotFound);
+                    self.workspace.report.add(start, Outcome::NotFound);
                     (start, fault) = (Start::ActiveSet, Some(error));
                     continue;
                 }
@@ -369,16 +369,16 @@ impl<T: Real> Search<'_, '_, T> {
             let outcome = match found {
                 Ok(found) => match self.checked(&found, false)? {
                     None => {
-                        self.workspace.report.add(start, Verdict::Passed);
+                        self.workspace.report.add(start, Outcome::Passed);
                         return Ok(found);
                     }
                     Some(error) => {
-                        self.workspace.report.add(start, Verdict::of(&error));
+                        self.workspace.report.add(start, Outcome::of(&error));
                         // Where one overlap follows another, cells see all of them at once.
-                        let again =
-                            start == Start::Trial && self.workspace.tension_spans.spans.is_empty();
+                        let again = start == Start::Attempt
+                            && self.workspace.tension_spans.spans.is_empty();
                         start = if self.mend(&error) && !again {
-                            Start::Trial
+                            Start::Attempt
                         } else {
                             Start::ActiveSet
                         };
@@ -399,38 +399,38 @@ impl<T: Real> Search<'_, '_, T> {
             let verdict = match outcome {
                 SeveralOutcome::Closed(i) => {
                     on[i].right = on.remove(i + 1).right;
-                    Verdict::Merged
+                    Outcome::Merged
                 }
                 SeveralOutcome::Lost(i) if on.len() > 1 => {
                     on.remove(i);
-                    Verdict::Lost
+                    Outcome::Lost
                 }
                 SeveralOutcome::Beyond(0) if at_corner[0] => {
                     on[0].left = ends[0];
-                    Verdict::ReachedCorner
+                    Outcome::ReachedCorner
                 }
                 SeveralOutcome::Beyond(1) if at_corner[1] => {
                     on[last].right = ends[1];
-                    Verdict::ReachedCorner
+                    Outcome::ReachedCorner
                 }
                 // This end is reached under less.
                 SeveralOutcome::Beyond(side) if self.end.is_some() => {
                     self.end = Some(side);
-                    Verdict::ReachedCorner
+                    Outcome::ReachedCorner
                 }
                 _ => {
                     if let SeveralOutcome::Beyond(side) = outcome {
                         self.runs_out = Some(side);
                     }
                     // Where contacts were mended cells are to look; of others nothing is to be learnt.
-                    if start != Start::Trial {
+                    if start != Start::Attempt {
                         on.clear();
                     }
-                    Verdict::NotFound
+                    Outcome::NotFound
                 }
             };
             self.workspace.report.add(start, verdict);
-            start = if verdict == Verdict::NotFound { Start::ActiveSet } else { Start::Trial };
+            start = if verdict == Outcome::NotFound { Start::ActiveSet } else { Start::Attempt };
         }
         // What one contact alone has failed by says more than that it was not found.
         let runs_out = self.runs_out.map(|side| ContactError::EndReached {

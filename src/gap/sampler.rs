@@ -38,6 +38,12 @@ impl<T: Real> Default for Sampler<T> {
 }
 
 impl<T: Real> Sampler<T> {
+    /// The largest `|X(k) - x|` that the inversions have left so far, a length: of an integrator that samples by this
+    /// it is [`Moments::inversion`](crate::quadrature::Moments::inversion).
+    pub fn missed(&self) -> T {
+        self.missed
+    }
+
     /// The slope of the gap `f₂' - f₁'` at `x`. A breakpoint belongs to the piece on its left.
     ///
     /// # Errors

@@ -29,7 +29,7 @@ impl<T: Real, F: Fn(T) -> CurvePoint<T> + Send + Sync> Curve<T, F> {
 
     /// The same, given which way it bulges: see [`Convexity`].
     #[must_use]
-    pub fn bulging(self, convexity: Convexity) -> Self {
+    pub fn with_convexity(self, convexity: Convexity) -> Self {
         Self { convexity, ..self }
     }
 }

@@ -3,42 +3,42 @@
 use crate::ContactError;
 use crate::Real;
 
-/// The most trials that are told apart; of more the last is kept.
+/// The most attempts that are told apart; of more the last is kept.
 const MOST: usize = 12;
 
 /// The starts that a solve has tried, in their order, and what became of each.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
-/// use linecontact::{Contact, Control, Flat, Start, Trial, Verdict};
+/// use linecontact::{Contact, Control, Flat, Start, Attempt, Outcome};
 ///
 /// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
 /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
 /// let report = solution.report();
 /// assert!(report.is_checked());
 /// // Bodies that bulge towards each other touch in one interval, and one start is enough.
-/// assert_eq!(report.trials(), [Trial { start: Start::Middle, verdict: Verdict::Passed }]);
+/// assert_eq!(report.attempts(), [Attempt { start: Start::Middle, outcome: Outcome::Passed }]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(from = "Vec<Trial>", into = "Vec<Trial>")
+    serde(from = "Vec<Attempt>", into = "Vec<Attempt>")
 )]
 pub struct Report {
-    trials: [Trial; MOST],
+    attempts: [Attempt; MOST],
     count: usize,
 }
 
 /// One start, and what became of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Trial {
+pub struct Attempt {
     /// Where the contacts were sought.
     pub start: Start,
     /// What the checks say of what was found.
-    pub verdict: Verdict,
+    pub outcome: Outcome,
 }
 
 /// Where contacts were sought.
@@ -59,15 +59,15 @@ pub enum Start {
     Last,
     /// Where a coarse active set on cells of constant pressure has them.
     ActiveSet,
-    /// Where the trial before has left them.
-    Trial,
+    /// Where the attempt before has left them.
+    Attempt,
 }
 
-/// What became of a trial.
+/// What became of a attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Verdict {
+pub enum Outcome {
     /// It is the contact: the pressure is nowhere negative and the bodies do not overlap, as far as they
     /// were looked at. Bodies that [bulge](crate::profile::Convexity) towards each other need no look.
     Passed,
@@ -88,7 +88,7 @@ pub enum Verdict {
     NotFound,
 }
 
-impl Verdict {
+impl Outcome {
     pub(crate) fn of<T: Real>(error: &ContactError<T>) -> Self {
         match error {
             ContactError::Tension { .. } => Self::Tension,
@@ -100,40 +100,40 @@ impl Verdict {
 
 impl Report {
     pub(crate) fn new() -> Self {
-        let trial = Trial { start: Start::Middle, verdict: Verdict::NotFound };
-        Self { trials: [trial; MOST], count: 0 }
+        let attempt = Attempt { start: Start::Middle, outcome: Outcome::NotFound };
+        Self { attempts: [attempt; MOST], count: 0 }
     }
 
-    pub(crate) fn add(&mut self, start: Start, verdict: Verdict) {
+    pub(crate) fn add(&mut self, start: Start, outcome: Outcome) {
         self.count = (self.count + 1).min(MOST);
-        self.trials[self.count - 1] = Trial { start, verdict };
+        self.attempts[self.count - 1] = Attempt { start, outcome };
     }
 
-    /// The trials, the last of which has led to the solution.
+    /// The attempts, the last of which has led to the solution.
     #[must_use]
-    pub fn trials(&self) -> &[Trial] {
-        &self.trials[..self.count]
+    pub fn attempts(&self) -> &[Attempt] {
+        &self.attempts[..self.count]
     }
 
     /// Whether the solution was checked, and is the contact as far as the checks can see.
     #[must_use]
     pub fn is_checked(&self) -> bool {
-        self.trials().last().is_some_and(|trial| trial.verdict == Verdict::Passed)
+        self.attempts().last().is_some_and(|attempt| attempt.outcome == Outcome::Passed)
     }
 }
 
 #[cfg(feature = "serde")]
-impl From<Vec<Trial>> for Report {
-    fn from(trials: Vec<Trial>) -> Self {
+impl From<Vec<Attempt>> for Report {
+    fn from(attempts: Vec<Attempt>) -> Self {
         let mut report = Self::new();
-        trials.into_iter().for_each(|Trial { start, verdict }| report.add(start, verdict));
+        attempts.into_iter().for_each(|Attempt { start, outcome }| report.add(start, outcome));
         report
     }
 }
 
 #[cfg(feature = "serde")]
-impl From<Report> for Vec<Trial> {
+impl From<Report> for Vec<Attempt> {
     fn from(report: Report) -> Self {
-        report.trials().to_vec()
+        report.attempts().to_vec()
     }
 }

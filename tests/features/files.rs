@@ -235,14 +235,14 @@ fn results_are_kept() {
 
 #[test]
 fn a_report_reads_back_its_trials() {
-    let report = bumps().report().trials().to_vec();
+    let report = bumps().report().attempts().to_vec();
     let many: Vec<_> = report.iter().copied().cycle().take(30).collect();
     let read: Report = serde_json::from_str(&serde_json::to_string(&many).unwrap()).unwrap();
     // As many as a report keeps, and the last of them.
-    assert_eq!(read.trials().len(), 12);
-    assert_eq!(read.trials().last(), many.last());
+    assert_eq!(read.attempts().len(), 12);
+    assert_eq!(read.attempts().last(), many.last());
     let none: Report = serde_json::from_str("[]").unwrap();
-    assert!(none.trials().is_empty() && !none.is_checked());
+    assert!(none.attempts().is_empty() && !none.is_checked());
 }
 
 #[test]

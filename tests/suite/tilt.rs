@@ -104,7 +104,7 @@ fn a_wedge_leans() {
             let theta = f64::atan2(1.0, -2.0 * t * m / (load * load));
             let solution = contact.solve(moment(load, m)).unwrap();
             // Where the tip is close to an edge, the first search may not find it.
-            let trials = solution.report().trials().len();
+            let trials = solution.report().attempts().len();
             assert!(trials == 1 || share > 2.0, "{load} {share}");
             near(solution.tilt(), t * (1.0 - 2.0 * theta / PI), t, "tilt");
             let half_width = load / (t * theta.sin());

@@ -353,7 +353,7 @@ fn a_report_is_of_one_solution_only() {
     let mut solver = Solver::new();
     for load in [0.01, 1.0, 3.0, 0.1] {
         let solution = solver.solve(&contact, Control::Load(load)).unwrap();
-        assert_eq!(solution.report().trials().len(), 1, "F = {load}");
+        assert_eq!(solution.report().attempts().len(), 1, "F = {load}");
         assert!(solution.report().is_checked());
     }
 }
