@@ -322,9 +322,19 @@ fn moved<T: Real>(
                 Given::Centre { .. } => along.max(-one).min(one),
                 _ => along + lean * (wider - asked),
             };
-            Interval {
+            let on = Interval {
                 left: on.left + (along - wider) * half_width,
                 right: on.right + (along + wider) * half_width,
+            };
+            match conditions.given {
+                // Rounded where it was far from x = 0, the width that is given would stay so.
+                Given::HalfWidth(given)
+                    if (on.half_width() - given).abs()
+                        > T::epsilon() * (on.left.abs() + on.right.abs()) =>
+                {
+                    Interval { left: on.centre() - given, right: on.centre() + given }
+                }
+                _ => on,
             }
         }
         [left, right] => Interval {
