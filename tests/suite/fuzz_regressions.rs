@@ -525,3 +525,19 @@ fn a_narrow_step_far_from_the_middle_of_the_bodies() {
         }
     }
 }
+
+/// Rounded where the search began, the half-width stayed so. (Seed 152203: limits off by 1.7e-11 of it at an
+/// estimate of 9.6e-15.)
+#[test]
+fn a_half_width_is_what_was_given_however_far_the_start() {
+    for half_width in [1e-6, 1.0999302512625333e-5, 7.790386094239691e-5, 1e-3] {
+        for start in [-3.1039, 2.814513, 1.7673] {
+            let contact = on_flat(graph(-4.5, 4.75, |x| [x.cosh(), x.sinh()]));
+            let contact = contact.start(Interval { left: start, right: start + 1e-6 });
+            let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+            let off = (solution.a() - half_width).abs().nan_max((solution.b() - half_width).abs());
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= (estimate + 1e-15) * half_width, "{half_width} {start}: {off:e}");
+        }
+    }
+}
