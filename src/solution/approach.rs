@@ -89,7 +89,10 @@ pub struct Approach<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// How far the bodies have come together.
+    /// How far the bodies have come together, to about 1e-12 of the integral of the logarithm.
+    ///
+    /// It takes about as long as the stress at a point, tens of microseconds, and no evaluation with
+    /// [`Panels`](crate::Panels); longer for depths that are a small share of the half-width.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -120,7 +123,8 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// The stiffness dF/dδ of the bodies against each other, a pressure: by how much the load per unit length
-    /// grows with their [approach](Self::approach). With a tilt, at a fixed tilt.
+    /// grows with their [approach](Self::approach). With a tilt, at a fixed tilt. Of one contact it takes no longer than
+    /// a pressure.
     ///
     /// The bodies come nearer to each other with every load. (The surface of one of them need not come nearer to a
     /// point close below it, `Approach::upper`: beside the contact it may be lifted while the gap closes.)
