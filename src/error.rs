@@ -378,7 +378,9 @@ pub enum ContactError<T: Real> {
         samples: usize,
     },
     /// The tolerance of the panels is negative, one or more, or NaN.
-    #[error("{tolerance:?} is no tolerance: give a number from 0 (the default) to below 1")]
+    #[error(
+        "{tolerance:?} is no tolerance: give a number below 1, and not negative; a table needs one above 0"
+    )]
     InvalidTolerance {
         /// The tolerance as given.
         tolerance: T,
@@ -517,8 +519,11 @@ pub enum ContactError<T: Real> {
     /// each of them gives.
     #[error("the approach depends on E and ν of both bodies: give them by Contact::materials")]
     NoMaterials,
-    /// The depth, radius or length of a reference is not a positive finite number.
-    #[error("a reference at {length:?}: its depth, radius or length must be positive and finite")]
+    /// The depth, radius or length of a reference is not a positive finite number, or a disc is smaller than the contact.
+    #[error(
+        "a reference at {length:?}: its depth, radius or length must be positive and finite, and a disc larger \
+         than the contact"
+    )]
     InvalidReference {
         /// As given.
         length: T,
@@ -550,7 +555,7 @@ pub enum ContactError<T: Real> {
     /// The approach to these references does not grow with the load: no load goes with it alone.
     #[error(
         "under the load {load:?} the approach falls by {rate:?} with each unit of it: the references are \
-         too close to the surface; put them deeper, or at an x inside the contact"
+         too close to the surface; put them deeper, take larger lengths, or an x inside the contact"
     )]
     ApproachFalls {
         /// Where it was seen.

@@ -121,7 +121,14 @@ impl<T: Real> Solver<T> {
         contact.check_shear(&shear)?;
         let normal = self.solve(contact, control)?;
         let (sticking, load) = contact.sticking(&normal, &shear)?;
-        let stick = self.solve(&sticking, Control::Load(load))?;
+        let stick = self.solve(&sticking, Control::Load(load)).map_err(|error| {
+            if shear.tension.is_zero() || error.kind() != ErrorKind::Solve {
+                return error;
+            }
+            let why =
+                "the tension is so large that the bodies would stick off each other; lower it";
+            ContactError::SlipNotSupported { why }
+        })?;
         PartialSlip::new(normal, stick, shear)
     }
 }

@@ -93,8 +93,13 @@ impl<T: Real> SpringTable<T> {
     ) -> Result<Self, ContactError<T>> {
         let [least, largest] = loads;
         if !(least > T::zero() && least < largest && largest.is_finite()) {
-            let load = if least > T::zero() { largest } else { least };
-            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
+            let is_least = !(least > T::zero() && least.is_finite());
+            let (quantity, value) = if is_least {
+                ("least load", least)
+            } else {
+                ("largest load, which must be more than the least,", largest)
+            };
+            return Err(ContactError::InvalidLoad { quantity, value });
         }
         if !(tolerance > T::zero() && tolerance < T::one()) {
             return Err(ContactError::InvalidTolerance { tolerance });

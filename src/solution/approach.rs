@@ -53,7 +53,7 @@ pub enum Reference<T> {
     /// The point at this depth below the surface, a length: the half-plane as it is.
     Depth(T),
     /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
-    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6).
+    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). It must be larger than the contact.
     Disc(T),
     /// ℓ in `2 ln(ℓ/|x - s|)`, a length. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
     Length(T),
@@ -67,8 +67,8 @@ pub enum Reference<T> {
     serde(deny_unknown_fields)
 )]
 pub struct References<T> {
-    /// The x below and above which they are, on the bodies. Far from the contact it does not matter; at a depth of
-    /// a few half-widths it does.
+    /// The x below and above which they are, on the bodies. It matters for depths of a few half-widths, not for those
+    /// far larger, nor for discs and lengths.
     pub x: T,
     /// Of body 1.
     pub lower: Reference<T>,
@@ -80,7 +80,8 @@ pub struct References<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Approach<T> {
-    /// δ, how much nearer to each other the two references are than when the bodies just touched: a length.
+    /// δ, how much nearer to each other the two references are than when the bodies, turned as they are, just touched: a
+    /// length.
     pub bodies: T,
     /// δ₁, how much nearer the surface of body 1 at x is to its own reference; of a rigid body 0.
     pub lower: T,
@@ -126,7 +127,7 @@ impl<T: Real> Solution<'_, T> {
     /// grows with their [approach](Self::approach). With a tilt, at a fixed tilt. Of one contact it takes no longer than
     /// a pressure.
     ///
-    /// The bodies come nearer to each other with every load. (The surface of one of them need not come nearer to a
+    /// Bodies come nearer to each other with every load, for all depths and for discs larger than the contact. (The surface of one of them need not come nearer to a
     /// point close below it, `Approach::upper`: beside the contact it may be lifted while the gap closes.)
     ///
     /// ```
@@ -184,6 +185,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(ContactError::NoMaterials)?;
         let References { x, lower, upper } = *references;
+        let half_width = solved.found.interval.half_width();
         let range = solved.gap.range();
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
@@ -191,7 +193,9 @@ impl<'s, T: Real> Approaching<'s, T> {
         for (reference, body) in [lower, upper].into_iter().zip(bodies) {
             let (Reference::Depth(length) | Reference::Disc(length) | Reference::Length(length)) =
                 reference;
-            let valid = length.is_finite() && length > T::zero();
+            // The formula of the disc is for contacts that are small beside it.
+            let is_large = !matches!(reference, Reference::Disc(radius) if radius <= half_width);
+            let valid = length.is_finite() && length > T::zero() && is_large;
             if !(valid || body.compliance.is_zero()) {
                 return Err(ContactError::InvalidReference { length });
             }
@@ -339,11 +343,15 @@ impl<'s, T: Real> Approaching<'s, T> {
                 };
                 // cosh η - 1, with cosh η = (r₁ + r₂)/(2 L), and sinh η.
                 let rise = (excess(0) + excess(1)) / (two * half_width);
-                let sinh = (rise * (rise + two)).sqrt();
+                let sinh = rise.sqrt() * (rise + two).sqrt();
+                // So close to the surface nothing moves.
+                if sinh.is_zero() {
+                    return sinh;
+                }
                 let eta = (rise + sinh).ln_1p();
                 // d ∂η/∂d
                 let turn =
-                    depth * (depth / radii[0] + depth / radii[1]) / (two * half_width * sinh);
+                    (depth / radii[0] + depth / radii[1]) * (depth / (two * half_width) / sinh);
                 two * eta - turn / (one - body.ratio)
             }
         }

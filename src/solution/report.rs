@@ -20,7 +20,7 @@ const MOST: usize = 12;
 /// assert_eq!(report.attempts(), [Attempt { start: Start::Middle, outcome: Outcome::Passed }]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -119,6 +119,12 @@ impl Report {
     #[must_use]
     pub fn is_checked(&self) -> bool {
         self.attempts().last().is_some_and(|attempt| attempt.outcome == Outcome::Passed)
+    }
+}
+
+impl std::fmt::Debug for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Report").field("attempts", &self.attempts()).finish()
     }
 }
 

@@ -236,6 +236,26 @@ fn a_flat_punch_is_as_stiff_under_any_load() {
     }
 }
 
+/// Squares of the depth are beyond the numbers, or below them.
+#[test]
+fn no_depth_is_too_small_or_too_large() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact =
+        Contact::new(&Flat, &body).unwrap().materials(Material::Rigid, STEEL, PlaneState::Strain);
+    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
+    for x in [0.0, 0.05, 0.3] {
+        // From afar 2 ln(2d/L) - 1/(1 - ν), with L = 0.1.
+        let exact = share(STEEL) * (2.0 * (20.0f64.ln() + 300.0 * 10.0f64.ln()) - 1.0 / 0.7);
+        let stiffness = solution.stiffness(&deep(x, 1e300)).unwrap();
+        assert!((stiffness * exact - 1.0).abs() < 1e-13, "{x}: {stiffness}");
+        // Under the contact nothing moves; beside it the gap closes.
+        for depth in [1e-150, 1e-200, 1e-300] {
+            let stiffness = solution.stiffness(&deep(x, depth)).unwrap();
+            assert!(stiffness > if x > 0.1 { 0.1 } else { 1e100 }, "{x} {depth}: {stiffness}");
+        }
+    }
+}
+
 #[test]
 fn the_load_of_an_approach_is_that_which_has_it() {
     let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
@@ -403,6 +423,11 @@ fn what_cannot_be_answered_is_refused() {
         let error = solution.approach(&deep(0.0, depth)).unwrap_err();
         assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
     }
+    // The formula of a disc is for contacts that are small beside it.
+    let disc = |radius| References { lower: Reference::Disc(radius), ..deep(0.0, 1.0) };
+    let error = solution.approach(&disc(0.99 * solution.a())).unwrap_err();
+    assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
+    assert!(solution.stiffness(&disc(1.01 * solution.a())).unwrap() > 0.0);
     for x in [-1.5, f64::NAN] {
         let error = solution.approach(&deep(x, 1.0)).unwrap_err();
         assert!(matches!(error, ContactError::OutsideBodies { .. }), "{error}");

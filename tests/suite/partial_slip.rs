@@ -264,6 +264,9 @@ fn what_does_not_slip_in_part_is_refused() {
         let error = error(shear(force, tension));
         assert!(matches!(error, ContactError::ReversedSlip { .. }), "{force} {tension}: {error}");
     }
+    // Off the bodies altogether.
+    let error = error(shear(0.01, 1e3));
+    assert!(matches!(error, ContactError::SlipNotSupported { .. }), "{error}");
     let materials = |lower, upper| {
         let contact = scene.clone().materials(lower, upper, PlaneState::Strain);
         contact.partial_slip(load, shear(0.01, 0.0)).map(|_| ())

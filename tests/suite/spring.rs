@@ -11,7 +11,7 @@ use linecontact::{
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
 
 const REFERENCES: References<f64> =
-    References { x: 0.0, lower: Reference::Depth(3.0), upper: Reference::Disc(1.0) };
+    References { x: 0.0, lower: Reference::Depth(3.0), upper: Reference::Disc(4.0) };
 
 fn steel(contact: Contact<'_, f64>) -> Contact<'_, f64> {
     contact.materials(STEEL, STEEL, PlaneState::Strain)
