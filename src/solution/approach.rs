@@ -224,18 +224,6 @@ impl<'s, T: Real> Approaching<'s, T> {
         self.solved.contacts()[0].half_width()
     }
 
-    /// `Σ 1/(π M_i) ∫ p (k_i + 2 ln|ξ| - 2 G) ds` for a density p of a given integral, with the G of this contact.
-    fn sum(
-        &self,
-        integrals: &Integrals<T, impl Density<T>>,
-        load: T,
-        contact: usize,
-    ) -> Result<T, ContactError<T>> {
-        let smooth = self.smooth(integrals, load)?;
-        let mean = self.mean_logarithm(integrals, load, self.solved.contacts()[contact])?;
-        Ok(self.both(smooth.map(|smooth| smooth - mean - mean)))
-    }
-
     /// `Σ 1/(π M_i)` times what is given for each body.
     fn both(&self, [lower, upper]: [T; 2]) -> T {
         let shares = self.bodies.map(|body| body.compliance);
@@ -298,17 +286,23 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// The approach of the bodies alone, and its rate dδ/dF.
     pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
-        let approach = self.of_bodies(&Integrals::new(self.solved)?, &self.first()?)?;
+        let (integrals, load) = (Integrals::new(self.solved)?, self.solved.found.load);
+        let approach = self.of_bodies(self.smooth(&integrals, load)?, &self.first()?, |on| {
+            self.mean_logarithm(&integrals, load, on)
+        })?;
         Ok([approach, self.rate()?])
     }
 
+    /// From the integrals of the kernels, and the mean of the logarithm over a contact.
     fn of_bodies(
         &self,
-        integrals: &Integrals<T, impl Density<T>>,
+        smooth: [T; 2],
         first: &First<T>,
+        mean_logarithm: impl Fn(Interval<T>) -> Result<T, ContactError<T>>,
     ) -> Result<T, ContactError<T>> {
         let UndeformedGap { mean, least, .. } = first.heights;
-        Ok(mean - least + self.sum(integrals, self.solved.found.load, first.contact)?)
+        let logarithm = mean_logarithm(self.solved.contacts()[first.contact])?;
+        Ok(mean - least + self.both(smooth.map(|smooth| smooth - logarithm - logarithm)))
     }
 
     /// dδ/dF: with ∂P/∂F any contact may be the first.
@@ -319,7 +313,11 @@ impl<'s, T: Real> Approaching<'s, T> {
             let [one, other] = self.bodies;
             return Ok(self.both([self.of_punch(on, lower, one), self.of_punch(on, upper, other)]));
         }
-        self.sum(&Integrals::of_smooth(&rates, self.solved.contacts()), T::one(), 0)
+        let contacts = self.solved.contacts();
+        let integrals = Integrals::of_smooth(&rates, contacts);
+        let smooth = self.smooth(&integrals, T::one())?;
+        let logarithm = self.mean_logarithm(&integrals, T::one(), contacts[0])?;
+        Ok(self.both(smooth.map(|smooth| smooth - logarithm - logarithm)))
     }
 
     /// `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact, under a unit load. With the
@@ -365,7 +363,8 @@ impl<'s, T: Real> Approaching<'s, T> {
         let of = |i: usize| {
             self.bodies[i].compliance * T::frac_1_pi() * (smooth[i] - T::of(2.0) * logarithm)
         };
-        Ok(Approach { bodies: self.of_bodies(&integrals, &first)?, lower: of(0), upper: of(1) })
+        let mean = |on| self.mean_logarithm(&integrals, load, on);
+        Ok(Approach { bodies: self.of_bodies(smooth, &first, mean)?, lower: of(0), upper: of(1) })
     }
 
     /// `∫ P ln|ξ| ds`.

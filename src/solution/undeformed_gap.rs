@@ -28,8 +28,6 @@ pub(super) struct UndeformedGap<T> {
     pub mean: T,
     /// The least.
     pub least: T,
-    /// Where it is.
-    pub lowest: T,
     /// That at the place asked for, if it is in this contact.
     pub at: Option<T>,
 }
@@ -111,7 +109,7 @@ impl<T: Real> Slopes<'_, T> {
         };
         let least = height + self.span([start, self.on.angle(lowest)])?.sum[0];
         if least < found.least {
-            (found.least, found.lowest) = (least, lowest);
+            found.least = least;
         }
         Ok(())
     }
@@ -139,7 +137,7 @@ impl<T: Real> UndeformedGap<T> {
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
         let (mut left, mut height, mut mean) = (MOST_SPANS, zero, zero);
-        let mut found = Self { mean, least: zero, lowest: on.left, at: None };
+        let mut found = Self { mean, least: zero, at: None };
         let stop = at.map(|x| on.angle(x));
         let mut before = slopes.at_limit(on.left);
         while let Some(span) = pending.pop() {
@@ -170,7 +168,7 @@ impl<T: Real> UndeformedGap<T> {
                 height += half.sum[0];
                 mean += half.sum[1];
                 if height < found.least {
-                    (found.least, found.lowest) = (height, on.at_angle(half.theta[1]));
+                    found.least = height;
                 }
             }
         }
