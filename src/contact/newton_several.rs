@@ -1,8 +1,9 @@
 //! Newton's method on all limits of several contacts at once.
 //!
 //! The equations and their exact Jacobian are those of the quadrature. A step is cut short where a contact or a
-//! gap would lose more than two thirds of its width at once. A gap that shrinks step after step is one that
-//! closes, a contact that does so one that the bodies do not have: the caller starts again without it.
+//! gap would lose more than two thirds of its width at once. A gap that shrinks step after step, or until the heights
+//! of the bodies no longer tell where it is, is one that closes; a contact that does so is one that the bodies do not
+//! have: the caller starts again without it.
 
 use super::single_contact::MOST_DOUBT;
 use crate::gap::Gap;
@@ -10,6 +11,7 @@ use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
+use std::cmp::Ordering;
 
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
@@ -69,9 +71,10 @@ pub(super) struct NewtonSeveral<T> {
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
-    /// What the limits move by, and what the widths between them do besides.
+    /// What the limits move by.
     moves: Vec<T>,
-    corrections: Vec<T>,
+    /// The widths between them, from the widest to the narrowest.
+    order: Vec<usize>,
     /// What the conditions leave open: of one of them, and of what that makes of the limits.
     unit: Vec<T>,
     open: Vec<T>,
@@ -79,11 +82,12 @@ pub(super) struct NewtonSeveral<T> {
 
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
-        let [errors, step, moves, corrections, unit, open] = std::array::from_fn(|_| Vec::new());
+        let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
         let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
         let steps = 0;
-        Self { tilt, load, on, errors, steps, system, linear, step, moves, corrections, unit, open }
+        let order = Vec::new();
+        Self { tilt, load, on, errors, steps, system, linear, step, moves, order, unit, open }
     }
 
     /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
@@ -125,10 +129,14 @@ impl<T: Real> NewtonSeveral<T> {
                 Some(Besides::Load(side)) => several.by_load(side == 1, &mut self.system),
                 None => {}
             }
+            if let Some(i) = self.system.lost {
+                return Ok(SeveralOutcome::Closed(i));
+            }
             if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
                 return Ok(SeveralOutcome::Failed);
             }
             self.linear.solve(&self.system.residual, &mut self.step);
+            let place = if more_steps.is_none() { self.too_far(held, cut) } else { None };
             if !self.step.iter().all(|step| step.is_finite()) {
                 return Ok(SeveralOutcome::Failed);
             }
@@ -154,7 +162,7 @@ impl<T: Real> NewtonSeveral<T> {
             let size = self.size(held);
             let last = self.on.len() - 1;
             let hull = Interval { left: self.on[0].left, right: self.on[last].right };
-            let place = self.advance(held, cut);
+            self.advance(held, cut);
             // Where one load reaches both ends, one of them is passed by rounding.
             if let Some(Besides::Load(_)) = besides {
                 let nothing = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
@@ -262,62 +270,108 @@ impl<T: Real> NewtonSeveral<T> {
         })
     }
 
+    /// The width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
+    /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
+    /// left open.
+    fn too_far(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
+        self.set_moves(corners);
+        let mut worst: Option<(T, CutWidth)> = None;
+        for i in 0..self.moves.len() - 1 {
+            let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
+            let (square, least) = (T::one() + share + share, Self::least(i, cut));
+            if square < least * least && worst.is_none_or(|(least, _)| square < least) {
+                worst = Some((square, i));
+            }
+        }
+        let (_, place) = worst?;
+        if place % 2 == 1 {
+            let row = self.system.row_of_gap(place / 2);
+            self.unit.clear();
+            self.unit.resize(self.step.len(), T::zero());
+            self.unit[row] = T::one();
+            self.linear.solve(&self.unit, &mut self.open);
+            let left = place - usize::from(corners[0]);
+            let narrows = |step: &[T]| step[left + 1] - step[left];
+            // To nothing, of which the least is left.
+            let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
+            let open = excess / narrows(&self.open);
+            if open.is_finite() {
+                for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
+                    *step -= open * by_open;
+                }
+            }
+        }
+        Some(place)
+    }
+
+    /// What a step leaves of a width at least, as a share of it. A gap may fall faster that was kept from it before:
+    /// `cut` is what was, and how often in a row.
+    fn least(i: CutWidth, cut: Option<(CutWidth, i32)>) -> T {
+        let times = match cut {
+            Some((place, times)) if place == i && i % 2 == 1 => times + 1,
+            _ => 1,
+        };
+        T::of(LEAST_LEFT.powi(times))
+    }
+
+    fn width(&self, i: CutWidth) -> T {
+        let on = &self.on[i / 2];
+        if i.is_multiple_of(2) { on.right - on.left } else { self.on[i / 2 + 1].left - on.right }
+    }
+
+    /// What the step moves each limit by.
+    fn set_moves(&mut self, corners: [bool; 2]) {
+        self.moves.clear();
+        self.moves.resize(2 * self.on.len(), T::zero());
+        let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
+        for (i, &step) in free.zip(&self.step) {
+            self.moves[i] = -step;
+        }
+    }
+
     fn limit(&mut self, i: usize) -> &mut T {
         let on = &mut self.on[i / 2];
         if i.is_multiple_of(2) { &mut on.left } else { &mut on.right }
     }
 
     /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
-    /// the load of a round body goes with it, and so does what is left of a gap that closes. Says which width
-    /// was kept from falling further.
-    ///
-    /// `cut` is what was kept from falling further last, and how often in a row: a gap may then fall faster.
-    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
-        let (zero, one, half, two) = (T::zero(), T::one(), T::of(0.5), T::of(2.0));
-        let count = 2 * self.on.len();
-        self.moves.clear();
-        self.moves.resize(count, zero);
-        let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
-        for (i, &step) in free.zip(&self.step) {
-            self.moves[i] = -step;
-        }
-        let is_fixed = |i: usize| i == 0 && corners[0] || i + 1 == count && corners[1];
-        let mut held: Option<(T, CutWidth)> = None;
-        self.corrections.clear();
-        for i in 0..count - 1 {
-            let width = *self.limit(i + 1) - *self.limit(i);
+    /// the load of a round body goes with it, and so does what is left of a gap that closes.
+    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) {
+        let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
+        self.set_moves(corners);
+        let count = self.moves.len();
+        let mut order = std::mem::take(&mut self.order);
+        order.clear();
+        order.extend(0..count - 1);
+        // The narrowest first: their limits may move by more than they are wide.
+        let by_width = |&one: &usize, &other: &usize| {
+            self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
+        };
+        order.sort_unstable_by(by_width);
+        for &i in &order {
+            let width = self.width(i);
             let change = self.moves[i + 1] - self.moves[i];
-            let times = match cut {
-                Some((place, times)) if place == i && i % 2 == 1 => times + 1,
-                _ => 1,
+            let least = Self::least(i, cut) * width;
+            let square = (width * (width + two * change)).max(least * least);
+            let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
+            let correction = next - (width + change);
+            // On both sides, but a narrow neighbour has no room for it, and a corner stays.
+            let room = |beside: Option<CutWidth>, corner: bool| match beside {
+                Some(beside) => width.min(self.width(beside)),
+                None if corner => zero,
+                None => width,
             };
-            let least = T::of(LEAST_LEFT.powi(times)) * width;
-            let square = width * (width + two * change);
-            let next = if square < least * least {
-                let worse = (square / (width * width), i);
-                held = Some(held.filter(|held| held.0 <= worse.0).unwrap_or(worse));
-                least
-            } else {
-                square.sqrt().min(T::of(MOST_GROWTH) * width)
-            };
-            self.corrections.push(next - (width + change));
-        }
-        for (i, &correction) in self.corrections.iter().enumerate() {
-            let share = if is_fixed(i) {
-                one
-            } else if is_fixed(i + 1) {
-                zero
-            } else {
-                half
-            };
+            let left = room(i.checked_sub(1), corners[0]);
+            let right = room((i + 2 < count).then_some(i + 1), corners[1]);
+            let share = right / (left + right);
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
         }
+        self.order = order;
         // What is good for one width may be too much for the next.
         let mut share = one;
         for i in 0..count - 1 {
-            let width = *self.limit(i + 1) - *self.limit(i);
-            let less = self.moves[i] - self.moves[i + 1];
+            let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
             let times = if i % 2 == 1 { MOST_CUT } else { 1 };
             let most = (one - T::of(0.5 * LEAST_LEFT.powi(times))) * width;
             if less > most {
@@ -328,7 +382,6 @@ impl<T: Real> NewtonSeveral<T> {
             let step = share * self.moves[i];
             *self.limit(i) += step;
         }
-        held.map(|(_, place)| place)
     }
 
     /// Whether the gap after a contact is as narrow as rounding, or as what is in doubt of its limits.

@@ -331,3 +331,13 @@ impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
         self.0.piece(index)
     }
 }
+
+/// Evenly spread random numbers, the same everywhere.
+pub struct Shares(pub u64);
+
+impl Shares {
+    pub fn between(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(0x5851_F42D_4C95_7F2D).wrapping_add(0x1405_7B7E_F767_814F);
+        from + (to - from) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+}

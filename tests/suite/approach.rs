@@ -148,7 +148,7 @@ fn it_is_the_integral_of_the_pressure_at_any_place() {
                 let found = solution.approach(&deep(x, depth)).unwrap();
                 let lower = by_definition(&solution, SOFT, x, depth);
                 let upper = by_definition(&solution, STEEL, x, depth);
-                errors.push((found.lower - lower) / upper.abs());
+                errors.push((found.lower - lower) / lower.abs());
                 errors.push((found.upper - upper) / upper.abs());
                 // What is left open beside a contact.
                 let open = solution.gap_at(x).unwrap_or(0.0);

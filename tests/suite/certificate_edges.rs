@@ -1,21 +1,11 @@
 //! Adhesive edges and corners: what lies beside them, below them, and how they move.
 #![allow(missing_docs)]
 
-use crate::common::{NanSafe, graph, parabola, worst};
+use crate::common::{NanSafe, Shares, graph, parabola, worst};
 use linecontact::{Contact, ContactError, Control, Edge, Flat, Solution};
 use std::f64::consts::PI;
 
 const KAPPA: f64 = 1.7;
-
-/// Evenly spread numbers from 0 to 1, the same everywhere.
-struct Shares(u64);
-
-impl Shares {
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(0x5851_F42D_4C95_7F2D).wrapping_add(0x1405_7B7E_F767_814F);
-        from + (to - from) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-}
 
 #[test]
 fn the_free_limit_beside_a_corner_moves_as_in_closed_form() {

@@ -26,6 +26,11 @@
 //! of a gap: V_k(e)/(2π) ∫ S/p_k dx/(x - e)    p_k = p/(x - ν_k),  V_k = (V - V(ν_k))/(x - ν_k)
 //! ```
 //!
+//! As a gap of width w closes, `V(ν)` becomes π²/S times the pressure in its place. The condition of the gap vanishes with
+//! w² whatever the pressure does, so that a gap of no width would meet it anywhere; over w² it says where that
+//! pressure is least. Newton's method is given the condition over `w²/(w² + c²)`, c half the width of the narrower
+//! contact beside the gap.
+//!
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
 mod distant_contacts;
@@ -70,6 +75,8 @@ pub(crate) struct System<T> {
     pub open: Vec<T>,
     /// The derivatives by the limits, a row for each condition.
     pub jacobian: Vec<T>,
+    /// A gap so narrow that the rounding of the heights moves it by more than its width.
+    pub lost: Option<usize>,
     /// Which of the conditions is that of the load.
     pub load_row: usize,
     /// The limits, from left to right.
@@ -91,6 +98,7 @@ impl<T: Real> System<T> {
             residual,
             open,
             jacobian,
+            lost: None,
             load_row: 0,
             limits,
             at_ends,
@@ -98,6 +106,11 @@ impl<T: Real> System<T> {
             sums,
             over_last: T::zero(),
         }
+    }
+
+    /// The condition that does not hold where a gap has closed, and the pressure in its place is positive.
+    pub fn row_of_gap(&self, gap: usize) -> usize {
+        if gap < self.at_zeros.len() { gap } else { self.load_row }
     }
 }
 
@@ -214,6 +227,7 @@ impl<T: Real> Several<T> {
             residual,
             open,
             jacobian,
+            lost,
             load_row,
             limits,
             at_ends,
@@ -272,7 +286,7 @@ impl<T: Real> Several<T> {
         }
         sums.clear();
         sums.resize(2 * n, zero);
-        *over_last = zero;
+        (*over_last, *lost) = (zero, None);
         for k in 0..n - 1 {
             let zero_of_p = self.weight.zeros().get(k).map(|&x| (x, at_zeros[k]));
             sums.fill(zero);
@@ -330,11 +344,30 @@ impl<T: Real> Several<T> {
             let at_left = self.parts[k].height(left.right);
             let at_right = self.parts[k + 1].height(right.left);
             let due = at_right - at_left;
-            let rounding = T::of(4.0) * T::epsilon() * (at_left.abs() + at_right.abs() + size);
-            row(closed - due, rounding, &mut |i| {
+            let heights =
+                self.parts[k].height_size(at_left) + self.parts[k + 1].height_size(at_right);
+            let rounding = T::of(4.0) * T::epsilon() * (heights + size);
+            let open = closed - due;
+            // What dividing by w²/(w² + c²) adds to the derivatives, times that.
+            let known = (open.abs() - rounding).max(zero) * open.signum();
+            let square = left.half_width().min(right.half_width()).powi(2);
+            let by_width = (known + known) / width * square / (square + width * width);
+            let by_limit = |i: usize| {
                 let acting =
                     zero_of_p.map_or(at_ends[i], |(zero, at)| (at_ends[i] - at) / (end(i) - zero));
                 acting / (T::pi() + T::pi()) * sums[i]
+            };
+            let by_place = by_limit(2 * k + 1).abs() + by_limit(2 * k + 2).abs();
+            if by_place * width <= rounding {
+                lost.get_or_insert(k);
+            }
+            row(open, rounding, &mut |i| {
+                let widens = match i {
+                    i if i == 2 * k + 1 => -by_width,
+                    i if i == 2 * k + 2 => by_width,
+                    _ => zero,
+                };
+                by_limit(i) - widens
             });
         }
     }

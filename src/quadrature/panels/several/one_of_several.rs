@@ -138,6 +138,11 @@ impl<T: Real> OneOfSeveral<T> {
         })
     }
 
+    /// The size of what such a height was added from.
+    pub fn height_size(&self, height: T) -> T {
+        height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
+    }
+
     /// Multiplies the slope by a weight, and makes ready for the conditions on the limits.
     pub fn set(&mut self, weight: impl Fn(T) -> T) {
         let on = self.on;
