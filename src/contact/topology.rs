@@ -66,11 +66,6 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// Forgets the contacts last found.
-    pub fn forget(&mut self) {
-        self.last.clear();
-    }
-
     /// Keeps the contacts that were found.
     pub fn keep(&mut self, contacts: &[Interval<T>]) {
         self.last.clear();
