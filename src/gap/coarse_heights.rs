@@ -725,6 +725,37 @@ mod tests {
         }
     }
 
+    /// Between two points of a rough spline, which turns there, the gap is nowhere lower than its low point above a line
+    /// through both.
+    #[test]
+    fn no_piece_of_a_rough_spline_dips_below_its_low_point() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let points: Vec<_> = (0..200).map(|i| [f64::from(i), random()]).collect();
+        let spline = Spline::through(&points).unwrap();
+        let (look, cost) = look(&Flat, &spline).unwrap();
+        assert_eq!(cost.heights, 0);
+        let (mut dips, mut below) = (0, 0);
+        for pair in points.windows(2) {
+            let [[from, first], [to, last]] = [pair[0], pair[1]];
+            let above =
+                |x: f64, height: f64| height - first - (last - first) * (x - from) / (to - from);
+            let deepest = (1..100)
+                .map(|i| from + (to - from) * f64::from(i) / 100.0)
+                .map(|x| above(x, spline.y(x)))
+                .fold(0.0, f64::min);
+            let low = look.low_points().find(|low| low.between == Some([from, to]));
+            let low = low.map_or(0.0, |low| above(low.x, low.height));
+            dips += usize::from(deepest < -0.01);
+            below += usize::from(deepest < low - 1e-12);
+        }
+        println!("{dips} {below}");
+        assert!(dips > 50 && below == 0, "{below} of {dips}");
+    }
+
     #[test]
     fn a_long_body_is_sampled_where_the_other_one_is() {
         for reach in [3.0f64, 100.0, 1000.0] {
