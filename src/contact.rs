@@ -390,7 +390,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`Solution::certify`].
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
-        let (found, cost) = self.find(&mut *integrator, &mut workspace, control)?;
+        let mut cost = Cost::default();
+        let found = self.find(&mut *integrator, &mut workspace, control, &mut cost)?;
         Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
     }
 
@@ -501,14 +502,17 @@ impl<'b, T: Real> Contact<'b, T> {
         self.quadrature
     }
 
-    /// Finds the limits with an integrator that has been reset, from the contacts in the workspace.
+    /// Finds the limits with an integrator that has been reset, from the contacts in the workspace. `cost` is what
+    /// that takes, found or not.
     pub(crate) fn find(
         &self,
         integrator: &mut dyn Integrator<T>,
         workspace: &mut Workspace<T>,
         control: Control<T>,
-    ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
-        let found = self.find_by(integrator, workspace, control);
+        cost: &mut Cost,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        let found = self.find_by(integrator, workspace, control, cost);
+        *cost += integrator.cost();
         let is_default = matches!(self.stiffness, Stiffness::Default);
         found.map_err(|error| error.with_stiffness(is_default))
     }
@@ -518,7 +522,8 @@ impl<'b, T: Real> Contact<'b, T> {
         integrator: &mut dyn Integrator<T>,
         workspace: &mut Workspace<T>,
         control: Control<T>,
-    ) -> Result<(ContactState<T>, Cost), ContactError<T>> {
+        cost: &mut Cost,
+    ) -> Result<ContactState<T>, ContactError<T>> {
         let (kappa, bodies) = (self.kappa, self.elasticity()?);
         if !(kappa.is_finite() && kappa > T::zero()) {
             return Err(match self.stiffness {
@@ -534,37 +539,36 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::EdgePressureLoad);
         }
         workspace.report = Report::new();
-        let mut cost = Cost::default();
         let mut found = match (control, self.edge_pressure) {
             (Control::Load(load), Some(wanted)) => {
                 workspace.report.add(Start::Middle, Outcome::Unchecked);
-                self.by_edge_pressure(wanted, integrator, load, &mut cost)?
+                self.by_edge_pressure(wanted, integrator, load, cost)?
             }
             (Control::Load(load), None) => {
                 let conditions = self.under(load)?;
-                topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
+                topology::find(self, Sought::By(conditions), integrator, workspace, cost)?
             }
             (Control::HalfWidth(half_width), _) => {
                 check_positive("half-width", half_width)?;
                 let given = Given::HalfWidth(half_width);
                 let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
-                topology::find(self, Sought::By(conditions), integrator, workspace, &mut cost)?
+                topology::find(self, Sought::By(conditions), integrator, workspace, cost)?
             }
             (Control::PeakPressure(pressure), _) => {
                 check_positive("peak pressure", pressure)?;
-                topology::find(self, Sought::Peak(pressure), integrator, workspace, &mut cost)?
+                topology::find(self, Sought::Peak(pressure), integrator, workspace, cost)?
             }
             (Control::Approach { approach, references }, _) => {
                 let sought = approach::Sought { approach, references, bodies };
-                approach::find(self, &sought, integrator, workspace, &mut cost)?
+                approach::find(self, &sought, integrator, workspace, cost)?
             }
             (Control::Moment { load, moment, about }, _) => {
                 let line = moment::LineOfLoad::of_moment(load, moment, about)?;
-                moment::find(self, line, integrator, workspace, &mut cost)?
+                moment::find(self, line, integrator, workspace, cost)?
             }
             (Control::CentreOfPressure { load, at }, _) => {
                 let line = moment::LineOfLoad::through(load, at)?;
-                moment::find(self, line, integrator, workspace, &mut cost)?
+                moment::find(self, line, integrator, workspace, cost)?
             }
         };
         // A width may be less than the rounding of x, and its load less than any number.
@@ -581,11 +585,10 @@ impl<'b, T: Real> Contact<'b, T> {
         if panels::several(integrator).is_none() {
             integrator.prepare(&gap, found.interval)?;
         }
-        cost += integrator.cost();
         if self.certified {
             certify(&gap, self.kappa, &found, integrator)?;
         }
-        Ok((found, cost))
+        Ok(found)
     }
 
     /// The contact with edges by Eq. (6), under a given load.

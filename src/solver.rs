@@ -1,6 +1,7 @@
 //! Solving again: the next load, the next time step.
 
 use crate::contact::{Control, Workspace};
+use crate::gap::Cost;
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::solution::{PartialSlip, Shear, Solution};
@@ -16,7 +17,9 @@ use std::sync::Arc;
 /// dropped before the next solve. One that is kept keeps its samples, and the solver goes on with a copy.
 ///
 /// Under a given half-width or peak pressure bodies may have several contacts: then a solver finds the one next to
-/// its last. Where that search fails, the solver seeks from scratch.
+/// its last. Where the search from the last contact fails, by whatever error but [`ContactError::Cancelled`], the solver
+/// forgets all that it has and seeks from scratch, as [`Contact::solve`] does: what it refuses is refused there too.
+/// The [cost](Solution::cost) is that of both searches.
 ///
 /// Results depend on the calls made and on nothing else. One solver serves one thread, and may be
 /// sent to another.
@@ -66,14 +69,34 @@ impl<T: Real> Solver<T> {
         contact: &Contact<'b, T>,
         control: Control<T>,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
-        let (gap, last) = (contact.gap(), self.last.take());
-        let quadrature = contact.chosen_quadrature();
-        let integrator =
-            self.integrator.take().filter(|integrator| quadrature.serves(&***integrator));
-        let last = last.filter(|_| integrator.is_some());
-        let integrator = match integrator {
+        let serves = |integrator: &Arc<Box<_>>| contact.chosen_quadrature().serves(&***integrator);
+        let mut is_warm = self.last.is_some() && self.integrator.as_ref().is_some_and(serves);
+        let mut spent = Cost::default();
+        loop {
+            match self.search(contact, control, is_warm, &mut spent) {
+                // What stands in its way may be where it came from.
+                Err(error) if is_warm && !matches!(error, ContactError::Cancelled { .. }) => {
+                    is_warm = false;
+                }
+                found => return found,
+            }
+        }
+    }
+
+    /// One search, from the last contact or from scratch. `spent` is what this one and those before it have cost.
+    fn search<'b>(
+        &mut self,
+        contact: &Contact<'b, T>,
+        control: Control<T>,
+        is_warm: bool,
+        spent: &mut Cost,
+    ) -> Result<Solution<'b, T>, ContactError<T>> {
+        if !is_warm {
+            *self = Self::new();
+        }
+        let integrator = match self.integrator.take() {
             Some(integrator) => integrator,
-            None => Arc::new(quadrature.integrator()?),
+            None => Arc::new(contact.chosen_quadrature().integrator()?),
         };
         let integrator = self.integrator.insert(integrator);
         let work = loop {
@@ -83,26 +106,16 @@ impl<T: Real> Solver<T> {
                 None => *integrator = Arc::new(integrator.fork()),
             }
         };
-        work.reset(last == Some(gap.number()));
-        if last.is_none() {
-            self.workspace.forget();
-        }
-        let found = contact.find(work, &mut self.workspace, control);
-        let (found, cost) = match (found, control) {
-            // By load the search finds its way from anywhere. Of a width or a peak there may be several contacts.
-            (Err(error), Control::HalfWidth(_) | Control::PeakPressure(_))
-                if last.is_some() && error.kind() == ErrorKind::Solve =>
-            {
-                work.clear_samples();
-                self.workspace.forget();
-                contact.find(work, &mut self.workspace, control)?
-            }
-            (found, _) => found?,
-        };
+        let number = contact.gap().number();
+        work.reset(self.last.take() == Some(number));
+        let mut cost = Cost::default();
+        let found = contact.find(work, &mut self.workspace, control, &mut cost);
+        *spent += cost;
+        let found = found?;
         let one = std::slice::from_ref(&found.interval);
         self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
-        self.last = Some(gap.number());
-        Ok(contact.solution(integrator.clone(), found, cost, self.workspace.report))
+        self.last = Some(number);
+        Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report))
     }
 }
 

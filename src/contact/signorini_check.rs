@@ -19,10 +19,12 @@ const MOST_JOINTS: usize = 64;
 const MOST_DOUBTFUL: usize = 256;
 
 /// Places in a contact at which the pressure is looked at for the gap beside it.
-const MOST_POINTS: usize = 256;
+const MOST_POINTS: usize = 1024;
 
-/// The share of the load that the series of its pressures may leave open before more of them are taken.
-const OPEN: f64 = 1e-3;
+/// The share of the load that the series of its pressures may leave open before more of them are taken; and the share
+/// of that, where it hides whether the bodies overlap.
+pub(super) const OPEN: f64 = 1e-3;
+pub(super) const LESS_OPEN: f64 = 0.01;
 
 /// Places between two heights that are looked at where these may hide a wave.
 const PLACES: usize = 8;
@@ -99,12 +101,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
         self.integrator.pressures(self.gap, &self.load_case(), x, pressures, cost)
     }
 
-    /// Takes more pressures of those contacts whose series leaves much open: they hide many waves, or kinks.
-    pub fn resolve(&self, fields: &mut [ExteriorField<T>]) -> Result<(), ContactError<T>> {
+    /// Takes more pressures of those contacts whose series leaves more than a share of the load open: they hide many
+    /// waves, or kinks. Whether there were any.
+    pub fn resolve(
+        &self,
+        fields: &mut [ExteriorField<T>],
+        share: T,
+    ) -> Result<bool, ContactError<T>> {
+        let mut is_finer = false;
         for field in fields {
-            let mut count = POINTS;
-            while field.doubt() > T::of(OPEN) * self.found.load.abs() && count < MOST_POINTS {
-                count *= 2;
+            let mut count = field.coefficients().len();
+            while field.doubt() > share * self.found.load.abs() && count < MOST_POINTS {
+                (count, is_finer) = (2 * count, true);
                 let x = (0..count).map(|i| ExteriorField::place(field.interval(), i, count));
                 let x: Vec<T> = x.collect();
                 let mut pressures = vec![T::zero(); count];
@@ -112,7 +120,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 field.refine(&x, pressures);
             }
         }
-        Ok(())
+        Ok(is_finer)
     }
 
     /// Where the bodies would have to pull at each other inside a contact, and the pressure there: the worst
@@ -281,17 +289,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
-    /// the gap before loading show it, by rising x.
+    /// the gap before loading show it, by rising x; and whether they may overlap by no more than the series leave open.
     pub fn overlap(
         &self,
         fields: &[ExteriorField<T>],
         heights: impl Iterator<Item = LowPoint<T>>,
         cost: &mut Cost,
-    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+    ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
         let mut sampler = Sampler::default();
-        let mut worst: Option<[T; 2]> = None;
+        let (mut worst, mut is_hidden) = (None::<[T; 2]>, false);
         let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
@@ -325,11 +333,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if height - hidden - at_edge >= (most - taken) / self.kappa {
                 continue;
             }
-            let gap = |height: T| height - at_edge - (total(x) - taken) / self.kappa;
-            let allowed = doubt
-                + self.share() * (height - at_edge).abs()
+            let pushed = (total(x) - taken) / self.kappa;
+            let gap = |height: T| height - at_edge - pushed;
+            let allowed = self.share() * (height - at_edge).abs()
                 + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
-            if gap(height - hidden) >= -allowed {
+            if gap(height - hidden) >= -(allowed + doubt) {
+                is_hidden |= gap(height - hidden) < -allowed;
                 continue;
             }
             // The height may be an interpolated one, or a bound.
@@ -339,7 +348,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     let from = next.checked_sub(1).map_or(from, |i| from.max(contacts[i].right));
                     let to = contacts.get(next).map_or(to, |on| to.min(on.left));
                     let mut between = [from, to];
-                    if gap(height + hidden) >= -allowed {
+                    if gap(height + hidden) >= -(allowed + doubt) {
                         between = self.valley(&total, &mut sampler, between)?;
                     }
                     self.lowest_between(fields, &mut sampler, between)?
@@ -356,12 +365,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
             let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
             let noise = T::of(8.0) * (rise - due).abs();
-            let is_open = gap >= -(allowed + noise) || !is_sound;
+            let is_open = gap >= -(allowed + doubt + noise) || !is_sound;
+            is_hidden |= is_open && is_sound && gap < -(allowed + noise);
             if !is_open && worst.is_none_or(|[_, least]| gap < least) {
                 worst = Some([x, gap]);
             }
         }
         cost.heights += sampler.cost.evaluations;
-        Ok(worst)
+        Ok((worst, is_hidden))
     }
 }

@@ -12,7 +12,7 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{SignoriniCheck, TensionSpans};
+use super::signorini_check::{LESS_OPEN, OPEN, SignoriniCheck, TensionSpans};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
@@ -64,11 +64,6 @@ impl<T: Real> Workspace<T> {
             tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
-    }
-
-    /// Forgets the contacts last found.
-    pub fn forget(&mut self) {
-        self.last.clear();
     }
 
     /// Keeps the contacts that were found.
@@ -264,13 +259,20 @@ impl<T: Real> Search<'_, '_, T> {
             if fields.is_empty() {
                 check.fields(fields)?;
             }
-            check.resolve(fields)?;
             let [left, right] = self.contact.ends();
             let within = |low: &LowPoint<T>| low.x >= left && low.x <= right;
             let turned =
                 |low: LowPoint<T>| LowPoint { height: gap.turned(low.x, low.height), ..low };
-            let heights = look.low_points().map(turned).filter(within);
-            overlap = check.overlap(fields, heights, self.cost)?;
+            let mut share = T::of(OPEN);
+            check.resolve(fields, share)?;
+            overlap = loop {
+                let heights = look.low_points().map(turned).filter(within);
+                let (overlap, is_hidden) = check.overlap(fields, heights, self.cost)?;
+                share *= T::of(LESS_OPEN);
+                if overlap.is_some() || !is_hidden || !check.resolve(fields, share)? {
+                    break overlap;
+                }
+            };
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;

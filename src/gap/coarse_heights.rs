@@ -152,24 +152,37 @@ impl<T: Real> CoarseHeights<T> {
         Cow::Owned(self.heights.iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect())
     }
 
-    /// Where the gap may be low: each sample, and between two where the slope rises the place where their
-    /// tangents cross, than which no convex piece of the gap is lower; elsewhere the middle, if it is in doubt.
+    /// Where the gap may be low: each sample, and between two the place where their tangents cross, than which no
+    /// convex piece of the gap is lower. A cubic that turns may be: it is no lower than its tangents at a third and at
+    /// two thirds of the way. Elsewhere the middle, if it is in doubt.
     pub fn low_points(&self) -> impl Iterator<Item = LowPoint<T>> {
-        let after = |i: usize| {
-            let (from, to) = (self.nodes[i], self.nodes.get(i + 1)?);
-            let [first, second] = [from.slopes[1], to.slopes[0]];
+        let (zero, third) = (T::zero(), T::of(1.0 / 3.0));
+        let chord = |i: usize| {
+            let [from, to] = [self.nodes.get(i)?, self.nodes.get(i + 1)?];
+            Some((to.height - from.height) / (to.x - from.x))
+        };
+        let after = move |i: usize| {
+            let (from, to, over) = (self.nodes[i], self.nodes.get(i + 1)?, chord(i)?);
             let width = to.x - from.x;
-            let along = (second * width - (to.height - from.height)) / (second - first);
-            let inside = second > first && along > T::zero() && along < width;
+            let [first, second] = [over - from.slopes[1], to.slopes[0] - over];
+            // An end that is all but upright, or a kink, says nothing of what is between.
+            let leap = |beside: Option<T>| beside.map_or(zero, |beside| (over - beside).abs());
+            let [before, behind] = [i.checked_sub(1).and_then(chord), chord(i + 1)].map(leap);
+            let within = |bend: T, other: T, leap: T| bend.min(leap.max(other + other));
+            let [first, second] = [within(first, second, before), within(second, first, behind)];
+            let inside = first > zero || second > zero;
             let doubt = from.missed + to.missed;
-            let (x, height) = if inside {
-                (from.x + along, from.height + first * along)
+            let (t, height) = if inside {
+                let crossing = second.max(zero) / (first.max(zero) + second.max(zero));
+                let t = crossing.max(third).min(third + third);
+                let below = (first * t).max(second * (T::one() - t));
+                (t, from.height + width * (t * over - below))
             } else {
                 let half = T::of(0.5);
-                (from.x + half * width, Segment::new(from, *to).at(half)[0])
+                (half, Segment::new(from, *to).at(half)[0])
             };
-            let place = LowPoint { x, height, between: Some([from.x, to.x]), doubt };
-            (inside || doubt > T::zero()).then_some(place)
+            let (x, between) = (from.x + t * width, Some([from.x, to.x]));
+            (inside || doubt > zero).then_some(LowPoint { x, height, between, doubt })
         };
         let both = move |(i, &[x, height]): (usize, &[T; 2])| {
             [Some(LowPoint { x, height, between: None, doubt: T::zero() }), after(i)]
@@ -527,6 +540,8 @@ fn at<T: Real>(rows: &[BodyRow<T>], x: T, right: bool) -> [T; 3] {
     }
     let t = (x - from.x) / segment.width;
     let [height, slope] = segment.at(t.max(zero).min(T::one()));
+    let own = [from, to].into_iter().find(|row| row.x == x && row.slope.is_finite());
+    let slope = own.map_or(slope, |row| row.slope);
     let beyond = x - x.min(to.x).max(from.x);
     let size = (from.y.abs() + to.y.abs()) / segment.width + segment.chord.abs() + slope.abs();
     let doubt = T::of(32.0) * T::epsilon() * size;
@@ -708,6 +723,37 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Between two points of a rough spline, which turns there, the gap is nowhere lower than its low point above a line
+    /// through both.
+    #[test]
+    fn no_piece_of_a_rough_spline_dips_below_its_low_point() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let points: Vec<_> = (0..200).map(|i| [f64::from(i), random()]).collect();
+        let spline = Spline::through(&points).unwrap();
+        let (look, cost) = look(&Flat, &spline).unwrap();
+        assert_eq!(cost.heights, 0);
+        let (mut dips, mut below) = (0, 0);
+        for pair in points.windows(2) {
+            let [[from, first], [to, last]] = [pair[0], pair[1]];
+            let above =
+                |x: f64, height: f64| height - first - (last - first) * (x - from) / (to - from);
+            let deepest = (1..100)
+                .map(|i| from + (to - from) * f64::from(i) / 100.0)
+                .map(|x| above(x, spline.y(x)))
+                .fold(0.0, f64::min);
+            let low = look.low_points().find(|low| low.between == Some([from, to]));
+            let low = low.map_or(0.0, |low| above(low.x, low.height));
+            dips += usize::from(deepest < -0.01);
+            below += usize::from(deepest < low - 1e-12);
+        }
+        println!("{dips} {below}");
+        assert!(dips > 50 && below == 0, "{below} of {dips}");
     }
 
     #[test]

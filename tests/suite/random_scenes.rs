@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// How far a limit may be off is the oracle's word; a pressure, in terms of the peak; an overlap, times
 /// κ, in terms of the load, to which the logarithms of the pressures add up.
 const PRESSURE: f64 = 0.01;
-const OVERLAP: f64 = 3e-4;
+const OVERLAP: f64 = 3e-5;
 const TENSION: f64 = 1e-9;
 
 /// Marsaglia's xorshift, 64 bits.

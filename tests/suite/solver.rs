@@ -2,5 +2,6 @@
 #![allow(missing_docs)]
 
 mod reuse;
+mod rough;
 mod settings;
 mod threads;

@@ -1,0 +1,146 @@
+//! A warm solver on rough bodies, which touch in many places that merge and part from load to load.
+#![allow(missing_docs)]
+
+use linecontact::profile::Spline;
+use linecontact::{
+    Contact, ContactError, Control, Flat, Material, PlaneState, Reference, References, Solution,
+    Solver, Start,
+};
+use std::f64::consts::PI;
+
+type Solved<'b> = Result<Solution<'b, f64>, ContactError<f64>>;
+
+/// A roller of 20 mm with a wave and noise, in mm, by measured points.
+fn rough(seed: u64, wave: f64, noise: f64) -> Spline<f64> {
+    let mut state = seed;
+    let mut random = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let point = |i: i32| {
+        let x = 0.01 * f64::from(i);
+        let round = 20.0 - (400.0 - x * x).sqrt();
+        [x, round + wave * (2.0 * PI * x / 0.3).sin() + noise * random()]
+    };
+    let points: Vec<[f64; 2]> = (-200..=200).map(point).collect();
+    Spline::through(&points).unwrap()
+}
+
+/// The seeds of the bodies, with their waves and their noise.
+const BODIES: [(u64, f64, f64); 6] = [
+    (1, 1e-3, 2e-4),
+    (2, 1e-3, 2e-4),
+    (3, 1e-3, 0.0),
+    (4, 3e-4, 1e-4),
+    (5, 0.0, 1e-4),
+    (6, 1e-4, 1e-5),
+];
+
+fn contact(body: &Spline<f64>) -> Contact<'_, f64> {
+    let steel = Material::elastic(209e3, 0.3);
+    Contact::new(&Flat, body).unwrap().materials(steel, steel, PlaneState::Strain)
+}
+
+/// Rising, falling, and in no order.
+fn orders(count: usize) -> [Vec<usize>; 3] {
+    let rising: Vec<usize> = (0..count).collect();
+    let mut falling = rising.clone();
+    falling.reverse();
+    let mixed = rising.iter().map(|i| (7 * i + 3) % count).collect();
+    [rising, falling, mixed]
+}
+
+/// Solves all in each order, with a solver each: what is found from scratch is found, where the contact is `unique` with
+/// the same limits; and what is refused is refused from scratch with the same words. How many are found.
+fn check(contact: &Contact<'_, f64>, controls: &[Control<f64>], unique: bool, name: &str) -> usize {
+    let cold: Vec<Solved<'_>> = controls.iter().map(|&control| contact.solve(control)).collect();
+    let mut found = 0;
+    for order in orders(controls.len()) {
+        let mut solver = Solver::new();
+        for i in order {
+            let name = format!("{name}, {:?}", controls[i]);
+            match (solver.solve(contact, controls[i]), &cold[i]) {
+                (Ok(warm), Ok(cold)) if unique => assert_close(&warm, cold, &name),
+                (Ok(_), _) => {}
+                (Err(warm), Err(cold)) => assert_eq!(warm, *cold, "{name}"),
+                (Err(warm), Ok(_)) => panic!("{name}: {warm}"),
+            }
+            found += usize::from(cold[i].is_ok());
+        }
+    }
+    found
+}
+
+/// Limits are as close as both solutions say.
+fn assert_close(warm: &Solution<'_, f64>, cold: &Solution<'_, f64>, name: &str) {
+    let [one, other] = [warm, cold].map(Solution::intervals);
+    assert_eq!(one.len(), other.len(), "{name}: {:?} and {:?}", warm.report(), cold.report());
+    let share = [warm, cold].iter().filter_map(|of| of.limits_error()).sum::<f64>();
+    for (one, other) in one.iter().zip(other) {
+        let allowed = share * other.half_width();
+        for off in [one.left - other.left, one.right - other.right] {
+            assert!(off.abs() <= allowed, "{name}: {one:?} is not {other:?}, within {allowed:e}");
+        }
+    }
+}
+
+/// From one value to another by equal factors.
+fn by_factors(from: f64, to: f64, count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| from * (to / from).powf(i as f64 / (count - 1) as f64))
+}
+
+#[test]
+fn under_a_load_what_is_solved_from_scratch_is_solved_from_the_last_contact() {
+    for (seed, wave, noise) in BODIES {
+        let body = rough(seed, wave, noise);
+        // With noise alone there are dozens of contacts.
+        let most = if wave > 5e-4 { 500.0 } else { 60.0 };
+        let loads: Vec<_> = by_factors(2.0, most, 20).map(Control::Load).collect();
+        let scene = contact(&body);
+        assert_eq!(check(&scene, &loads, true, &format!("body {seed}")), 60);
+    }
+}
+
+/// Where the last contacts lead nowhere, the search is that of `Contact::solve`, and both are paid for.
+#[test]
+fn a_search_that_is_made_again_is_the_one_from_scratch() {
+    let (seed, wave, noise) = BODIES[1];
+    let body = rough(seed, wave, noise);
+    let scene = contact(&body);
+    let mut solver = Solver::new();
+    solver.solve(&scene, Control::Load(400.0)).unwrap();
+    let load = Control::Load(20.0);
+    let [cold, warm] = [scene.solve(load), solver.solve(&scene, load)].map(Result::unwrap);
+    assert_eq!(cold.report().attempts()[0].start, Start::ActiveSet);
+    assert_eq!(warm.report(), cold.report());
+    assert_eq!(warm.intervals(), cold.intervals());
+    assert!(warm.cost().samples > cold.cost().samples);
+}
+
+#[test]
+fn under_any_other_control_too() {
+    let references =
+        References { x: 0.0, lower: Reference::Depth(30.0), upper: Reference::Disc(20.0) };
+    let mut found = [0; 4];
+    for (seed, wave, noise) in [BODIES[1], BODIES[2], BODIES[5]] {
+        let body = rough(seed, wave, noise);
+        let scene = contact(&body);
+        let name = format!("body {seed}");
+        let widths: Vec<_> = by_factors(1e-3, 0.5, 8).map(Control::HalfWidth).collect();
+        let peaks: Vec<_> = by_factors(100.0, 3000.0, 8).map(Control::PeakPressure).collect();
+        let centre = |load| Control::CentreOfPressure { load, at: 0.01 };
+        let centres: Vec<_> = by_factors(20.0, 200.0, 5).map(centre).collect();
+        let by_approach = |approach| Control::Approach { approach, references };
+        let approaches: Vec<_> = by_factors(2e-4, 3e-3, 4).map(by_approach).collect();
+        // Under a given half-width, or peak, bodies may have several contacts.
+        for (i, (controls, unique)) in
+            [(widths, false), (peaks, false), (centres, true), (approaches, true)]
+                .into_iter()
+                .enumerate()
+        {
+            found[i] += check(&scene, &controls, unique, &name);
+        }
+    }
+    println!("{found:?}");
+    assert!(found.iter().all(|&found| found >= 30), "{found:?}");
+}
