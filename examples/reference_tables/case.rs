@@ -68,8 +68,8 @@ pub struct Parameter {
 pub struct Case {
     pub name: &'static str,
     pub title: &'static str,
-    pub lower: &'static str,
-    pub upper: &'static str,
+    pub lower: String,
+    pub upper: String,
     pub parameters: Vec<Parameter>,
     pub rows: Vec<Row>,
     /// Of the rows to come.
@@ -80,7 +80,7 @@ impl Case {
     pub fn new(
         name: &'static str,
         title: &'static str,
-        [lower, upper]: [&'static str; 2],
+        bodies: [&str; 2],
         parameters: &[Given],
     ) -> Self {
         let parameters = parameters.iter().map(|&(symbol, value, unit, meaning)| Parameter {
@@ -89,6 +89,7 @@ impl Case {
             unit,
             meaning,
         });
+        let [lower, upper] = bodies.map(str::to_owned);
         Self {
             name,
             title,

@@ -89,15 +89,26 @@ pub fn gear() -> Made {
     Ok(case)
 }
 
+/// A parametric curve in words, with all its pieces.
+fn curve(pieces: &Value) -> Result<String, Box<dyn Error>> {
+    let piece = |piece: &Value| {
+        let of = |key: &str| piece[key].as_str().ok_or("not a curve");
+        let ends = [exact(&piece["k_from"])?, exact(&piece["k_to"])?];
+        let range = format!("k from {} to {}", ends[0], ends[1]);
+        Ok(format!("x = {}, y = {}, {range}", of("X")?, of("Y")?))
+    };
+    let pieces = pieces.as_array().ok_or("no pieces")?.iter().map(piece);
+    Ok(pieces.collect::<Result<Vec<_>, Box<dyn Error>>>()?.join("; and "))
+}
+
 /// An example of the paper, with E* = 1.
 fn example(name: &'static str, title: &'static str, file: &str, example: &Example) -> Made {
+    let known = self::file(file)?;
+    let [lower, upper] = ["body1", "body2"].map(|body| curve(&known[body]["pieces"]));
     let mut case = Case::new(
         name,
         title,
-        [
-            "that of the paper, of the branch through k = 0",
-            "that of the paper, of the branch through k = 0",
-        ],
+        [&lower?, &upper?],
         &[("E*", 1.0, "1", "contact modulus: kappa = pi/2"), ("C", example.c, "1", "pi F")],
     );
     one_contact(&mut case, file, [&*example.lower, &*example.upper], 1e-11)?;

@@ -44,8 +44,8 @@ pub fn json(cases: &[Case]) -> String {
              \"parameters\": {},\n   \"values\": {}\n  }}",
             text(case.name),
             text(case.title),
-            text(case.lower),
-            text(case.upper),
+            text(&case.lower),
+            text(&case.upper),
             list(case.parameters.iter().map(parameter).collect()),
             list(case.rows.iter().map(row).collect())
         )
@@ -103,7 +103,7 @@ pub fn values_csv(cases: &[Case]) -> String {
 pub fn cases_csv(cases: &[Case]) -> String {
     let mut text = "case,symbol,value,unit,meaning\n".to_owned();
     for case in cases {
-        for (name, body) in [("lower body", case.lower), ("upper body", case.upper)] {
+        for (name, body) in [("lower body", &case.lower), ("upper body", &case.upper)] {
             text +=
                 &line(&[case.name.into(), name.into(), String::new(), String::new(), body.into()]);
         }

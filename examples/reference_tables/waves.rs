@@ -1,6 +1,6 @@
 //! Contact in several places: a row of crests without end, two bumps, three.
 
-use crate::case::{AT, Case, HALF_WIDTH, LEFT, LENGTH, LOAD, MEAN, Made, PEAK, Place, RIGHT};
+use crate::case::{AT, HALF_WIDTH, LEFT, LENGTH, LOAD, MEAN, Made, PEAK, Place, RIGHT};
 use crate::hertz::{hertz, like_steel, steel_on_steel};
 use crate::precise::{PI, Precise, n, root};
 use linecontact::reference::{Hertz, PolynomialMap, Quartic, Westergaard, body};
