@@ -1,4 +1,4 @@
-//! Contacts without a closed form: from the files of 25 digits in `tests/data`.
+//! Contacts without a closed form: from the files in `tests/data`.
 
 use crate::case::{AT, Case, FIFTEEN_DIGITS, LEFT, Made, PEAK, Place, RIGHT};
 use crate::paper::{Example, five, four, three};
@@ -10,7 +10,8 @@ use std::f64::consts::PI;
 use std::fs::read_to_string;
 use std::path::Path;
 
-const SOURCE: &str = "tests/data of linecontact: 66 digits, by two quadratures; the solver agrees";
+const SOURCE: &str =
+    "tests/data of linecontact: 66 digits or more, by two quadratures; the solver agrees";
 
 fn file(name: &str) -> Result<Value, Box<dyn Error>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/{name}.json"));

@@ -5,8 +5,8 @@
 //! cargo run --release --example reference_tables -- --check   # compares it with what is there
 //! ```
 //!
-//! Closed forms are evaluated with twice the digits of a number, and written with fifteen; the others are those of
-//! the files of 25 digits. The solver finds each value, too, and must agree. The page `docs/check_your_code.md` says
+//! Closed forms are evaluated with twice the digits of a number, and written with fifteen; the others come from
+//! `tests/data`. The solver finds each value, too, and must agree. The page `docs/check_your_code.md` says
 //! how to use them; the errors of boundary elements in its table are measured here.
 
 mod case;

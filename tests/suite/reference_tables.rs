@@ -166,7 +166,7 @@ impl Free {
     }
 
     fn sign(&self, j: usize) -> f64 {
-        if (self.contacts.len() - 1 - j) % 2 == 0 { 1.0 } else { -1.0 }
+        if (self.contacts.len() - 1 - j).is_multiple_of(2) { 1.0 } else { -1.0 }
     }
 
     /// `∫ f(s)/sqrt(R)` over all contacts, with the sign of the root.
