@@ -52,6 +52,7 @@ mod pull_off;
 mod quadrature;
 mod quantities;
 mod random_scenes;
+mod reference_tables;
 mod references_f32;
 mod saturated;
 mod search_counts;
