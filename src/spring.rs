@@ -58,7 +58,11 @@ pub struct SpringPoint<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Stored<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct SpringTable<T> {
     points: Vec<Node<T>>,
     error: T,
@@ -67,10 +71,46 @@ pub struct SpringTable<T> {
 
 /// A point with what the cubics need: the derivatives of the logarithms of F, L and p₀ by that of δ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Node<T> {
+    #[cfg_attr(feature = "serde", serde(flatten))]
     point: SpringPoint<T>,
     exponents: [T; 3],
+}
+
+/// A table as it is read from a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stored<T> {
+    points: Vec<Node<T>>,
+    error: T,
+    stiffness_error: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Stored<T>> for SpringTable<T> {
+    type Error = &'static str;
+
+    fn try_from(Stored { points, error, stiffness_error }: Stored<T>) -> Result<Self, Self::Error> {
+        let positive = |value: T| value > T::zero() && value.is_finite();
+        let is_state = |Node { point, exponents }: &Node<T>| {
+            let SpringPoint { approach, load, stiffness, half_width, peak } = *point;
+            [approach, load, stiffness, half_width].into_iter().all(positive)
+                && peak.is_none_or(positive)
+                && exponents.iter().all(|exponent| exponent.is_finite())
+        };
+        let rises = |pair: &[Node<T>]| {
+            let [from, to] = [pair[0].point, pair[1].point];
+            from.approach < to.approach && from.load < to.load
+        };
+        if points.len() < 2 || !points.iter().all(is_state) || !points.windows(2).all(rises) {
+            return Err(
+                "a table of springs has two points or more, of positive numbers, with rising approach and load",
+            );
+        }
+        Ok(Self { points, error, stiffness_error })
+    }
 }
 
 impl<T: Real> SpringTable<T> {

@@ -11,7 +11,7 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// Moment of the pressure about x = 0, `∫ x P dx`: force. Its error is rounding of F times the
-    /// largest x of the contact; beside a kink of the slope up to 1e-12 of F L.
+    /// largest x of the contact; beside a kink of the slope some 1e-12 of F L.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];

@@ -8,7 +8,8 @@ use linecontact::profile::{
 use linecontact::search::{Bisection, Brent, Newton, Secant, StoppingCriteria};
 use linecontact::{
     Contact, Control, Convexity, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
-    Interval, Midpoint, Panels, ParametricProfile, Piecewise, Report, Solution, Summary,
+    Interval, Material, Midpoint, Panels, ParametricProfile, Piecewise, PlaneState, Reference,
+    References, Report, Shear, Solution, SpringTable, Summary,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -183,6 +184,15 @@ fn settings_are_kept_and_have_their_defaults() {
     is_kept(EdgePressure::zero(0.1, 1e-3));
     is_kept(Control::Load(0.02));
     is_kept(Control::Moment { load: 1.0, moment: -0.1, about: 0.3 });
+    is_kept(Material::elastic(210e3, 0.3));
+    is_kept(Material::<f64>::Rigid);
+    is_kept(PlaneState::Stress);
+    let references =
+        References { x: 0.1, lower: Reference::Depth(3.0), upper: Reference::Disc(2.0) };
+    is_kept(references);
+    is_kept(Reference::Length(0.7));
+    is_kept(Control::Approach { approach: 0.01, references });
+    is_kept(Shear { friction: 0.3, force: -1.0, tension: 2.0 });
     is_kept(Convexity::Concave);
     is_kept(CurvePoint { x: 0.1, y: 0.2, dx: 0.3, dy: 0.4 });
 
@@ -231,6 +241,30 @@ fn results_are_kept() {
     let written = serde_json::to_value(&rates).unwrap();
     assert_eq!(written["a"], rates.a);
     assert_eq!(written["limits"][1][0], rates.limits[1][0]);
+}
+
+#[test]
+fn results_with_materials_are_kept() {
+    let steel = Material::elastic(210e3, 0.3);
+    let roller = Parabola::new(10.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &roller).unwrap().materials(steel, steel, PlaneState::Strain);
+    let references =
+        References { x: 0.0, lower: Reference::Depth(9.0), upper: Reference::Disc(10.0) };
+    is_kept(contact.solve(Control::Load(500.0)).unwrap().approach(&references).unwrap());
+    let shear = Shear { friction: 0.3, force: 50.0, tension: 0.0 };
+    let slip = contact.partial_slip(Control::Load(500.0), shear).unwrap();
+    is_kept(slip.traction().unwrap().at(0.1).unwrap());
+
+    let table = SpringTable::new(&contact, &references, [1.0, 1000.0], 1e-6).unwrap();
+    is_kept(table.clone());
+    let middle = table.points().nth(1).unwrap();
+    is_kept(middle);
+    let between = 1.1 * middle.approach;
+    assert_eq!(there_and_back(&table).at(between).unwrap(), table.at(between).unwrap());
+    let written = serde_json::to_string(&table).unwrap();
+    let bad = written.replacen("\"load\":1.0,", "\"load\":1e4,", 1);
+    assert_ne!(bad, written);
+    assert!(refusal::<SpringTable<f64>>(&bad).contains("rising approach and load"));
 }
 
 #[test]
