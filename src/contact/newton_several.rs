@@ -384,19 +384,9 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Whether the gap after a contact is as narrow as rounding, or as what is in doubt of its limits.
+    /// Whether the gap after a contact is as narrow as rounding.
     pub fn is_nothing(&self, i: usize) -> bool {
-        let doubtful = self.doubtful_gap(i);
-        let width = doubtful.right - doubtful.left;
-        let both = self.on[i + 1].right - self.on[i].left;
-        let is_point = width <= T::epsilon().powf(T::of(2.0 / 3.0)) * both;
-        self.gap(i) <= self.rounding(i) || is_point && self.is_hidden(i)
-    }
-
-    /// Whether the gap after a contact may be nothing for all that is known of its limits.
-    fn is_hidden(&self, i: usize) -> bool {
-        let doubtful = self.doubtful_gap(i);
-        self.gap(i) <= T::of(0.5) * (doubtful.right - doubtful.left)
+        self.gap(i) <= self.rounding(i)
     }
 
     /// The rounding of the limits of a contact and of the next.
@@ -422,19 +412,10 @@ impl<T: Real> NewtonSeveral<T> {
         self.on[i + 1].left - self.on[i].right
     }
 
-    /// The gap after a contact, as far as its limits are in doubt.
-    fn doubtful_gap(&self, i: usize) -> Interval<T> {
-        let [left, right] = [self.on[i].right, self.on[i + 1].left];
-        let doubt = [(i, 2 * i + 1), (i + 1, 2 * i + 2)].map(|(i, limit)| {
-            self.errors.get(limit).map_or(T::zero(), |&error| error * self.on[i].half_width())
-        });
-        Interval { left: left - doubt[0], right: right + doubt[1] }
-    }
-
-    /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts at least.
+    /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts.
     pub fn closed_gap(&self, i: usize) -> Interval<T> {
-        let (Interval { left, right }, rounding) = (self.doubtful_gap(i), self.rounding(i));
-        Interval { left: left - rounding, right: right + rounding }
+        let rounding = self.rounding(i);
+        Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
     }
 
     /// Whether no limit has moved by more than it may be in doubt.
@@ -443,12 +424,10 @@ impl<T: Real> NewtonSeveral<T> {
         half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
     }
 
-    /// Whether no limit has moved by more than it is in doubt. One at a gap that this doubt hides is on its way:
-    /// where a contact would pull, its equations hold with any gap that is nothing.
+    /// Whether no limit has moved by more than it is in doubt.
     fn is_all_doubt(&self) -> bool {
         let errors = self.errors.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
         errors.zip(&self.moves).all(|((&error, half_width), step)| step.abs() <= error * half_width)
-            && !(0..self.on.len() - 1).any(|i| self.is_hidden(i))
     }
 
     /// What the equations leave open of the limits, and rounding.
