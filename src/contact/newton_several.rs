@@ -22,12 +22,9 @@ const LEAST_LEFT: f64 = 0.3;
 /// By how much a width may grow in one step.
 const MOST_GROWTH: f64 = 4.0;
 
-/// Steps in a row that are cut short by the same gap, or end, before it is taken not to exist: one at a kink may
-/// be as narrow as rounding.
+/// Steps in a row that are cut short by the same width, or end, before it is taken not to exist: a gap at a kink, or a
+/// contact where the bodies have just met, may be as narrow as rounding.
 const MOST_CUT: i32 = 12;
-
-/// The same for a contact: what is left of it by then is less than a hundredth.
-const MOST_CUT_OF_A_CONTACT: i32 = 4;
 
 /// How Newton's method ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +70,7 @@ pub(super) struct NewtonSeveral<T> {
     step: Vec<T>,
     /// What the limits move by.
     moves: Vec<T>,
-    /// The widths between them, from the widest to the narrowest.
+    /// The widths between them, from the narrowest to the widest.
     order: Vec<usize>,
     /// What the conditions leave open: of one of them, and of what that makes of the limits.
     unit: Vec<T>,
@@ -192,8 +189,7 @@ impl<T: Real> NewtonSeveral<T> {
                 let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
                 let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
                 cut = Some((place, times));
-                let of_a_contact = place < usize::MAX - 1 && place.is_multiple_of(2);
-                if times > if of_a_contact { MOST_CUT_OF_A_CONTACT } else { MOST_CUT } {
+                if times > MOST_CUT {
                     return Ok(match place {
                         usize::MAX => SeveralOutcome::Beyond(1),
                         place if place == usize::MAX - 1 => SeveralOutcome::Beyond(0),
@@ -304,11 +300,11 @@ impl<T: Real> NewtonSeveral<T> {
         Some(place)
     }
 
-    /// What a step leaves of a width at least, as a share of it. A gap may fall faster that was kept from it before:
+    /// What a step leaves of a width at least, as a share of it. One may fall faster that was kept from it before:
     /// `cut` is what was, and how often in a row.
     fn least(i: CutWidth, cut: Option<(CutWidth, i32)>) -> T {
         let times = match cut {
-            Some((place, times)) if place == i && i % 2 == 1 => times + 1,
+            Some((place, times)) if place == i => times + 1,
             _ => 1,
         };
         T::of(LEAST_LEFT.powi(times))
@@ -372,8 +368,7 @@ impl<T: Real> NewtonSeveral<T> {
         let mut share = one;
         for i in 0..count - 1 {
             let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
-            let times = if i % 2 == 1 { MOST_CUT } else { 1 };
-            let most = (one - T::of(0.5 * LEAST_LEFT.powi(times))) * width;
+            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MOST_CUT))) * width;
             if less > most {
                 share = share.min(most / less);
             }

@@ -77,9 +77,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         LoadCase { kappa: self.kappa, load: self.found.load, free: self.found.free }
     }
 
-    /// The share of the mean pressure, or of the heights in the contact, that is taken for zero.
+    /// The share of the mean pressure that is taken for zero, besides what is in doubt of a pressure.
+    fn rounding() -> T {
+        T::epsilon().cbrt() * T::epsilon().cbrt()
+    }
+
+    /// The share of the slopes, or of the heights in the contact, that is taken for zero.
     fn share(&self) -> T {
-        let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+        let rounding = Self::rounding();
         let error = T::of(16.0) * self.found.error.unwrap_or(T::zero());
         rounding.max(error).min(T::of(0.01))
     }
@@ -148,7 +153,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let on = field.interval();
             let mean = field.load().abs() / on.half_width();
             let allowed =
-                self.share() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+                Self::rounding() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
             seen.clear();
             let both = ExteriorField::places(on).into_iter().zip(field.pressures());
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));
@@ -279,13 +284,23 @@ impl<T: Real> SignoriniCheck<'_, T> {
         [mut left, mut right]: [T; 2],
     ) -> Result<T, ContactError<T>> {
         let half = T::of(0.5);
+        let (mut falls, mut rises) = (None, None);
         for _ in 0..MOST_HALVES {
             let x = half * (left + right);
-            let tension_spans = fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x));
-            let slope = sampler.slope(self.gap, x)? - tension_spans / self.kappa;
-            if slope > T::zero() { right = x } else { left = x }
+            let pushed = fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x));
+            let slope = sampler.slope(self.gap, x)? - pushed / self.kappa;
+            if slope > T::zero() {
+                (right, rises) = (x, Some(slope));
+            } else {
+                (left, falls) = (x, Some(-slope));
+            }
         }
-        Ok(half * (left + right))
+        // The slope is all but straight by now.
+        let share = match (falls, rises) {
+            (Some(falls), Some(rises)) => falls / (falls + rises),
+            _ => half,
+        };
+        Ok(left + share * (right - left))
     }
 
     /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of

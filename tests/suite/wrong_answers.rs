@@ -769,6 +769,28 @@ fn two_contacts_about_to_merge_are_two() {
     }
 }
 
+/// Two gaps that close under nearly the same load, beside a corner that holds nothing: what is in doubt of the limits at
+/// one gap was taken for a tension at the other, of -4.6e-7 of the mean.
+#[test]
+fn a_gap_that_is_in_doubt_hides_no_tension_at_another() {
+    let wave = graph(-1.3, 1.3, |k| {
+        let angle = 10.0 * k;
+        [0.05 * angle.cos() + 0.2 * k * k, -0.5 * angle.sin() + 0.4 * k]
+    });
+    let contact = on_flat(wave).contact_modulus(1.0).edges(Edge::Free, Edge::FreeUntil(1.15));
+    for (share, count) in [(-1e-5, 3), (1e-7, 3), (1e-8, 3), (1e-5, 1)] {
+        let solution = contact.solve(Control::Load(0.600_968_279_198 * (1.0 + share))).unwrap();
+        assert_eq!(solution.intervals().len(), count, "{share}");
+        assert!(solution.certify().is_ok(), "{share}");
+    }
+    // One bump begins to touch: the lowest place of the gap there is found to 1e-8.
+    for (share, count) in [(-1e-6, 2), (-1e-7, 3), (1e-6, 4)] {
+        let solution = contact.solve(Control::Load(0.137_125_153_359 * (1.0 + share))).unwrap();
+        assert!(solution.intervals().len() >= count, "{share}");
+        assert!(solution.certify().is_ok(), "{share}");
+    }
+}
+
 /// Double wells up to 1e-7 of the load at which the contacts merge, and beyond: no pressure is negative, and as many
 /// contacts as the load says.
 #[test]
