@@ -168,8 +168,19 @@ impl<T: Real> ContactState<T> {
         let free = conditions.edges.map(|edge| edge.is_free());
         let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
         let ends = [interval.left, interval.right];
-        let (force, trend) = (None, m.derivatives);
-        Self { interval, load, strengths, free, adhesive, error, force, trend, tilt, ends }
+        Self {
+            interval,
+            load,
+            strengths,
+            free,
+            adhesive,
+            error,
+            error_by_load: None,
+            force: None,
+            trend: m.derivatives,
+            tilt,
+            ends,
+        }
     }
 
     /// A corner that is said to hold the contact, and would have to pull at it.
@@ -401,7 +412,8 @@ impl<'b, T: Real> Contact<'b, T> {
     ///
     /// # Errors
     /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
-    /// [`ContactError::SlipsEverywhere`], [`ContactError::ReversedSlip`], [`ContactError::UnlikeBodies`];
+    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
+    /// [`ContactError::UnlikeBodies`];
     /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
     pub fn partial_slip(
         &self,
@@ -448,6 +460,11 @@ impl<'b, T: Real> Contact<'b, T> {
         let (load, limit) = (normal.load(), friction * normal.load());
         if force.abs() >= limit {
             return Err(ContactError::SlipsEverywhere { force, limit });
+        }
+        // The traction is a difference, of which nothing would be left.
+        let least = T::epsilon().powf(T::of(0.75)) * limit;
+        if !force.is_zero() && force.abs() < least {
+            return Err(ContactError::SticksEverywhere { force, limit });
         }
         // μ E*, with the sign of the force.
         let stiffness = friction * self.kappa / T::frac_pi_2();

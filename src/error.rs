@@ -543,7 +543,8 @@ pub enum ContactError<T: Real> {
     },
     /// An approach that a table of a spring does not cover.
     #[error(
-        "the table covers approaches from {:?} to {:?}, not {approach:?}: make it for a wider range of loads",
+        "the table covers approaches from {:?} to {:?}, not {approach:?}: make it for a wider range of loads (apart, the \
+         bodies bear none)",
         range[0], range[1]
     )]
     OutsideTable {
@@ -590,6 +591,18 @@ pub enum ContactError<T: Real> {
         "the tangential force {force:?} is no less than friction carries, μF = {limit:?}: the bodies slip everywhere"
     )]
     SlipsEverywhere {
+        /// Q.
+        force: T,
+        /// μF.
+        limit: T,
+    },
+    /// The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
+    /// rounding. Without slip the traction is Q ∂P/∂F, of [`Solution::load_rates`](crate::Solution::load_rates).
+    #[error(
+        "the tangential force {force:?} is so much less than friction carries, μF = {limit:?}, that nothing is seen to \
+         slip: take Q times the rate of the pressure in load_rates"
+    )]
+    SticksEverywhere {
         /// Q.
         force: T,
         /// μF.

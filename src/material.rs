@@ -4,7 +4,7 @@
 //! 1/E* = 1/M₁ + 1/M₂      M = E/(1 - ν²) in plane strain, M = E in plane stress
 //! ```
 //!
-//! (Johnson, *Contact Mechanics*, 1985, Eq. 4.30 for plane strain.) Plane stress is plane strain with `ν/(1 + ν)` in
+//! (Johnson, *Contact Mechanics*, 1985, §4.2 for plane strain.) Plane stress is plane strain with `ν/(1 + ν)` in
 //! place of ν and the same M (Timoshenko and Goodier, *Theory of Elasticity*, 1970, §§ 16 and 17).
 //!
 //! **Unlike bodies.** Without friction nothing of the elastic constants but E* is left in the equations of a

@@ -82,7 +82,7 @@ pub fn hertz_cylinder() -> Made {
     let (pressure, below) = (solution.pressure()?, solution.subsurface()?);
     let modulus = like_steel();
     let [a, peak] = hertz(load, n(radius), modulus);
-    case.source("Hertz 1882; Johnson, Contact Mechanics, 1985, Eqs. 4.30, 4.43 to 4.45");
+    case.source("Hertz 1882; Johnson, Contact Mechanics, 1985, Eqs. 4.43 to 4.45");
     let solved = PlaneState::Strain.contact_modulus(material(STEEL), material(STEEL))?;
     case.closed(MODULUS, Place::Whole, modulus, solved, "E* = 1/((1-nu1^2)/E1 + (1-nu2^2)/E2)");
     case.closed(HALF_WIDTH, Place::Whole, a, solution.a(), "a = sqrt(4 F R/(pi E*))");
@@ -209,7 +209,7 @@ fn two_cylinders(
     let modulus = n(1.0) / (compliance(materials[0]) + compliance(materials[1]));
     let radius = n(1.0) / (n(1.0) / n(radii[0]) + n(1.0) / n(radii[1]));
     let [a, peak] = hertz(load, radius, modulus);
-    case.source("Hertz 1882; Johnson, Contact Mechanics, 1985, Eqs. 4.30, 4.43 to 4.45");
+    case.source("Hertz 1882; Johnson, Contact Mechanics, 1985, Eqs. 4.43 to 4.45");
     let solved =
         PlaneState::Strain.contact_modulus(material(materials[0]), material(materials[1]))?;
     case.closed(MODULUS, Place::Whole, modulus, solved, "E* = 1/((1-nu1^2)/E1 + (1-nu2^2)/E2)");

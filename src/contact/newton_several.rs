@@ -243,6 +243,13 @@ impl<T: Real> NewtonSeveral<T> {
         ends: [T; 2],
     ) -> ContactState<T> {
         let on = &self.on;
+        // The load goes about with the square of a width.
+        let [mut sum, mut all] = [T::zero(); 2];
+        for (on, errors) in on.iter().zip(self.errors.chunks_exact(2)) {
+            let square = on.half_width() * on.half_width();
+            sum += square * errors[0].max(errors[1]);
+            all += square;
+        }
         ContactState {
             interval: Interval { left: on[0].left, right: on[on.len() - 1].right },
             load,
@@ -250,6 +257,7 @@ impl<T: Real> NewtonSeveral<T> {
             free: corners.map(|corner| !corner),
             adhesive: [false; 2],
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
+            error_by_load: Some(sum / all),
             force: None,
             trend: None,
             tilt: self.tilt,

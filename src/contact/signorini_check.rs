@@ -82,13 +82,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         T::epsilon().cbrt() * T::epsilon().cbrt()
     }
 
-    /// The share of the slopes, or of the heights in the contact, that is taken for zero.
-    fn share(&self) -> T {
-        let rounding = Self::rounding();
-        let error = T::of(16.0) * self.found.error.unwrap_or(T::zero());
-        rounding.max(error).min(T::of(0.01))
-    }
-
     /// The pressures in each contact.
     pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
         fields.clear();
@@ -137,7 +130,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != [false; 2];
-        if adhesive || panels::rises(self.integrator, self.share()) == Some(true) {
+        if adhesive || panels::rises(self.integrator, self.found.nothing()) == Some(true) {
             return Ok(None);
         }
         self.fields(fields)?;
@@ -350,7 +343,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             let pushed = (total(x) - taken) / self.kappa;
             let gap = |height: T| height - at_edge - pushed;
-            let allowed = self.share() * (height - at_edge).abs()
+            let allowed = self.found.nothing() * (height - at_edge).abs()
                 + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
             if gap(height - hidden) >= -(allowed + doubt) {
                 is_hidden |= gap(height - hidden) < -allowed;

@@ -53,9 +53,11 @@ pub enum Reference<T> {
     /// The point at this depth below the surface, a length: the half-plane as it is.
     Depth(T),
     /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
-    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). It must be larger than the contact.
+    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact that is small beside the disc, and
+    /// off by the order of `(L/R)²`. Of a roller between two blocks each side is a contact of its own: the approaches
+    /// add.
     Disc(T),
-    /// ℓ in `2 ln(ℓ/|x - s|)`, a length. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
+    /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: approach and stiffness are negative for a short one. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
     Length(T),
 }
 

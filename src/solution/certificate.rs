@@ -96,7 +96,7 @@ pub(crate) fn certify<T: Real>(
         return several::certify(gap, kappa, found, solved);
     }
     let ContactState { interval: on, strengths, free, adhesive, ends, .. } = *found;
-    let share = share(found);
+    let share = found.nothing();
     let mean = T::of(0.5) * found.load.abs() / on.half_width();
 
     let mut panel_set = PanelSet::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
@@ -164,13 +164,6 @@ pub(crate) fn certify<T: Real>(
         return Err(ContactError::Overlap { x, gap, interval, load });
     }
     Ok(Certificate { pressure, gap: closest, spacing, cost: panel_set.cost + more })
-}
-
-/// What is taken for nothing beside what is usual in the contact.
-fn share<T: Real>(found: &ContactState<T>) -> T {
-    let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
-    let error = T::of(16.0) * found.error.unwrap_or(T::zero());
-    rounding.max(error).min(T::of(0.01))
 }
 
 /// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.

@@ -1,7 +1,7 @@
 //! What a search has found: all that a solution is asked for follows from it.
 
-use crate::Interval;
 use crate::quadrature::MomentDerivatives;
+use crate::{Interval, Real};
 
 /// A contact that was found.
 #[derive(Clone, Copy)]
@@ -16,6 +16,9 @@ pub(crate) struct ContactState<T> {
     pub adhesive: [bool; 2],
     /// Estimated error of the limits relative to the half-width, where they were sought.
     pub error: Option<T>,
+    /// Of several contacts, that error by about the share of the load that each bears: a narrow one whose limits are
+    /// hardly known leaves little open elsewhere.
+    pub error_by_load: Option<T>,
     /// The load that such an error stands for, where it is known.
     pub force: Option<T>,
     /// How the edge integrals change with the limits, where that is known.
@@ -24,4 +27,13 @@ pub(crate) struct ContactState<T> {
     pub tilt: T,
     /// Where the bodies end: at corners, or with their common range.
     pub ends: [T; 2],
+}
+
+impl<T: Real> ContactState<T> {
+    /// What is taken for nothing beside what is usual in the contacts.
+    pub fn nothing(&self) -> T {
+        let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
+        let error = self.error_by_load.or(self.error).unwrap_or(T::zero());
+        rounding.max(T::of(16.0) * error).min(T::of(0.01))
+    }
 }

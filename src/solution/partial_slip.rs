@@ -101,7 +101,7 @@ impl<'b, T: Real> PartialSlip<'b, T> {
         self.shear
     }
 
-    /// The traction q along the contact.
+    /// The traction q along the contact. It is a difference: its error is the rounding of μP, whatever Q is.
     ///
     /// # Errors
     /// Those of [`Solution::pressure`].

@@ -146,6 +146,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         (E::InvalidSlipFriction { friction: -1.5 }, &["-1.5", "positive"], Input),
         (E::InvalidShear { quantity: "tension", value: 1.5 }, &["tension = 1.5"], Input),
         (E::SlipsEverywhere { force: 1.5, limit: 2.5 }, &["1.5", "μF = 2.5"], Solve),
+        (E::SticksEverywhere { force: 1.5, limit: 2.5 }, &["1.5", "μF = 2.5", "load_rates"], Solve),
         (
             E::ReversedSlip { zone: Interval { left: 1.5, right: 2.5 }, contact: ON },
             &["stick from 1.5 to 2.5", "reverses"],

@@ -259,6 +259,11 @@ fn what_does_not_slip_in_part_is_refused() {
         let error = error(shear(force, 0.0));
         assert!(matches!(error, ContactError::SlipsEverywhere { .. }), "{force}: {error}");
     }
+    // Nothing of the difference would be left.
+    for force in [1e-14, -1e-300] {
+        let error = error(shear(force, 0.0));
+        assert!(matches!(error, ContactError::SticksEverywhere { .. }), "{force}: {error}");
+    }
     // With the tension alone slip has to reverse; and with too much of it.
     for (force, tension) in [(0.0, 0.02), (0.01, 0.2), (-0.01, -0.2)] {
         let error = error(shear(force, tension));

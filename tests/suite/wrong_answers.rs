@@ -791,6 +791,32 @@ fn a_gap_that_is_in_doubt_hides_no_tension_at_another() {
     }
 }
 
+/// Two bumps are about to touch on either side. One of them was found and the other, of which the first one's doubt
+/// took the overlap for nothing, was not.
+#[test]
+fn of_two_bumps_that_are_alike_both_touch_or_none() {
+    let wave = graph(-1.5, 1.5, |x| {
+        let angle = 2.0 * PI * x;
+        [x * x / 200.0 + 0.02 * (1.0 - angle.cos()), x / 100.0 + 0.04 * PI * angle.sin()]
+    });
+    let contact = on_flat(wave).contact_modulus(1.0);
+    let (mut one, mut three) = (0, 0);
+    for i in 0..200 {
+        let load = 0.001_902_3 + 1e-9 * f64::from(i);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let on = solution.intervals();
+        match on.len() {
+            1 => one += 1,
+            3 => three += 1,
+            count => panic!("{load}: {count}"),
+        }
+        assert!((solution.a() - solution.b()).abs() < 1e-8, "{load}: {on:?}");
+        let certificate = solution.certify().unwrap();
+        assert!(certificate.gap.is_none_or(|gap| gap.value > -1e-10), "{load}: {certificate:?}");
+    }
+    assert!(one > 30 && three > 30, "{one} {three}");
+}
+
 /// Double wells up to 1e-7 of the load at which the contacts merge, and beyond: no pressure is negative, and as many
 /// contacts as the load says.
 #[test]

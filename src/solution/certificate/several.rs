@@ -10,7 +10,7 @@ use super::inside::Inside;
 use super::missed::{Solved, compare};
 use super::opening_integral::extremes;
 use super::outside::{OpeningRate, OutsideOf};
-use super::{Certificate, Extremum, MOST_EVALUATIONS, SHARE, followed, nearer, share, undecided};
+use super::{Certificate, Extremum, MOST_EVALUATIONS, SHARE, followed, nearer, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{self, PanelSet, Several, System};
@@ -59,7 +59,7 @@ pub(super) fn certify<T: Real>(
 ) -> Result<Certificate<T>, ContactError<T>> {
     let ContactState { interval: hull, load, strengths, free, ends, .. } = *found;
     let contacts = solved.contacts();
-    let (last, range, share) = (contacts.len() - 1, gap.range(), share(found));
+    let (last, range, share) = (contacts.len() - 1, gap.range(), found.nothing());
     let half = T::of(0.5);
     // Where both edges are at fault it is the right one that is named.
     let pressed =
@@ -272,6 +272,7 @@ mod tests {
             free: [true; 2],
             adhesive: [false; 2],
             error: Some(1e-14),
+            error_by_load: None,
             force: None,
             trend: None,
             tilt: 0.0,
