@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import pytest
 from scenes import SCENES, Array, Pair, example_three, reference
 
 import linecontact as lc
+from linecontact.bodies import CurveFunction
 
 
 @pytest.mark.parametrize(("name", "bodies", "accuracy"), SCENES, ids=[name for name, *_ in SCENES])
@@ -31,10 +33,10 @@ def test_there_are_enough_of_them() -> None:
 class Counted:
     """A function that counts its calls, and the points asked for."""
 
-    def __init__(self, function: Callable[[Array], tuple[object, ...]]) -> None:
+    def __init__(self, function: CurveFunction) -> None:
         self.function, self.sizes = function, list[int]()
 
-    def __call__(self, k: Array) -> tuple[object, ...]:
+    def __call__(self, k: Array) -> Sequence[Any]:
         self.sizes.append(k.size)
         return self.function(k)
 

@@ -209,9 +209,13 @@ class Placed(Body):
     Flat().rotated(0.1).shifted(0.0, 2.0)
     """
 
+    body: Body
+    steps: tuple[Step, ...]
+
     def __init__(self, body: Body, steps: Sequence[Step]) -> None:
         if isinstance(body, Placed):
-            body, steps = body.body, [*body.steps, *steps]
+            steps = [*body.steps, *steps]
+            body = body.body
         self.body = body
         self.steps = tuple((name, tuple(map(float, numbers))) for name, numbers in steps)
         self._profile = body._profile.placed([(name, list(numbers)) for name, numbers in self.steps])

@@ -734,6 +734,13 @@ class PartialSlip:
     ----------
     contact : Contact
         The scene.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
+    >>> contact.partial_slip(friction=0.4, force=0.03, load=0.1)
+    <PartialSlip: force 0.03, sticks in [-0.178412, 0.178412]>
     """
 
     __slots__ = ("_acting", "_found", "_prescribed", "contact")
