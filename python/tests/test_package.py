@@ -6,6 +6,7 @@ import ast
 import importlib
 import inspect
 import pkgutil
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -71,6 +72,15 @@ def test_examples(name: str) -> None:
 def test_example_of_the_package() -> None:
     doctest = importlib.import_module("doctest")
     assert doctest.testmod(lc).attempted > 0 and doctest.testmod(lc).failed == 0
+
+
+def test_the_code_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"```python\n(.*?)```", (HERE.parent / "README.md").read_text(), re.DOTALL)
+    assert len(blocks) > 1
+    exec("\n".join(blocks), {})
+    assert (tmp_path / "roller.png").exists()
 
 
 def test_types() -> None:
