@@ -85,9 +85,15 @@ def test_the_code_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 def test_types() -> None:
     pytest.importorskip("mypy")
-    config = HERE.parent / "pyproject.toml"
-    for what in [["-p", "linecontact"], [str(path) for path in HERE.glob("*.py")]]:
-        command = [sys.executable, "-m", "mypy", "--strict", "--config-file", str(config), *what]
+    strict = ["mypy", "--strict", "--config-file", str(HERE.parent / "pyproject.toml")]
+    checks = [
+        [*strict, "-p", "linecontact"],
+        [*strict, *map(str, HERE.glob("*.py"))],
+        # What the stub says of the extension is what the extension says of itself.
+        ["mypy.stubtest", "linecontact._native"],
+    ]
+    for check in checks:
+        command = [sys.executable, "-m", *check]
         done = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
 

@@ -1,8 +1,20 @@
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, final
 
 import numpy as np
 import numpy.typing as npt
+
+__all__ = [
+    "LoadRates",
+    "PartialSlip",
+    "Profile",
+    "Scene",
+    "Solution",
+    "Solver",
+    "SpringTable",
+    "contact_modulus",
+    "variants",
+]
 
 _Array = npt.NDArray[np.float64]
 _Pair = tuple[float, float]
@@ -18,6 +30,7 @@ _Columns = tuple[_Array, _Array, _Array, _Array, _Array]
 def variants() -> list[tuple[str, list[str]]]: ...
 def contact_modulus(lower: _Elastic, upper: _Elastic, state: str) -> float: ...
 
+@final
 class Profile:
     @staticmethod
     def flat() -> Profile: ...
@@ -51,6 +64,7 @@ class Profile:
     def at(self, k: _Array) -> list[_Array]: ...
     def check_derivatives(self) -> None: ...
 
+@final
 class Scene:
     def __new__(
         cls,
@@ -72,11 +86,13 @@ class Scene:
     def solve(self, prescribed: _Prescribed) -> Solution: ...
     def partial_slip(self, prescribed: _Prescribed, acting: _Shear) -> PartialSlip: ...
 
+@final
 class Solver:
     def __new__(cls) -> Solver: ...
     def solve(self, scene: Scene, prescribed: _Prescribed) -> Solution: ...
     def partial_slip(self, scene: Scene, prescribed: _Prescribed, acting: _Shear) -> PartialSlip: ...
 
+@final
 class SpringTable:
     def __new__(cls, scene: Scene, to: _References, loads: _Pair, tolerance: float) -> SpringTable: ...
     @property
@@ -86,6 +102,7 @@ class SpringTable:
     def points(self) -> _Columns: ...
     def at(self, approach: _Array) -> _Columns: ...
 
+@final
 class Solution:
     @property
     def a(self) -> float: ...
@@ -140,6 +157,7 @@ class Solution:
     ]: ...
     def __str__(self) -> str: ...
 
+@final
 class LoadRates:
     @property
     def a(self) -> float: ...
@@ -149,6 +167,7 @@ class LoadRates:
     def limits(self) -> list[_Pair]: ...
     def pressure(self, x: _Array) -> _Array: ...
 
+@final
 class PartialSlip:
     @property
     def normal(self) -> Solution: ...

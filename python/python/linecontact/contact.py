@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
 from ._numbers import Range, as_range
 from .bodies import Body
 from .solution import PartialSlip, Solution
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Plane: TypeAlias = Literal["strain", "stress"]
 
@@ -310,6 +313,37 @@ def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | No
     return "midpoint", [float(given.segments), float(given.extrapolations), even]
 
 
+class Prescribed(TypedDict, total=False):
+    """What a solve is given: the keyword arguments of `Contact.solve`."""
+
+    load: float
+    half_width: float
+    peak_pressure: float
+    approach: float
+    references: References
+    moment: float
+    about: float
+    centre: float
+
+
+class Settings(TypedDict, total=False):
+    """The keyword arguments of `Contact`."""
+
+    contact_modulus: float | None
+    materials: tuple[Sequence[float], Sequence[float]] | None
+    kappa: float | None
+    plane: Plane
+    edges: tuple[Edge, Edge] | None
+    edge_pressure: EdgePressure | None
+    start: Sequence[float] | None
+    search: Search | str | None
+    inversion: Search | str | None
+    quadrature: Panels | Midpoint | None
+    tolerance: float | None
+    certified: bool
+    single_interval: bool
+
+
 def _prescribed(
     *,
     load: float | None,
@@ -549,7 +583,7 @@ class Contact:
         return Solution(self._scene.solve(prescribed), self, prescribed)
 
     def partial_slip(
-        self, *, friction: float, force: float, tension: float = 0.0, **prescribed: Any
+        self, *, friction: float, force: float, tension: float = 0.0, **prescribed: Unpack[Prescribed]
     ) -> PartialSlip:
         """Finds the contact, and where in it the bodies stick under a tangential force that friction carries.
 
@@ -576,14 +610,15 @@ class Contact:
         >>> round(slip.stick_zones[0].half_width / slip.normal.a, 12)  # sqrt(1 - Q/(μF))
         0.5
         """
-        wanted = _prescribed(**{**_NOTHING, **prescribed})
+        wanted = _wanted(prescribed)
         acting = (float(friction), float(force), float(tension))
         return PartialSlip(self._scene.partial_slip(wanted, acting), self, wanted, acting)
 
 
-_NOTHING: dict[str, Any] = dict.fromkeys(
-    ["load", "half_width", "peak_pressure", "approach", "references", "moment", "about", "centre"]
-)
+def _wanted(given: Prescribed) -> tuple[str, list[float], References | None]:
+    """What is prescribed, of keyword arguments that may be left out."""
+    nothing = dict.fromkeys(Prescribed.__annotations__)
+    return _prescribed(**cast("Any", {**nothing, **given}))
 
 
 def _again(lower: Body, upper: Body, settings: dict[str, Any]) -> Contact:

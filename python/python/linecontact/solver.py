@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
 from . import _native
 from ._numbers import FloatArray, Numbers
 from .bodies import Body
-from .contact import _NOTHING, Contact, References, _prescribed
+from .contact import Contact, Prescribed, References, Settings, _wanted
 from .solution import PartialSlip, Solution
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = ["Solver", "SpringPoints", "SpringTable", "solve"]
 
 
-def solve(lower: Body, upper: Body, **given: Any) -> Solution:
+class Given(Settings, Prescribed, total=False):
+    """The keyword arguments of a contact and of its solve."""
+
+
+def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
     """A contact and its solution in one call.
 
     Parameters
@@ -37,8 +44,10 @@ def solve(lower: Body, upper: Body, **given: Any) -> Solution:
     >>> lc.solve(lc.Flat(), roller, load=500.0, contact_modulus=115e3)
     <Solution: contact [-0.235283, 0.235283], load 500, checked>
     """
-    prescribed = {name: given.pop(name) for name in _NOTHING if name in given}
-    return Contact(lower, upper, **given).solve(**prescribed)
+    names = Prescribed.__annotations__
+    prescribed = {name: value for name, value in given.items() if name in names}
+    settings = {name: value for name, value in given.items() if name not in names}
+    return Contact(lower, upper, **cast("Any", settings)).solve(**cast("Any", prescribed))
 
 
 class Solver:
@@ -63,9 +72,9 @@ class Solver:
     def __reduce__(self) -> tuple[Any, ...]:
         return Solver, ()
 
-    def solve(self, contact: Contact, **prescribed: Any) -> Solution:
+    def solve(self, contact: Contact, **prescribed: Unpack[Prescribed]) -> Solution:
         """As `Contact.solve`, from the last contact."""
-        wanted = _prescribed(**{**_NOTHING, **prescribed})
+        wanted = _wanted(prescribed)
         return Solution(self._solver.solve(contact._scene, wanted), contact, wanted)
 
     def partial_slip(
@@ -75,10 +84,10 @@ class Solver:
         friction: float,
         force: float,
         tension: float = 0.0,
-        **prescribed: Any,
+        **prescribed: Unpack[Prescribed],
     ) -> PartialSlip:
         """As `Contact.partial_slip`, from the last contact."""
-        wanted = _prescribed(**{**_NOTHING, **prescribed})
+        wanted = _wanted(prescribed)
         acting = (float(friction), float(force), float(tension))
         found = self._solver.partial_slip(contact._scene, wanted, acting)
         return PartialSlip(found, contact, wanted, acting)
