@@ -263,3 +263,24 @@ SCENES: list[tuple[str, Callable[[], Pair], float]] = [
     ("wavy_convex", lambda: on_flat(lc.Curve((-3.0, 3.0), wavy)), 2e-15),
     ("gear_involute_pitch_point", gear, 1e-13),
 ]
+
+
+class Formula:
+    """The formulas of a piece in a reference file, which are in NumPy's words."""
+
+    def __init__(self, piece: dict[str, str]) -> None:
+        self.parts = [compile(piece[name], name, "eval") for name in ("X", "Y", "dX", "dY")]
+
+    def __call__(self, k: Array) -> list[Any]:
+        return [eval(part, {**vars(np), "k": k}) for part in self.parts]
+
+
+def from_file(body: dict[str, Any]) -> lc.Body:
+    """A body of a reference file; one without ends is cut off far from all contacts."""
+    pieces = []
+    for piece in body["pieces"]:
+        if piece["Y"] == "0":
+            return lc.Flat()
+        ends = [float(piece[end]) for end in ("k_from", "k_to")]
+        pieces.append(lc.Curve(np.clip(ends, -100.0, 100.0).tolist(), Formula(piece)))
+    return pieces[0] if len(pieces) == 1 else lc.Piecewise(pieces)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from scenes import SCENES, Array, Pair, example_three, reference
+from scenes import DATA, SCENES, Array, Pair, example_three, from_file, reference
 
 import linecontact as lc
 from linecontact.bodies import CurveFunction
@@ -58,3 +60,43 @@ def test_python_is_called_for_many_points_at_a_time() -> None:
     # Of these six are single points, by which the first point of each contact is found on its curve.
     assert len(sizes) <= 14
     assert sizes.count(1) <= 6
+
+
+def files(pattern: str) -> list[Path]:
+    return sorted(DATA.glob(pattern))
+
+
+@pytest.mark.parametrize("path", files("several/*.json"), ids=lambda path: path.stem)
+def test_several_contacts(path: Path) -> None:
+    want = json.loads(path.read_text())
+    lower, upper = from_file(want["body1"]), from_file(want["body2"])
+    ends = [float(want["limits"][0][0]), float(want["limits"][-1][1])]
+    edges = [
+        lc.Edge.fixed(end) if kind == "fixed" else lc.Edge.free()
+        for kind, end in zip(want["edges"], ends, strict=True)
+    ]
+    contact = lc.Contact(
+        lower, upper, kappa=float(want["scale_value"]), edges=(edges[0], edges[1])
+    )
+    solution = contact.solve(load=float(want["F"]))
+    limits = np.array([[float(end) for end in on] for on in want["limits"]])
+    found = np.array(solution.intervals)
+    assert found.shape == limits.shape
+    widths = limits[:, 1] - limits[:, 0]
+    allowed = want["tolerance_limits_per_width"] * widths[:, None]
+    assert np.all(np.abs(found - limits) <= allowed)
+    points = np.array([[float(one) for one in point] for point in want["points"]])
+    missed = np.abs(solution.pressure(points[:, 0]) - points[:, 1])
+    assert np.max(missed) <= want["tolerance_pressure_per_max"] * np.max(points[:, 1])
+    loads = [contact.load for contact in solution.contacts()]
+    np.testing.assert_allclose(loads, [float(load) for load in want["loads"]], rtol=1e-9)
+
+
+@pytest.mark.parametrize("path", files("reject_*.json"), ids=lambda path: path.stem)
+def test_refused(path: Path) -> None:
+    want = json.loads(path.read_text())
+    with pytest.raises(lc.LineContactError) as raised:
+        lower, upper = from_file(want["body1"]), from_file(want["body2"])
+        lc.solve(lower, upper, kappa=float(want["scale_value"]), load=float(want["C"]) / np.pi)
+    error = getattr(raised.value, "source", raised.value)
+    assert type(error).__name__ in {f"{want['expected_error']}Error", f"Profile{want['expected_error']}Error"}
