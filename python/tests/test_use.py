@@ -283,12 +283,12 @@ def test_a_signal_ends_what_takes_long() -> None:
     def late(*_: object) -> None:
         raise Late
 
-    # Seconds for hundreds of contacts, and for as many stresses.
+    # Ten seconds and more for hundreds of contacts, and for as many stresses.
     x = np.linspace(-1.0, 1.0, 10_000)
     rough = x**2 / 2 + 1e-4 * np.cumsum(np.random.default_rng(1).normal(size=x.size))
     body = lc.Spline(np.column_stack([x, rough]), outliers=None)
     solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.02)
-    many = np.full(200_000, 0.1)
+    many = np.full(1_000_000, 0.1)
     before = signal.signal(signal.SIGALRM, late)
     try:
         for work in (
@@ -299,7 +299,7 @@ def test_a_signal_ends_what_takes_long() -> None:
             began = time.perf_counter()
             with pytest.raises(Late):
                 work()
-            assert time.perf_counter() - began < 1.0
+            assert time.perf_counter() - began < 5.0
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
