@@ -437,16 +437,17 @@ impl<T: Real> Samples<'_, T> {
         let first = self.scratch.k[self.scratch.k.len() - 1];
         let span = self.scratch.right.last().map_or(piece.k[1], |&(k, _)| k) - first;
         let (mut on_left, mut on_right) = (0, 5);
-        let probes = [1, 2, 3, 4].map(|i| {
-            let k = first + span * (T::count(i) / T::of(5.0));
-            let point = piece.curve.at(k);
+        let k = [1, 2, 3, 4].map(|i| first + span * (T::count(i) / T::of(5.0)));
+        let mut points = [piece.ends[0]; 4];
+        piece.curve.at_many(&k, &mut points);
+        for (i, point) in (1..).zip(&points) {
             if point.x <= self.range[0] {
                 on_left = i;
             } else if point.x >= self.range[1] {
                 on_right = on_right.min(i);
             }
-            (k, point)
-        });
+        }
+        let probes = [0, 1, 2, 3].map(|i| (k[i], points[i]));
         for (k, point) in &probes[..on_left] {
             self.scratch.k.push(*k);
             self.scratch.points.push(*point);

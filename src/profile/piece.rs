@@ -140,11 +140,10 @@ impl<'a, T: Real> Piece<'a, T> {
         let [from, to] = interval(curve.domain())?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
-        let mut points = [curve.at(from); STEPS + 1];
-        for (i, point) in points.iter_mut().enumerate() {
-            if i > 0 {
-                *point = curve.at(k(i));
-            }
+        let zero = T::zero();
+        let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; STEPS + 1];
+        curve.at_many(&std::array::from_fn::<T, { STEPS + 1 }, _>(k), &mut points);
+        for (i, point) in points.iter().enumerate() {
             let inside = i > 0 && i < STEPS;
             for (quantity, value, asked) in [("X", point.x, true), ("X'", point.dx, inside)] {
                 if asked && !value.is_finite() {

@@ -113,6 +113,12 @@ impl<T: Real> Placement<T> {
         // An infinite slope stays what it is.
         if self.is_upright() { [a * x, d * y] } else { [a * x + b * y, c * x + d * y] }
     }
+
+    fn point(&self, CurvePoint { x, y, dx, dy }: CurvePoint<T>) -> CurvePoint<T> {
+        let ([x, y], [dx, dy]) = (self.direction([x, y]), self.direction([dx, dy]));
+        let [along, across] = self.shift;
+        CurvePoint { x: x + along, y: y + across, dx, dy }
+    }
 }
 
 /// A smooth body put in another place. One that is joined from pieces is put there by
@@ -199,11 +205,14 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
-        let CurvePoint { x, y, dx, dy } = self.curve.at(k);
-        let ([x, y], [dx, dy]) =
-            (self.placement.direction([x, y]), self.placement.direction([dx, dy]));
-        let [along, across] = self.placement.shift;
-        CurvePoint { x: x + along, y: y + across, dx, dy }
+        self.placement.point(self.curve.at(k))
+    }
+
+    fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
+        self.curve.at_many(k, points);
+        for point in points {
+            *point = self.placement.point(*point);
+        }
     }
 
     fn slope_at(&self, x: T) -> Option<T> {

@@ -1,9 +1,10 @@
 //! Curves of a user's own: points in a batch, slopes by x, pieces; by themselves and through pointers.
 #![allow(missing_docs)]
 
+use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::Quadrature;
 use linecontact::{Contact, Control, Convexity, Curve, CurvePoint, Flat};
-use linecontact::{Midpoint, Panels, ParametricProfile, Piece, Solution};
+use linecontact::{Midpoint, Panels, ParametricProfile, Piece, Piecewise, Solution};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -96,6 +97,27 @@ impl ParametricProfile<f64> for Odd {
     fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
         (index == 2).then(|| Piece::new(&self.inner).unwrap())
     }
+}
+
+#[test]
+fn a_curve_that_is_put_elsewhere_or_joined_is_asked_in_batches_too() {
+    let batches = Arc::new(Batches::default());
+    let counts = || [&batches.batches, &batches.alone].map(|count| count.load(Relaxed));
+    let placement = Placement::default().rotated(0.1).scaled(2.0).flipped().shifted(0.3, -0.2);
+    let placed = Placed::new(batches.clone(), placement).unwrap();
+    let k = [-0.9, -0.1, 0.4, 1.0];
+    let mut points = k.map(point);
+    let before = counts();
+    placed.at_many(&k, &mut points);
+    assert_eq!(counts(), [before[0] + 1, before[1]]);
+    assert_eq!(points, k.map(|k| placed.at(k)));
+
+    // Before it is joined a piece is looked at all along, in one batch, and for its derivatives.
+    let before = counts();
+    Piecewise::new(vec![batches.clone()]).unwrap();
+    let after = counts();
+    assert_eq!(after[0], before[0] + 1);
+    assert!(after[1] - before[1] <= 6, "{before:?} {after:?}");
 }
 
 #[test]

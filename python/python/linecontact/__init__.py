@@ -1,0 +1,111 @@
+"""Line contact of two bodies, each given as a parametric curve: where they touch, and the pressure between them.
+
+Lengths, pressures and loads per unit length are in any units that go together: mm, MPa and N/mm, or m, Pa and N/m.
+The lower body is body 1. The contact runs from x = -b to x = a.
+
+Examples
+--------
+A steel roller of 10 mm radius on a steel flat: mm, MPa, N/mm.
+
+>>> import linecontact as lc
+>>> roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+>>> solution = lc.solve(lc.Flat(), roller, load=500.0, contact_modulus=115e3)
+>>> round(solution.peak().pressure, 1)
+1352.9
+"""
+
+from . import errors
+from .bodies import (
+    Body,
+    Crowning,
+    Curve,
+    Ellipse,
+    Flat,
+    Involute,
+    Line,
+    Parabola,
+    Piecewise,
+    Placed,
+    RoundedPunch,
+    Spline,
+    Wedge,
+)
+from .contact import (
+    Contact,
+    Edge,
+    EdgePressure,
+    Material,
+    Midpoint,
+    Panels,
+    Reference,
+    References,
+    Search,
+    contact_modulus,
+)
+from .errors import EvaluationError, InputError, LineContactError, SolveError
+from .solution import (
+    Approach,
+    Attempt,
+    Certificate,
+    ContactRegion,
+    Cost,
+    Extremum,
+    Interval,
+    LoadRates,
+    PartialSlip,
+    Peak,
+    Solution,
+    Stress,
+    StressPeak,
+    Summary,
+)
+from .solver import Solver, SpringPoints, SpringTable, solve
+
+__all__ = [
+    "Approach",
+    "Attempt",
+    "Body",
+    "Certificate",
+    "Contact",
+    "ContactRegion",
+    "Cost",
+    "Crowning",
+    "Curve",
+    "Edge",
+    "EdgePressure",
+    "Ellipse",
+    "EvaluationError",
+    "Extremum",
+    "Flat",
+    "InputError",
+    "Interval",
+    "Involute",
+    "Line",
+    "LineContactError",
+    "LoadRates",
+    "Material",
+    "Midpoint",
+    "Panels",
+    "Parabola",
+    "PartialSlip",
+    "Peak",
+    "Piecewise",
+    "Placed",
+    "Reference",
+    "References",
+    "RoundedPunch",
+    "Search",
+    "Solution",
+    "SolveError",
+    "Solver",
+    "Spline",
+    "SpringPoints",
+    "SpringTable",
+    "Stress",
+    "StressPeak",
+    "Summary",
+    "Wedge",
+    "contact_modulus",
+    "errors",
+    "solve",
+]

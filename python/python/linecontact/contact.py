@@ -1,0 +1,627 @@
+"""Scenes: two bodies, how stiff they are, what is at the edges, and how the contact is found."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
+
+from . import _native
+from ._numbers import Range, as_range
+from .bodies import Body
+from .solution import PartialSlip, Solution
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Plane: TypeAlias = Literal["strain", "stress"]
+
+__all__ = [
+    "Contact",
+    "Edge",
+    "EdgePressure",
+    "Material",
+    "Midpoint",
+    "Panels",
+    "Reference",
+    "References",
+    "Search",
+    "contact_modulus",
+]
+
+
+class Material(NamedTuple):
+    """An isotropic elastic material.
+
+    Parameters
+    ----------
+    youngs_modulus : float
+        E: a pressure, infinite of a rigid body.
+    poisson_ratio : float
+        ν, from 0 to 1/2.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)  # MPa
+    >>> round(lc.contact_modulus(steel, steel), 2)
+    115384.62
+    """
+
+    youngs_modulus: float
+    poisson_ratio: float
+
+    @classmethod
+    def rigid(cls) -> Material:
+        """A body that keeps its shape.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> round(lc.contact_modulus(lc.Material.rigid(), lc.Material(210e3, 0.3)), 2)
+        230769.23
+        """
+        return cls(math.inf, 0.0)
+
+
+def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
+    modulus, ratio = material
+    return None if modulus == math.inf else (float(modulus), float(ratio))
+
+
+def contact_modulus(
+    lower: Sequence[float], upper: Sequence[float], plane: Plane = "strain"
+) -> float:
+    """The contact modulus of two bodies, `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` in plane strain.
+
+    Parameters
+    ----------
+    lower, upper : Material
+        What they are made of.
+    plane : {"strain", "stress"}
+        "strain" for bodies much longer than the contact is wide, "stress" for much shorter ones.
+
+    Returns
+    -------
+    float
+        E*: a pressure.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel, aluminium = lc.Material(210e3, 0.3), lc.Material(70e3, 0.33)
+    >>> round(lc.contact_modulus(aluminium, steel), 1)
+    58605.2
+    """
+    return _native.contact_modulus(_elastic(lower), _elastic(upper), plane)
+
+
+class Edge(NamedTuple):
+    """What becomes of one edge of the contact. Made by `free`, `fixed`, `free_until` and `adhesive`.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> punch = lc.Contact(lc.Flat(), lc.Flat(), kappa=1.0, edges=(lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)))
+    >>> round(punch.solve(load=0.3).pressure(0.6), 12)  # F/(π sqrt(1 - x²))
+    0.119366207319
+    """
+
+    kind: Literal["free", "fixed", "free_until", "adhesive"]
+    value: float = 0.0
+
+    @classmethod
+    def free(cls) -> Edge:
+        """A smooth body: the limit is where the pressure ends at zero."""
+        return cls("free")
+
+    @classmethod
+    def fixed(cls, x: float) -> Edge:
+        """A sharp corner at this x, a length, from which the contact does not part."""
+        return cls("fixed", float(x))
+
+    @classmethod
+    def free_until(cls, x: float) -> Edge:
+        """A smooth body with a sharp corner at this x, a length: free as long as the corner is not reached."""
+        return cls("free_until", float(x))
+
+    @classmethod
+    def adhesive(cls, work: float) -> Edge:
+        """Adhesion at the edge alone (JKR), with this work of adhesion: energy per unit area."""
+        return cls("adhesive", float(work))
+
+
+class EdgePressure(NamedTuple):
+    """Edges where the pressure has given values at given distances from the limits: the paper's Eq. (6).
+
+    Parameters
+    ----------
+    at_a, at_b : float
+        The pressures wanted at `a - distance_a` and `distance_b - b`.
+    distance_a, distance_b : float
+        Lengths, positive.
+    tolerance_a, tolerance_b : float
+        How far the pressures may be from those, positive.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> edges = lc.EdgePressure.zero(1e-3, 1e-9)
+    >>> body = lc.Parabola(1.0, (-1.0, 1.0))
+    >>> a = lc.Contact(lc.Flat(), body, kappa=1.0, edge_pressure=edges).solve(load=0.02).a
+    >>> round(a, 6)  # wider than 0.2, by about twice the distance
+    0.202005
+    """
+
+    at_a: float
+    at_b: float
+    distance_a: float
+    distance_b: float
+    tolerance_a: float
+    tolerance_b: float
+
+    @classmethod
+    def zero(cls, distance: float, tolerance: float) -> EdgePressure:
+        """No pressure, at the same distance (a length) and with the same tolerance (a pressure) on both sides."""
+        return cls(0.0, 0.0, distance, distance, tolerance, tolerance)
+
+
+class Reference(NamedTuple):
+    """The point of a body that its surface comes nearer to. Made by `depth`, `disc` and `length`.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> lc.References(0.0, lower=lc.Reference.depth(30.0), upper=lc.Reference.disc(10.0)).upper
+    Reference(kind='disc', value=10.0)
+    """
+
+    kind: Literal["depth", "disc", "length"]
+    value: float
+
+    @classmethod
+    def depth(cls, depth: float) -> Reference:
+        """The point at this depth below the surface, a length."""
+        return cls("depth", float(depth))
+
+    @classmethod
+    def disc(cls, radius: float) -> Reference:
+        """The centre of a disc of this radius, a length, which is loaded at the opposite point."""
+        return cls("disc", float(radius))
+
+    @classmethod
+    def length(cls, length: float) -> Reference:
+        """ℓ in `2 ln(ℓ/|x - s|)`, a length: any other constant."""
+        return cls("length", float(length))
+
+
+class References(NamedTuple):
+    """The references of both bodies, between which an approach is measured.
+
+    Parameters
+    ----------
+    x : float
+        The x below and above which they are: a length.
+    lower, upper : Reference
+        Of body 1 and of body 2.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)
+    >>> roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    >>> contact = lc.Contact(lc.Flat(), roller, materials=(steel, steel))
+    >>> to = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+    >>> round(contact.solve(load=500.0).approach(to).bodies, 5)  # mm
+    0.01375
+    """
+
+    x: float
+    lower: Reference
+    upper: Reference
+
+
+class Search(NamedTuple):
+    """A root finder, for the limits or for `X(k) = x`.
+
+    Parameters
+    ----------
+    method : {"bisection", "secant", "brent", "newton"}
+        Which.
+    absolute, relative : float
+        Errors at which it may stop, in what is sought and as a share of it.
+    residual : float
+        What the function may be where it stops.
+    max_evaluations : int
+        When it gives up.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> body = lc.Parabola(1.0, (-1.0, 1.0))
+    >>> brent = lc.Contact(lc.Flat(), body, kappa=1.0, search=lc.Search("brent"))
+    >>> round(brent.solve(load=0.02).a, 12)
+    0.2
+    """
+
+    method: Literal["bisection", "secant", "brent", "newton"]
+    absolute: float = 0.0
+    relative: float = 0.0
+    residual: float = 0.0
+    max_evaluations: int = 2200
+
+
+class Panels(NamedTuple):
+    """The default quadrature: Chebyshev series of the slope of the gap, on panels.
+
+    Parameters
+    ----------
+    tolerance : float
+        Relative error that the slopes may have; 0 for all digits.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> body = lc.Parabola(1.0, (-1.0, 1.0))
+    >>> contact = lc.Contact(lc.Flat(), body, kappa=1.0, quadrature=lc.Panels(1e-6))
+    >>> round(contact.solve(load=0.02).a, 6)
+    0.2
+    """
+
+    tolerance: float = 0.0
+
+
+class Midpoint(NamedTuple):
+    """The paper's quadrature.
+
+    Parameters
+    ----------
+    segments : int
+        N, of the coarsest level.
+    extrapolations : int
+        ET: 0 for the trapezoidal sum, 1 for the midpoint rule, one more for each power taken away.
+    exponents : {"half_integer", "even"}
+        The powers that are taken away: "even" as in the paper.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> body = lc.Parabola(1.0, (-1.0, 1.0))
+    >>> contact = lc.Contact(lc.Flat(), body, kappa=1.0, quadrature=lc.Midpoint())
+    >>> round(contact.solve(load=0.02).a, 12)
+    0.2
+    """
+
+    segments: int = 64
+    extrapolations: int = 4
+    exponents: Literal["half_integer", "even"] = "half_integer"
+
+
+def _search(given: Search | str | None) -> tuple[str, list[float]] | None:
+    if given is None:
+        return None
+    method, *numbers = Search(given) if isinstance(given, str) else given  # type: ignore[arg-type]
+    return method, [float(number) for number in numbers]
+
+
+def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | None:
+    if given is None:
+        return None
+    if isinstance(given, Panels):
+        return "panels", [given.tolerance]
+    even = {"even": 1.0, "half_integer": 0.0}[given.exponents]
+    return "midpoint", [float(given.segments), float(given.extrapolations), even]
+
+
+class Prescribed(TypedDict, total=False):
+    """What a solve is given: the keyword arguments of `Contact.solve`."""
+
+    load: float
+    half_width: float
+    peak_pressure: float
+    approach: float
+    references: References
+    moment: float
+    about: float
+    centre: float
+
+
+class Settings(TypedDict, total=False):
+    """The keyword arguments of `Contact`."""
+
+    contact_modulus: float | None
+    materials: tuple[Sequence[float], Sequence[float]] | None
+    kappa: float | None
+    plane: Plane
+    edges: tuple[Edge, Edge] | None
+    edge_pressure: EdgePressure | None
+    start: Sequence[float] | None
+    search: Search | str | None
+    inversion: Search | str | None
+    quadrature: Panels | Midpoint | None
+    tolerance: float | None
+    certified: bool
+    single_interval: bool
+
+
+def _prescribed(
+    *,
+    load: float | None,
+    half_width: float | None,
+    peak_pressure: float | None,
+    approach: float | None,
+    references: References | None,
+    moment: float | None,
+    about: float | None,
+    centre: float | None,
+) -> tuple[str, list[float], References | None]:
+    """What is prescribed, as the library takes it."""
+    given = {
+        name: value
+        for name, value in [
+            ("load", load),
+            ("half_width", half_width),
+            ("peak_pressure", peak_pressure),
+            ("approach", approach),
+            ("references", references),
+            ("moment", moment),
+            ("about", about),
+            ("centre", centre),
+        ]
+        if value is not None
+    }
+    names = set(given)
+    if load is not None and names == {"load"}:
+        return "load", [float(load)], None
+    if half_width is not None and names == {"half_width"}:
+        return "half_width", [float(half_width)], None
+    if peak_pressure is not None and names == {"peak_pressure"}:
+        return "peak_pressure", [float(peak_pressure)], None
+    if approach is not None and names == {"approach", "references"}:
+        return "approach", [float(approach)], references
+    if load is not None and moment is not None and names <= {"load", "moment", "about"}:
+        return "moment", [float(load), float(moment), float(about or 0.0)], None
+    if load is not None and centre is not None and names == {"load", "centre"}:
+        return "centre", [float(load), float(centre)], None
+    raise TypeError(
+        f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
+        "references, load with moment (and about), or load with centre"
+    )
+
+
+class Contact:
+    """Two bodies to be pressed together, and the way to find their contact. One serves any number of loads.
+
+    Parameters
+    ----------
+    lower, upper : Body
+        Body 1, below, and body 2, above.
+    contact_modulus : float, optional
+        E* of plane strain: a pressure. (`contact_modulus` of two materials gives it.)
+    materials : (Material, Material), optional
+        What the lower and the upper body are made of, in place of the modulus. An approach needs them.
+    kappa : float, optional
+        κ = π E*/2 in place of both: a pressure. Without any of the three κ is 1.
+    plane : {"strain", "stress"}
+        With materials: "strain" for bodies much longer than the contact is wide.
+    edges : (Edge, Edge), optional
+        The left and the right edge. Default: both free.
+    edge_pressure : EdgePressure, optional
+        Conditions at the edges by the paper's Eq. (6), in place of `edges`.
+    start : (float, float), optional
+        From where the limits are sought, -b and a: lengths.
+    search : Search or str, optional
+        What adjusts the limits, one at a time, in place of Newton's method on both.
+    inversion : Search or str, optional
+        What inverts `X(k) = x`. Default: Newton's method.
+    quadrature : Panels or Midpoint, optional
+        Default: `Panels()`.
+    tolerance : float, optional
+        The same as `quadrature=Panels(tolerance)`.
+    certified : bool
+        Whether each solve is proved to be a contact, too: see `Solution.certify`.
+    single_interval : bool
+        Whether one contact is to be found whatever the bodies do, as in the paper.
+
+    Examples
+    --------
+    A steel roller of 10 mm radius on a steel flat: mm, MPa, N/mm.
+
+    >>> import linecontact as lc
+    >>> contact = lc.Contact(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), contact_modulus=115e3)
+    >>> solution = contact.solve(load=500.0)
+    >>> print(solution)  # doctest: +ELLIPSIS
+    contact [-0.235283, 0.235283]
+    load 500, largest pressure 1352.88 at x = ...
+    limits to ... of the half-width, checked
+    """
+
+    def __init__(
+        self,
+        lower: Body,
+        upper: Body,
+        *,
+        contact_modulus: float | None = None,
+        materials: tuple[Sequence[float], Sequence[float]] | None = None,
+        kappa: float | None = None,
+        plane: Plane = "strain",
+        edges: tuple[Edge, Edge] | None = None,
+        edge_pressure: EdgePressure | None = None,
+        start: Sequence[float] | None = None,
+        search: Search | str | None = None,
+        inversion: Search | str | None = None,
+        quadrature: Panels | Midpoint | None = None,
+        tolerance: float | None = None,
+        certified: bool = False,
+        single_interval: bool = False,
+    ) -> None:
+        if sum(given is not None for given in (contact_modulus, materials, kappa)) > 1:
+            raise TypeError("contact_modulus, materials and kappa say the same: give one of them")
+        if edges is not None and edge_pressure is not None:
+            raise TypeError("edges and edge_pressure exclude each other: give one of them")
+        if tolerance is not None:
+            if quadrature is not None:
+                raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
+            quadrature = Panels(float(tolerance))
+        self.lower, self.upper = lower, upper
+        self._settings: dict[str, Any] = {
+            "contact_modulus": contact_modulus,
+            "materials": materials,
+            "kappa": kappa,
+            "plane": plane,
+            "edges": edges,
+            "edge_pressure": edge_pressure,
+            "start": None if start is None else as_range(start),
+            "search": search,
+            "inversion": inversion,
+            "quadrature": quadrature,
+            "certified": certified,
+            "single_interval": single_interval,
+        }
+        self._scene = _native.Scene(
+            lower._profile,
+            upper._profile,
+            kappa=kappa,
+            contact_modulus=contact_modulus,
+            materials=None if materials is None else (*map(_elastic, materials), plane),
+            edges=edges,
+            edge_pressure=edge_pressure,
+            start=self._settings["start"],
+            inversion=_search(inversion),
+            limit_search=_search(search),
+            quadrature=_quadrature(quadrature),
+            certified=certified,
+            single_interval=single_interval,
+        )
+
+    def _set(self) -> dict[str, Any]:
+        """What has been set."""
+        usual = {"plane": "strain", "certified": False, "single_interval": False}
+        return {
+            name: value
+            for name, value in self._settings.items()
+            if value is not None and value != usual.get(name)
+        }
+
+    def __repr__(self) -> str:
+        settings = (f", {name}={value!r}" for name, value in self._set().items())
+        return f"Contact({self.lower!r}, {self.upper!r}{''.join(settings)})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self.lower, self.upper, self._set())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Contact):
+            return NotImplemented
+        bodies = (self.lower, self.upper) == (other.lower, other.upper)
+        return bodies and self._settings == other._settings
+
+    def __hash__(self) -> int:
+        return hash((self.lower, self.upper, repr(self._settings)))
+
+    def solve(
+        self,
+        *,
+        load: float | None = None,
+        half_width: float | None = None,
+        peak_pressure: float | None = None,
+        approach: float | None = None,
+        references: References | None = None,
+        moment: float | None = None,
+        about: float | None = None,
+        centre: float | None = None,
+    ) -> Solution:
+        """Finds the contact under what is prescribed.
+
+        The interpreter is released meanwhile, and Ctrl-C ends the search.
+
+        Parameters
+        ----------
+        load : float
+            F per unit length: force/length.
+        half_width : float
+            L, in place of a load: a length.
+        peak_pressure : float
+            The largest pressure, in place of a load: a pressure.
+        approach : float
+            How far the bodies come together, in place of a load: a length, between the `references`.
+        references : References
+            With an approach.
+        moment : float
+            With a load, the moment of the pressures about `about`: a force. The bodies turn until it is that.
+        about : float
+            x, a length; 0 if not given.
+        centre : float
+            With a load, the x at which it acts, in place of a moment: a length.
+
+        Returns
+        -------
+        Solution
+
+        Raises
+        ------
+        linecontact.errors.LineContactError
+            One of its subclasses, with the numbers as attributes.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0)
+        >>> round(contact.solve(half_width=0.2).load, 12)
+        0.02
+        """
+        prescribed = _prescribed(
+            load=load,
+            half_width=half_width,
+            peak_pressure=peak_pressure,
+            approach=approach,
+            references=references,
+            moment=moment,
+            about=about,
+            centre=centre,
+        )
+        return Solution(self._scene.solve(prescribed), self, prescribed)
+
+    def partial_slip(
+        self, *, friction: float, force: float, tension: float = 0.0, **prescribed: Unpack[Prescribed]
+    ) -> PartialSlip:
+        """Finds the contact, and where in it the bodies stick under a tangential force that friction carries.
+
+        Parameters
+        ----------
+        friction : float
+            The coefficient of friction μ, no unit.
+        force : float
+            Q, on the lower body in the direction of x: force/length, less than μF.
+        tension : float
+            By which the lower body is stretched along x, less that of the upper one: a pressure.
+        **prescribed : float
+            As for `solve`.
+
+        Returns
+        -------
+        PartialSlip
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
+        >>> slip = contact.partial_slip(friction=0.4, force=0.03, load=0.1)
+        >>> round(slip.stick_zones[0].half_width / slip.normal.a, 12)  # sqrt(1 - Q/(μF))
+        0.5
+        """
+        wanted = _wanted(prescribed)
+        acting = (float(friction), float(force), float(tension))
+        return PartialSlip(self._scene.partial_slip(wanted, acting), self, wanted, acting)
+
+
+def _wanted(given: Prescribed) -> tuple[str, list[float], References | None]:
+    """What is prescribed, of keyword arguments that may be left out."""
+    nothing = dict.fromkeys(Prescribed.__annotations__)
+    return _prescribed(**cast("Any", {**nothing, **given}))
+
+
+def _again(lower: Body, upper: Body, settings: dict[str, Any]) -> Contact:
+    """A contact that was pickled."""
+    return Contact(lower, upper, **settings)
+

@@ -1,0 +1,88 @@
+"""Pictures of a solution: with matplotlib, and as a few lines of SVG."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .solution import Solution
+
+# By how much more than the contacts is shown, as a share of their width; and to what depth, in half-widths.
+_BESIDE = 0.5
+_DEPTH = 2.0
+
+_WIDTH, _HEIGHT, _MARGIN = 320, 150, 24
+
+
+def svg(solution: Solution) -> str:
+    """The pressure over x, with the limits, the load and the largest value."""
+    on = solution.hull
+    x, pressures = solution.sample(49)
+    top = float(np.max(pressures, initial=0.0)) or 1.0
+    across = (_WIDTH - 2 * _MARGIN) / (on.right - on.left)
+    up = (_HEIGHT - 2 * _MARGIN) / top
+    base = _HEIGHT - _MARGIN
+    left, right = _MARGIN, _WIDTH - _MARGIN
+    place = [
+        f"{left + (at - on.left) * across:.1f},{base - max(value, 0.0) * up:.1f}"
+        for at, value in zip(x, pressures, strict=True)
+    ]
+    points = " ".join([f"{left},{base}", *place, f"{right},{base}"])
+    words = 'font-family="sans-serif" font-size="11" fill="#333"'
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" height="{_HEIGHT}" '
+        f'viewBox="0 0 {_WIDTH} {_HEIGHT}">'
+        f'<rect width="{_WIDTH}" height="{_HEIGHT}" fill="#fff"/>'
+        f'<polygon points="{points}" fill="#9ecae1" stroke="#08519c"/>'
+        f'<path d="M8 {base}H{_WIDTH - 8}" stroke="#333"/>'
+        f'<text x="{left}" y="{base + 15}" {words}>{on.left:.5g}</text>'
+        f'<text x="{right}" y="{base + 15}" text-anchor="end" {words}>{on.right:.5g}</text>'
+        f'<text x="8" y="15" {words}>load {solution.load:.5g}, pressure up to {top:.5g}</text></svg>'
+    )
+
+
+def plot(solution: Solution) -> Figure:
+    """Bodies, pressure and subsurface shear, one below the other over the same x."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as missing:
+        raise ImportError("plot() needs matplotlib: pip install matplotlib") from missing
+    on, contact = solution.hull, solution.contact
+    beside = 2 * _BESIDE * on.half_width
+    x = np.linspace(on.left - beside, on.right + beside, 401)
+    figure = Figure(figsize=(6.4, 8.0), layout="constrained")
+    bodies, pressure, below = figure.subplots(3, 1, sharex=True)
+
+    lower, upper = contact.lower.heights(x), contact.upper.heights(x) + solution.tilt * x
+    shown = np.isfinite(lower) & np.isfinite(upper)
+    touching = np.min((upper - lower)[shown], initial=np.inf)
+    if np.isfinite(touching):
+        upper = upper - touching
+    bodies.plot(x, upper, color="#08519c", label="upper body")
+    bodies.plot(x, lower, color="#a63603", label="lower body")
+    bodies.set_ylabel("y before loading")
+    bodies.legend(loc="best")
+    bodies.set_title(str(solution).splitlines()[0])
+
+    places, values = solution.sample(257)
+    for interval in solution.intervals:
+        inside = (places >= interval.left) & (places <= interval.right)
+        pressure.fill_between(places[inside], values[inside], color="#9ecae1")
+        pressure.plot(places[inside], values[inside], color="#08519c")
+    pressure.set_ylim(bottom=min(0.0, float(np.min(values, initial=0.0))))
+    pressure.set_ylabel("pressure")
+
+    # Not the surface itself, where the pressure may be infinite.
+    depth = on.half_width * np.linspace(0.01, _DEPTH, 48)
+    across = np.linspace(x[0], x[-1], 97)
+    shear = solution.stress(across[None, :], depth[:, None]).max_shear()
+    drawn = below.contourf(across, depth, shear, levels=12, cmap="cividis")
+    figure.colorbar(drawn, ax=below, label="largest shear")
+    below.invert_yaxis()
+    below.set_ylabel("depth")
+    below.set_xlabel("x")
+    return figure

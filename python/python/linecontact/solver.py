@@ -1,0 +1,188 @@
+"""Solving in one call, again and again, and once for a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
+
+import numpy as np
+
+from . import _native
+from ._numbers import FloatArray, Numbers
+from .bodies import Body
+from .contact import Contact, Prescribed, References, Settings, _wanted
+from .solution import PartialSlip, Solution
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+__all__ = ["Solver", "SpringPoints", "SpringTable", "solve"]
+
+
+class Given(Settings, Prescribed, total=False):
+    """The keyword arguments of a contact and of its solve."""
+
+
+def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
+    """A contact and its solution in one call.
+
+    Parameters
+    ----------
+    lower, upper : Body
+        Body 1, below, and body 2, above.
+    **given
+        Keyword arguments of `Contact` and of `Contact.solve`.
+
+    Returns
+    -------
+    Solution
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> roller = lc.Parabola(10.0, (-1.0, 1.0))  # mm, MPa, N/mm
+    >>> lc.solve(lc.Flat(), roller, load=500.0, contact_modulus=115e3)
+    <Solution: contact [-0.235283, 0.235283], load 500, checked>
+    """
+    names = Prescribed.__annotations__
+    prescribed = {name: value for name, value in given.items() if name in names}
+    settings = {name: value for name, value in given.items() if name not in names}
+    return Contact(lower, upper, **cast("Any", settings)).solve(**cast("Any", prescribed))
+
+
+class Solver:
+    """A solver that starts from the last contact it has found: for the next load, the next time step.
+
+    The same contact under another load takes few evaluations or none. One solver serves one thread at a time.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> contact = lc.Contact(lc.Flat(), lc.Ellipse.circle(10.0, (-1.0, 1.0)), contact_modulus=115e3)
+    >>> solver = lc.Solver()
+    >>> [round(solver.solve(contact, load=load).half_width, 4) for load in (100.0, 101.0)]
+    [0.1052, 0.1057]
+    """
+
+    __slots__ = ("_solver",)
+
+    def __init__(self) -> None:
+        self._solver = _native.Solver()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Solver, ()
+
+    def solve(self, contact: Contact, **prescribed: Unpack[Prescribed]) -> Solution:
+        """As `Contact.solve`, from the last contact."""
+        wanted = _wanted(prescribed)
+        return Solution(self._solver.solve(contact._scene, wanted), contact, wanted)
+
+    def partial_slip(
+        self,
+        contact: Contact,
+        *,
+        friction: float,
+        force: float,
+        tension: float = 0.0,
+        **prescribed: Unpack[Prescribed],
+    ) -> PartialSlip:
+        """As `Contact.partial_slip`, from the last contact."""
+        wanted = _wanted(prescribed)
+        acting = (float(friction), float(force), float(tension))
+        found = self._solver.partial_slip(contact._scene, wanted, acting)
+        return PartialSlip(found, contact, wanted, acting)
+
+
+class SpringPoints(NamedTuple):
+    """States of a spring, numbers or arrays.
+
+    Attributes
+    ----------
+    approach : float or ndarray
+        δ: a length.
+    load : float or ndarray
+        F: force/length.
+    stiffness : float or ndarray
+        dF/dδ: a pressure.
+    half_width : float or ndarray
+        Of several contacts half of all widths together: a length.
+    peak : float or ndarray
+        The largest pressure; infinite at a corner.
+    """
+
+    approach: Any
+    load: Any
+    stiffness: Any
+    half_width: Any
+    peak: Any
+
+
+class SpringTable:
+    """Load, stiffness, half-width and peak pressure against the approach: what a simulator asks for at each step.
+
+    Parameters
+    ----------
+    contact : Contact
+        With materials.
+    references : References
+        Between which the approach is measured.
+    loads : (float, float)
+        From the least to the largest: force/length.
+    tolerance : float
+        Of load, half-width and peak between the points, as a share.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)
+    >>> roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    >>> contact = lc.Contact(lc.Flat(), roller, materials=(steel, steel))
+    >>> to = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+    >>> table = lc.SpringTable(contact, to, (1.0, 1000.0), 1e-6)
+    >>> table.error < 1e-6, table.points.load.size < 20
+    (True, True)
+    >>> abs(table.at(contact.solve(load=500.0).approach(to).bodies).load / 500.0 - 1) < 1e-6
+    True
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        references: References,
+        loads: Sequence[float],
+        tolerance: float = 1e-6,
+    ) -> None:
+        first, last = loads
+        self._made_of = (contact, references, (float(first), float(last)), float(tolerance))
+        self._table = _native.SpringTable(contact._scene, *self._made_of[1:])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return SpringTable, self._made_of
+
+    @property
+    def error(self) -> float:
+        """The largest error between the points, as a share: twice what was seen."""
+        return self._table.error
+
+    @property
+    def stiffness_error(self) -> float:
+        """The same of the stiffness."""
+        return self._table.stiffness_error
+
+    @property
+    def points(self) -> SpringPoints:
+        """The solved points, by rising approach."""
+        return SpringPoints(*self._table.points())
+
+    def at(self, approach: float | Numbers) -> SpringPoints:
+        """The states at approaches, lengths within the table."""
+        places = np.asarray(approach, dtype=np.float64)
+
+        def shaped(column: FloatArray) -> Any:
+            return float(column[0]) if places.ndim == 0 else column.reshape(places.shape)
+
+        return SpringPoints(*map(shaped, self._table.at(places.reshape(-1))))
+
+    def __repr__(self) -> str:
+        points = self.points.load.size
+        return f"<SpringTable: {points} points, error {self.error:.2g}>"

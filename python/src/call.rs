@@ -1,0 +1,92 @@
+//! From Python to the library and back: the interpreter is released meanwhile, signals are looked at, and an
+//! exception of a user's own function comes out as it is.
+
+use crate::errors;
+use linecontact::{ContactError, Cost, Interval};
+use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
+use pyo3::prelude::*;
+use std::cell::{Cell, RefCell};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// How long a solve goes on before signals are looked at again: unnoticed at a keyboard, and rarely waits for the
+/// interpreter.
+const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
+
+thread_local! {
+    /// What a user's function has raised, or a signal, in the call that this thread is in.
+    static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
+    static LOOKED: Cell<Option<Instant>> = const { Cell::new(None) };
+}
+
+/// Keeps an exception until the library has returned.
+pub fn raise(error: PyErr) {
+    RAISED.with_borrow_mut(|raised| {
+        raised.get_or_insert(error);
+    });
+}
+
+/// Whether there is one: then nothing that is computed is looked at any more.
+pub fn has_raised() -> bool {
+    RAISED.with_borrow(Option::is_some)
+}
+
+/// Looks at the signals, if it is time to. Ends what is going on where there is an exception.
+pub fn look() -> ControlFlow<()> {
+    let now = Instant::now();
+    let due = LOOKED.get().is_none_or(|last| now.duration_since(last) >= BETWEEN_SIGNALS);
+    if due && !has_raised() {
+        // The first look only starts the clock: most calls are over long before it is due.
+        if LOOKED.replace(Some(now)).is_some()
+            && let Err(error) = Python::attach(|py| py.check_signals())
+        {
+            raise(error);
+        }
+    }
+    if has_raised() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// For [`Contact::watch`](linecontact::Contact::watch).
+pub fn watch(_: Cost, _: Interval<f64>) -> ControlFlow<()> {
+    look()
+}
+
+/// Calls the library without holding the interpreter.
+pub fn library<R: Send, E: errors::Describe + Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<R, E> + Send,
+) -> PyResult<R> {
+    let found = py.detach(|| {
+        LOOKED.set(None);
+        work()
+    });
+    match RAISED.take() {
+        Some(raised) => Err(raised),
+        None => found.map_err(|error| errors::to_python(py, &error)),
+    }
+}
+
+/// One number in, one out, for each of an array.
+pub fn each(
+    x: &[f64],
+    mut value: impl FnMut(f64) -> Result<f64, ContactError<f64>>,
+) -> Result<Vec<f64>, ContactError<f64>> {
+    let mut values = Vec::with_capacity(x.len());
+    for &x in x {
+        if look().is_break() {
+            break;
+        }
+        values.push(value(x)?);
+    }
+    Ok(values)
+}
+
+/// An array of any numbers as one of `float`.
+pub type Numbers<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
+
+/// Numbers of our own as an array.
+pub type Array = Py<PyArray1<f64>>;
+
+pub fn array(py: Python<'_>, values: Vec<f64>) -> Array {
+    PyArray1::from_vec(py, values).unbind()
+}

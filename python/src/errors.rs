@@ -1,0 +1,251 @@
+//! Each error of the library as an exception of its own, with its numbers: the classes are in `errors.py`.
+
+use linecontact::profile::SplineError;
+use linecontact::search::{Root, SearchError};
+use linecontact::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use std::fmt::Display;
+
+/// The name of a class, and its attributes.
+type Row = (&'static str, Vec<(&'static str, Py<PyAny>)>);
+
+/// An error that has a class.
+pub trait Describe: Display {
+    fn row(&self, py: Python<'_>) -> PyResult<Row>;
+}
+
+/// Something that an error names.
+trait Named {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>>;
+}
+
+macro_rules! plain {
+    ($($type:ty),*) => {$(
+        impl Named for $type {
+            fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+                (*self).into_py_any(py)
+            }
+        }
+    )*};
+}
+plain!(f64, usize, u32, bool, &'static str);
+
+macro_rules! nested {
+    ($($type:ty),*) => {$(
+        impl Named for $type {
+            fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+                to_python(py, self).into_py_any(py)
+            }
+        }
+    )*};
+}
+nested!(ProfileError<f64>, SearchError<f64>);
+
+impl Named for [f64; 2] {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        (self[0], self[1]).into_py_any(py)
+    }
+}
+
+impl Named for Interval<f64> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        (self.left, self.right).into_py_any(py)
+    }
+}
+
+impl Named for Body {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.to_string().into_py_any(py)
+    }
+}
+
+impl Named for Edge<f64> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        match *self {
+            Self::Free => ("free", None::<f64>),
+            Self::Fixed(x) => ("fixed", Some(x)),
+            Self::FreeUntil(x) => ("free_until", Some(x)),
+            Self::Adhesive(work) => ("adhesive", Some(work)),
+        }
+        .into_py_any(py)
+    }
+}
+
+impl Named for Root<f64> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        (self.x, self.residual, self.evaluations).into_py_any(py)
+    }
+}
+
+/// The classes of an enum, named by a prefix and the variant, and their attributes, named by the fields.
+macro_rules! table {
+    ($type:ident, $prefix:literal, $names:ident, transparent: [$($inner:ident),*];
+     $($variant:ident { $($field:ident),* };)*) => {
+        impl Describe for $type<f64> {
+            fn row(&self, py: Python<'_>) -> PyResult<Row> {
+                Ok(match self {
+                    $(Self::$inner(error) => return error.row(py),)*
+                    $(Self::$variant { $($field),* } => {
+                        let numbers = vec![$((stringify!($field), $field.named(py)?)),*];
+                        (concat!($prefix, stringify!($variant), "Error"), numbers)
+                    })*
+                    // The enums may grow; a test compares their variants with the classes.
+                    _ => ("LineContactError", Vec::new()),
+                })
+            }
+        }
+
+        const $names: &[(&str, &[&str])] = &[
+            $((concat!($prefix, stringify!($variant), "Error"), &[$(stringify!($field)),*]),)*
+        ];
+    };
+}
+
+table! {
+    ContactError, "", CONTACT, transparent: [Shape, Pieces, Points];
+    Cancelled { evaluations, last };
+    Profile { body, source };
+    NoCommonRange { lower, upper };
+    OutsideBodies { x, range };
+    Inversion { body, x, source };
+    InvalidLoad { quantity, value };
+    InvalidKappa { kappa };
+    InvalidModulus { modulus };
+    InvalidLimits { interval };
+    InvalidEdgePressure { name, value };
+    NoFirstContact { x, slope };
+    DomainTooShort { end, carried, load, half_width, peak, kappa_is_default };
+    HalfWidthTooLarge { wanted, half_width, end, load, peak, kappa_is_default };
+    EndReached { end, load, kappa_is_default };
+    NoEquilibrium { half_width, near };
+    Overflow { interval };
+    BudgetSpent { evaluations, budget, last };
+    LimitSearch { best, source };
+    EdgePressureNotMet { best, at_a, at_b };
+    InvalidSegments { segments, extrapolations };
+    Singular { x };
+    InconsistentHeights { between, by_heights, by_slopes };
+    Tension { x, pressure, interval, load };
+    LiftsOff { x, strength, interval, load };
+    Overlap { x, gap, interval, load };
+    FeatureMissed { x, slope, assumed };
+    Unbalanced { x, strength, allowed };
+    Undecided { x, evaluations, samples };
+    InvalidTolerance { tolerance };
+    InvalidAdhesion { work };
+    BothLimitsGiven { interval };
+    InvalidMoment { value };
+    TiltNotSupported { why };
+    TiltNotFound { load, at, reached, tilt, ends };
+    PullOff { load, least };
+    PeakEdge { edge };
+    PeakTooHigh { wanted, half_width, found, end, load, kappa_is_default };
+    NoPeak { wanted, half_width, found };
+    AboveSurface { x, depth };
+    InvalidPoissonRatio { ratio };
+    InvalidYoungsModulus { body, modulus };
+    BothRigid {};
+    NoMaterials {};
+    InvalidReference { length };
+    ApproachTooLarge { wanted, approach, load };
+    OutsideTable { approach, range };
+    ApproachFalls { load, rate };
+    InvalidFriction { coefficient };
+    InvalidSlipFriction { friction };
+    InvalidShear { quantity, value };
+    SlipsEverywhere { force, limit };
+    ReversedSlip { zone, contact };
+    UnlikeBodies { beta };
+    SlipNotSupported { why };
+    InvalidPosition { x, inside, interval };
+    NoLoadDerivative { why };
+    EdgePressureLoad {};
+    LengthMismatch { x, pressures };
+    Integral { x, panels };
+    Unresolved { x, pressure, error };
+}
+table! {
+    ProfileError, "Profile", PROFILE, transparent: [];
+    Parameter { name, value, must };
+    Joined { pieces };
+    Domain { from, to };
+    NotFinite { quantity, k, value };
+    Derivative { quantity, k, given, difference };
+    TurnsBack { k, x, domain };
+    Pieces { count, index };
+}
+table! {
+    PiecewiseError, "Piecewise", PIECEWISE, transparent: [];
+    InPiece { piece, source };
+    Tolerance { tolerance };
+    NoPieces {};
+    Gap { breakpoint, left, right };
+    Overlap { breakpoint, left, right };
+    Jump { breakpoint, x, left, right };
+}
+table! {
+    SplineError, "Spline", SPLINE, transparent: [];
+    TooFew { points };
+    NotFinite { row, x, y };
+    Duplicate { row, x };
+    Unsorted { row, x, before };
+    Outlier { row, x, y, expected, deviations };
+    Noise { noise };
+    Limit { deviations };
+    NothingLeft { noise, line };
+    Overflow { row, x, before };
+    Smoothing { source };
+}
+table! {
+    SearchError, "Search", SEARCH, transparent: [];
+    Bracket { lo, hi };
+    NoSignChange { lo, hi, f_lo, f_hi };
+    NotFinite { x, value };
+    Budget { best };
+    LeftBracket { x, lo, hi };
+    NotConverged { x, residual };
+    Tolerance { value };
+}
+
+/// The name in Python of a field, where it is a word of the language there.
+fn attribute(field: &'static str) -> &'static str {
+    if field == "from" { "from_" } else { field }
+}
+
+/// The exception of an error.
+pub fn to_python<E: Describe + ?Sized>(py: Python<'_>, error: &E) -> PyErr {
+    let made = || {
+        let (name, numbers) = error.row(py)?;
+        let class = py.import("linecontact.errors")?.getattr(name)?;
+        let exception = class.call1((error.to_string(),))?;
+        for (field, value) in numbers {
+            if field == "source" {
+                exception.setattr("__cause__", &value)?;
+            }
+            exception.setattr(attribute(field), value)?;
+        }
+        Ok::<_, PyErr>(PyErr::from_value(exception))
+    };
+    made().unwrap_or_else(|failed| failed)
+}
+
+/// That of a function that returns something else than four arrays.
+pub fn missing_derivatives(py: Python<'_>, count: usize) -> PyErr {
+    let made = || {
+        let class = py.import("linecontact.errors")?.getattr("MissingDerivativesError")?;
+        Ok::<_, PyErr>(PyErr::from_value(class.call1((count,))?))
+    };
+    made().unwrap_or_else(|failed| failed)
+}
+
+/// All classes that there are rows for, with the names of their attributes.
+#[pyfunction]
+pub fn variants() -> Vec<(&'static str, Vec<&'static str>)> {
+    let tables = [CONTACT, PROFILE, PIECEWISE, SPLINE, SEARCH];
+    tables
+        .into_iter()
+        .flatten()
+        .map(|&(name, fields)| (name, fields.iter().copied().map(attribute).collect()))
+        .collect()
+}

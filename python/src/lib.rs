@@ -1,0 +1,23 @@
+//! What `linecontact` for Python calls: plain numbers and arrays in, plain numbers and arrays out. Names, units
+//! and defaults are in `python/linecontact`.
+
+mod call;
+mod curve;
+mod errors;
+mod profile;
+mod scene;
+mod solution;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::errors::variants;
+    #[pymodule_export]
+    use super::profile::Profile;
+    #[pymodule_export]
+    use super::scene::{Scene, Solver, SpringTable, contact_modulus};
+    #[pymodule_export]
+    use super::solution::{LoadRates, PartialSlip, Solution};
+}

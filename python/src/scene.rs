@@ -1,0 +1,336 @@
+//! Scenes, and what solves them.
+
+use crate::call::{self, Array, Numbers};
+use crate::profile::Profile;
+use crate::solution::{PartialSlip, Solution};
+use linecontact::quadrature::Quadrature;
+use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, StoppingCriteria};
+use linecontact::{
+    Contact, ContactError, Control, Edge, EdgePressure, Exponents, Interval, Material, Midpoint,
+    Panels, PlaneState, Reference, References, Shear,
+};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use std::any::Any;
+use std::collections::HashMap;
+use std::fmt::Debug;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+/// A name and its numbers.
+type Choice = (String, Vec<f64>);
+
+fn none_such<T>(what: &str, (name, numbers): &Choice) -> PyResult<T> {
+    Err(PyValueError::new_err(format!("no {what} {name}{numbers:?}")))
+}
+
+type Kept = HashMap<String, &'static (dyn Any + Send + Sync)>;
+
+/// A setting that lasts: a contact that is kept has its settings lent. Each is made once, however many contacts have it.
+fn kept<S: Debug + Send + Sync + 'static>(setting: S) -> &'static S {
+    static ALL: LazyLock<Mutex<Kept>> = LazyLock::new(Mutex::default);
+    let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+    let name = format!("{} {setting:?}", std::any::type_name::<S>());
+    if let Some(found) = all.get(&name).and_then(|kept| kept.downcast_ref()) {
+        return found;
+    }
+    let setting: &'static S = Box::leak(Box::new(setting));
+    all.insert(name, setting);
+    setting
+}
+
+fn search(choice: &Choice) -> PyResult<&'static dyn LimitSearch<f64>> {
+    let &[absolute, relative, residual, evaluations] = choice.1.as_slice() else {
+        return none_such("search", choice);
+    };
+    // A float of Python's own, from an int.
+    let max_evaluations = evaluations as usize;
+    let tolerance = StoppingCriteria { absolute, relative, residual, max_evaluations };
+    Ok(match choice.0.as_str() {
+        "bisection" => kept(Bisection { tolerance }),
+        "secant" => kept(Secant { tolerance }),
+        "brent" => kept(Brent { tolerance }),
+        "newton" => kept(Newton { tolerance }),
+        _ => return none_such("search", choice),
+    })
+}
+
+fn quadrature(choice: &Choice) -> PyResult<&'static dyn Quadrature<f64>> {
+    Ok(match (choice.0.as_str(), choice.1.as_slice()) {
+        ("panels", &[tolerance]) => kept(Panels { tolerance }),
+        ("midpoint", &[segments, extrapolations, even]) => {
+            let exponents = if even != 0.0 { Exponents::Even } else { Exponents::HalfInteger };
+            let (segments, extrapolations) = (segments as usize, extrapolations as u32);
+            kept(Midpoint { segments, extrapolations, exponents })
+        }
+        _ => return none_such("quadrature", choice),
+    })
+}
+
+fn edge((name, value): &(String, f64)) -> PyResult<Edge<f64>> {
+    Ok(match name.as_str() {
+        "free" => Edge::Free,
+        "fixed" => Edge::Fixed(*value),
+        "free_until" => Edge::FreeUntil(*value),
+        "adhesive" => Edge::Adhesive(*value),
+        _ => return none_such("edge", &(name.clone(), vec![*value])),
+    })
+}
+
+/// E and ν; of a rigid body nothing.
+type Elastic = Option<(f64, f64)>;
+
+fn material(of: Elastic) -> Material<f64> {
+    of.map_or(Material::Rigid, |(modulus, ratio)| Material::elastic(modulus, ratio))
+}
+
+fn plane(name: &str) -> PyResult<PlaneState> {
+    match name {
+        "strain" => Ok(PlaneState::Strain),
+        "stress" => Ok(PlaneState::Stress),
+        _ => Err(PyValueError::new_err(format!("plane is {name:?}: 'strain' or 'stress'"))),
+    }
+}
+
+/// x, and kind and length of both.
+pub type ReferenceRow = (f64, (String, f64), (String, f64));
+
+pub fn references((x, lower, upper): ReferenceRow) -> PyResult<References<f64>> {
+    let reference = |(name, length): (String, f64)| {
+        Ok(match name.as_str() {
+            "depth" => Reference::Depth(length),
+            "disc" => Reference::Disc(length),
+            "length" => Reference::Length(length),
+            _ => return none_such("reference", &(name, vec![length])),
+        })
+    };
+    Ok(References { x, lower: reference(lower)?, upper: reference(upper)? })
+}
+
+/// What is prescribed: its name, its numbers, and the references of an approach.
+type Prescribed = (String, Vec<f64>, Option<ReferenceRow>);
+
+fn control((name, numbers, to): Prescribed) -> PyResult<Control<f64>> {
+    Ok(match (name.as_str(), numbers.as_slice(), to) {
+        ("load", &[load], None) => Control::Load(load),
+        ("half_width", &[half_width], None) => Control::HalfWidth(half_width),
+        ("peak_pressure", &[pressure], None) => Control::PeakPressure(pressure),
+        ("approach", &[approach], Some(to)) => {
+            Control::Approach { approach, references: references(to)? }
+        }
+        ("moment", &[load, moment, about], None) => Control::Moment { load, moment, about },
+        ("centre", &[load, at], None) => Control::CentreOfPressure { load, at },
+        _ => return none_such("control", &(name, numbers)),
+    })
+}
+
+fn shear((friction, force, tension): (f64, f64, f64)) -> Shear<f64> {
+    Shear { friction, force, tension }
+}
+
+/// The contact modulus E* of two bodies.
+#[pyfunction]
+pub fn contact_modulus(
+    py: Python<'_>,
+    lower: Elastic,
+    upper: Elastic,
+    state: &str,
+) -> PyResult<f64> {
+    let state = plane(state)?;
+    call::library(py, || state.contact_modulus(material(lower), material(upper)))
+}
+
+/// Two bodies, their stiffness, edges and settings.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct Scene {
+    contact: Contact<'static, f64>,
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (lower, upper, *, kappa, contact_modulus, materials, edges, edge_pressure, start,
+        inversion, limit_search, quadrature, certified, single_interval))]
+    #[expect(clippy::too_many_arguments, reason = "each is a setting with a name")]
+    fn new(
+        py: Python<'_>,
+        lower: Bound<'_, Profile>,
+        upper: Bound<'_, Profile>,
+        kappa: Option<f64>,
+        contact_modulus: Option<f64>,
+        materials: Option<(Elastic, Elastic, String)>,
+        edges: Option<[(String, f64); 2]>,
+        edge_pressure: Option<[f64; 6]>,
+        start: Option<[f64; 2]>,
+        inversion: Option<Choice>,
+        limit_search: Option<Choice>,
+        quadrature: Option<Choice>,
+        certified: bool,
+        single_interval: bool,
+    ) -> PyResult<Self> {
+        let [lower, upper] = [lower, upper].map(|body| body.get().shared.clone());
+        let mut contact = call::library(py, || Contact::owned(lower, upper))?
+            .watch(&call::watch)
+            .certified(certified)
+            .single_interval(single_interval);
+        if let Some(kappa) = kappa {
+            contact = contact.kappa(kappa);
+        }
+        if let Some(modulus) = contact_modulus {
+            contact = contact.contact_modulus(modulus);
+        }
+        if let Some((lower, upper, state)) = materials {
+            contact = contact.materials(material(lower), material(upper), plane(&state)?);
+        }
+        if let Some([left, right]) = &edges {
+            contact = contact.edges(edge(left)?, edge(right)?);
+        }
+        if let Some([at_a, at_b, distance_a, distance_b, tolerance_a, tolerance_b]) = edge_pressure
+        {
+            contact = contact.edge_pressure(EdgePressure {
+                at_a,
+                at_b,
+                distance_a,
+                distance_b,
+                tolerance_a,
+                tolerance_b,
+            });
+        }
+        if let Some([left, right]) = start {
+            contact = contact.start(Interval { left, right });
+        }
+        if let Some(choice) = inversion {
+            contact = contact.inversion(search(&choice)?);
+        }
+        if let Some(choice) = limit_search {
+            contact = contact.limit_search(search(&choice)?);
+        }
+        if let Some(choice) = quadrature {
+            contact = contact.quadrature(self::quadrature(&choice)?);
+        }
+        Ok(Self { contact })
+    }
+
+    fn solve(&self, py: Python<'_>, prescribed: Prescribed) -> PyResult<Solution> {
+        let control = control(prescribed)?;
+        call::library(py, || self.contact.solve(control)).map(Solution)
+    }
+
+    fn partial_slip(
+        &self,
+        py: Python<'_>,
+        prescribed: Prescribed,
+        acting: (f64, f64, f64),
+    ) -> PyResult<PartialSlip> {
+        let (control, shear) = (control(prescribed)?, shear(acting));
+        call::library(py, || self.contact.partial_slip(control, shear)).map(PartialSlip)
+    }
+}
+
+/// Starts from the contact found last.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct Solver(Mutex<linecontact::Solver<f64>>);
+
+impl Solver {
+    /// One thread at a time, and not from within a curve that is being solved: neither waits, or it might for ever.
+    fn with<R: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut linecontact::Solver<f64>) -> Result<R, ContactError<f64>> + Send,
+    ) -> PyResult<R> {
+        let Ok(mut solver) = self.0.try_lock() else {
+            let says = "this Solver is solving: one serves one thread at a time, make another";
+            return Err(PyRuntimeError::new_err(says));
+        };
+        let solver = &mut *solver;
+        call::library(py, || work(solver))
+    }
+}
+
+#[pymethods]
+impl Solver {
+    #[new]
+    fn new() -> Self {
+        Self(Mutex::new(linecontact::Solver::new()))
+    }
+
+    fn solve(
+        &self,
+        py: Python<'_>,
+        scene: Bound<'_, Scene>,
+        prescribed: Prescribed,
+    ) -> PyResult<Solution> {
+        let (contact, control) = (&scene.get().contact, control(prescribed)?);
+        self.with(py, |solver| solver.solve(contact, control)).map(Solution)
+    }
+
+    fn partial_slip(
+        &self,
+        py: Python<'_>,
+        scene: Bound<'_, Scene>,
+        prescribed: Prescribed,
+        acting: (f64, f64, f64),
+    ) -> PyResult<PartialSlip> {
+        let (contact, control) = (&scene.get().contact, control(prescribed)?);
+        self.with(py, |solver| solver.partial_slip(contact, control, shear(acting)))
+            .map(PartialSlip)
+    }
+}
+
+/// Load against approach.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct SpringTable(linecontact::SpringTable<f64>);
+
+type Columns = (Array, Array, Array, Array, Array);
+
+/// Approach, load, stiffness, half-width and peak; a peak that is infinite is one here.
+fn columns(py: Python<'_>, points: impl Iterator<Item = linecontact::SpringPoint<f64>>) -> Columns {
+    let points: Vec<_> = points.collect();
+    let column = |of: fn(&linecontact::SpringPoint<f64>) -> f64| {
+        call::array(py, points.iter().map(of).collect())
+    };
+    (
+        column(|point| point.approach),
+        column(|point| point.load),
+        column(|point| point.stiffness),
+        column(|point| point.half_width),
+        column(|point| point.peak.unwrap_or(f64::INFINITY)),
+    )
+}
+
+#[pymethods]
+impl SpringTable {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        scene: Bound<'_, Scene>,
+        to: ReferenceRow,
+        loads: [f64; 2],
+        tolerance: f64,
+    ) -> PyResult<Self> {
+        let (contact, to) = (&scene.get().contact, references(to)?);
+        call::library(py, || linecontact::SpringTable::new(contact, &to, loads, tolerance))
+            .map(Self)
+    }
+
+    #[getter]
+    fn error(&self) -> f64 {
+        self.0.error()
+    }
+
+    #[getter]
+    fn stiffness_error(&self) -> f64 {
+        self.0.stiffness_error()
+    }
+
+    fn points(&self, py: Python<'_>) -> Columns {
+        columns(py, self.0.points())
+    }
+
+    fn at(&self, py: Python<'_>, approach: Numbers<'_>) -> PyResult<Columns> {
+        let approach = approach.as_array().to_vec();
+        let found: Vec<_> = call::library(py, || {
+            approach.iter().map(|&approach| self.0.at(approach)).collect::<Result<_, _>>()
+        })?;
+        Ok(columns(py, found.into_iter()))
+    }
+}

@@ -1,0 +1,372 @@
+//! What comes back.
+
+use crate::call::{self, Array, Numbers};
+use crate::scene::{ReferenceRow, references};
+use linecontact::stress::{Stress, StressPeak};
+use linecontact::{Body, ContactError, Cost, Extremum, Interval, Outcome, Peak, Pressure, Start};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+type Pair = (f64, f64);
+
+fn pair(on: &Interval<f64>) -> Pair {
+    (on.left, on.right)
+}
+
+fn counts(cost: Cost) -> (usize, usize, usize) {
+    (cost.samples, cost.evaluations, cost.heights)
+}
+
+fn start(start: Start) -> &'static str {
+    match start {
+        Start::Middle => "middle",
+        Start::LowestGap => "lowest_gap",
+        Start::Given => "given",
+        Start::LineOfLoad => "line_of_load",
+        Start::Last => "last",
+        Start::ActiveSet => "active_set",
+        Start::Attempt => "attempt",
+        _ => "other",
+    }
+}
+
+fn outcome(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Passed => "passed",
+        Outcome::Unchecked => "unchecked",
+        Outcome::Tension => "tension",
+        Outcome::Overlap => "overlap",
+        Outcome::Merged => "merged",
+        Outcome::Lost => "lost",
+        Outcome::ReachedCorner => "reached_corner",
+        Outcome::NotFound => "not_found",
+        _ => "other",
+    }
+}
+
+/// A solved contact.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct Solution(pub linecontact::Solution<'static, f64>);
+
+/// Interval, load, strengths, peak, moment and centre of pressure.
+type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>);
+
+/// Intervals, load, loads, κ, tilt, mean pressure, peak, centre of pressure.
+type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
+
+/// Least ratio of pressures, least gap, spacing and cost.
+type Proof = (Option<Pair>, Option<Pair>, f64, (usize, usize, usize));
+
+/// x, depth and value.
+type Largest = (f64, f64, f64);
+
+fn largest(StressPeak { x, depth, value }: StressPeak<f64>) -> Largest {
+    (x, depth, value)
+}
+
+/// σ_x, σ_y and τ_xy at points.
+fn stresses(
+    (x, depth): (&[f64], &[f64]),
+    at: impl Fn(f64, f64) -> Result<Stress<f64>, ContactError<f64>>,
+) -> Result<[Vec<f64>; 3], ContactError<f64>> {
+    let mut found: [Vec<f64>; 3] = Default::default();
+    for (&x, &depth) in x.iter().zip(depth) {
+        if call::look().is_break() {
+            break;
+        }
+        let Stress { sigma_x, sigma_y, tau_xy } = at(x, depth)?;
+        for (of_all, stress) in found.iter_mut().zip([sigma_x, sigma_y, tau_xy]) {
+            of_all.push(stress);
+        }
+    }
+    Ok(found)
+}
+
+fn body(name: &str) -> PyResult<Body> {
+    match name {
+        "lower" => Ok(Body::Lower),
+        "upper" => Ok(Body::Upper),
+        _ => Err(PyValueError::new_err(format!("body is {name:?}: 'lower' or 'upper'"))),
+    }
+}
+
+impl Solution {
+    /// Whether a place is in a contact, where no gap is.
+    fn touches(&self, x: f64) -> bool {
+        self.0.intervals().iter().any(|on| x >= on.left && x <= on.right)
+    }
+}
+
+#[pymethods]
+impl Solution {
+    #[getter]
+    fn a(&self) -> f64 {
+        self.0.a()
+    }
+
+    #[getter]
+    fn b(&self) -> f64 {
+        self.0.b()
+    }
+
+    #[getter]
+    fn load(&self) -> f64 {
+        self.0.load()
+    }
+
+    #[getter]
+    fn tilt(&self) -> f64 {
+        self.0.tilt()
+    }
+
+    #[getter]
+    fn half_width(&self) -> f64 {
+        self.0.hull().half_width()
+    }
+
+    #[getter]
+    fn centre(&self) -> f64 {
+        self.0.hull().centre()
+    }
+
+    #[getter]
+    fn intervals(&self) -> Vec<Pair> {
+        self.0.intervals().iter().map(pair).collect()
+    }
+
+    #[getter]
+    fn limits_error(&self) -> Option<f64> {
+        self.0.limits_error()
+    }
+
+    #[getter]
+    fn edge_singularities(&self) -> [f64; 2] {
+        self.0.edge_singularities()
+    }
+
+    #[getter]
+    fn mean_pressure(&self) -> f64 {
+        self.0.mean_pressure()
+    }
+
+    #[getter]
+    fn attempts(&self) -> Vec<(&'static str, &'static str)> {
+        let attempts = self.0.report().attempts().iter();
+        attempts.map(|attempt| (start(attempt.start), outcome(attempt.outcome))).collect()
+    }
+
+    #[getter]
+    fn is_checked(&self) -> bool {
+        self.0.report().is_checked()
+    }
+
+    #[getter]
+    fn is_steep(&self) -> bool {
+        self.0.is_steep()
+    }
+
+    #[getter]
+    fn cost(&self) -> (usize, usize, usize) {
+        counts(self.0.cost())
+    }
+
+    fn steepest_slope(&self, py: Python<'_>) -> PyResult<f64> {
+        call::library(py, || self.0.steepest_slope())
+    }
+
+    fn pressure(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        let pressures = call::library(py, || {
+            let mut pressures = vec![0.0; x.len()];
+            self.0.pressure()?.at_many(&x, &mut pressures)?;
+            Ok::<_, ContactError<f64>>(pressures)
+        })?;
+        Ok(call::array(py, pressures))
+    }
+
+    fn pressure_estimate(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<(Array, Array)> {
+        let x = x.as_array().to_vec();
+        let (values, errors) = call::library(py, || {
+            let pressure: Pressure<'_, f64> = self.0.pressure()?;
+            let estimate = |&x| pressure.estimate(x, &mut Cost::default());
+            let found = x.iter().map(|x| estimate(x).map(|found| (found.value, found.error)));
+            found.collect::<Result<(Vec<f64>, Vec<f64>), ContactError<f64>>>()
+        })?;
+        Ok((call::array(py, values), call::array(py, errors)))
+    }
+
+    /// Places and pressures that draw it.
+    fn sample(&self, py: Python<'_>, count: usize) -> PyResult<(Array, Array)> {
+        let points = call::library(py, || self.0.pressure()?.sample(count))?;
+        let (x, pressures) = points.into_iter().map(|[x, pressure]| (x, pressure)).unzip();
+        Ok((call::array(py, x), call::array(py, pressures)))
+    }
+
+    fn peak(&self, py: Python<'_>) -> PyResult<Pair> {
+        let Peak { x, pressure } = call::library(py, || self.0.peak())?;
+        Ok((x, pressure))
+    }
+
+    fn moment(&self, py: Python<'_>) -> PyResult<f64> {
+        call::library(py, || self.0.moment())
+    }
+
+    fn centre_of_pressure(&self, py: Python<'_>) -> PyResult<f64> {
+        call::library(py, || self.0.centre_of_pressure())
+    }
+
+    fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Region>> {
+        let contacts = call::library(py, || self.0.contacts())?;
+        let region = |contact: &linecontact::ContactRegion<f64>| {
+            let [left, right] = contact.edge_singularities;
+            let peak = contact.peak.map(|peak| (peak.x, peak.pressure));
+            let centre = contact.centre_of_pressure().ok();
+            (pair(&contact.interval), contact.load, (left, right), peak, contact.moment(), centre)
+        };
+        Ok(contacts.iter().map(region).collect())
+    }
+
+    fn stress(
+        &self,
+        py: Python<'_>,
+        x: Numbers<'_>,
+        depth: Numbers<'_>,
+        friction: f64,
+    ) -> PyResult<[Array; 3]> {
+        let (x, depth) = (x.as_array().to_vec(), depth.as_array().to_vec());
+        let found = call::library(py, || {
+            let subsurface = self.0.subsurface()?.friction(friction)?;
+            stresses((&x, &depth), |x, depth| subsurface.at(x, depth))
+        })?;
+        Ok(found.map(|stress| call::array(py, stress)))
+    }
+
+    fn max_shear(&self, py: Python<'_>, friction: f64) -> PyResult<Largest> {
+        call::library(py, || self.0.subsurface()?.friction(friction)?.max_shear()).map(largest)
+    }
+
+    fn max_von_mises(&self, py: Python<'_>, poisson: f64, friction: f64) -> PyResult<Largest> {
+        call::library(py, || self.0.subsurface()?.friction(friction)?.max_von_mises(poisson))
+            .map(largest)
+    }
+
+    fn gap(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        let at = |x| if self.touches(x) { Ok(0.0) } else { self.0.gap_at(x) };
+        Ok(call::array(py, call::library(py, || call::each(&x, at))?))
+    }
+
+    fn gap_slope(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        let inside = |x| self.0.intervals().iter().any(|on| on.contains(x));
+        let at = |x| if inside(x) { Ok(0.0) } else { self.0.gap_slope(x) };
+        Ok(call::array(py, call::library(py, || call::each(&x, at))?))
+    }
+
+    fn residual(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        Ok(call::array(py, call::library(py, || call::each(&x, |x| self.0.residual(x)))?))
+    }
+
+    fn approach(&self, py: Python<'_>, to: ReferenceRow) -> PyResult<(f64, f64, f64)> {
+        let to = references(to)?;
+        let approach = call::library(py, || self.0.approach(&to))?;
+        Ok((approach.bodies, approach.lower, approach.upper))
+    }
+
+    fn stiffness(&self, py: Python<'_>, to: ReferenceRow) -> PyResult<f64> {
+        let to = references(to)?;
+        call::library(py, || self.0.stiffness(&to))
+    }
+
+    fn load_rates(&self, py: Python<'_>) -> PyResult<LoadRates> {
+        call::library(py, || self.0.load_rates()).map(LoadRates)
+    }
+
+    fn certify(&self, py: Python<'_>) -> PyResult<Proof> {
+        let proof = call::library(py, || self.0.certify())?;
+        let place = |found: Option<Extremum<f64>>| found.map(|found| (found.x, found.value));
+        Ok((place(proof.pressure), place(proof.gap), proof.spacing, counts(proof.cost)))
+    }
+
+    fn summary(&self, py: Python<'_>) -> PyResult<Row> {
+        let row = call::library(py, || self.0.summary())?;
+        let intervals = row.intervals.iter().map(pair).collect();
+        let peak = row.peak.map(|peak| (peak.x, peak.pressure));
+        let (kappa, mean, centre) = (row.kappa, row.mean_pressure, row.centre_of_pressure);
+        Ok((intervals, row.load, row.loads, kappa, row.tilt, mean, peak, centre))
+    }
+
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
+        call::library(py, || Ok::<_, ContactError<f64>>(self.0.to_string()))
+    }
+}
+
+/// Derivatives by the load.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct LoadRates(linecontact::LoadRates<f64>);
+
+#[pymethods]
+impl LoadRates {
+    #[getter]
+    fn a(&self) -> f64 {
+        self.0.a
+    }
+
+    #[getter]
+    fn b(&self) -> f64 {
+        self.0.b
+    }
+
+    #[getter]
+    fn limits(&self) -> Vec<Pair> {
+        self.0.limits.iter().map(|&[left, right]| (left, right)).collect()
+    }
+
+    fn pressure(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        Ok(call::array(py, call::library(py, || call::each(&x, |x| self.0.pressure(x)))?))
+    }
+}
+
+/// A contact that sticks in part.
+#[pyclass(frozen, module = "linecontact._native")]
+pub struct PartialSlip(pub linecontact::PartialSlip<'static, f64>);
+
+#[pymethods]
+impl PartialSlip {
+    #[getter]
+    fn normal(&self) -> Solution {
+        Solution(self.0.normal().clone())
+    }
+
+    #[getter]
+    fn stick_zones(&self) -> Vec<Pair> {
+        self.0.stick_zones().iter().map(pair).collect()
+    }
+
+    fn traction(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
+        let x = x.as_array().to_vec();
+        let tractions = call::library(py, || {
+            let mut tractions = vec![0.0; x.len()];
+            self.0.traction()?.at_many(&x, &mut tractions)?;
+            Ok::<_, ContactError<f64>>(tractions)
+        })?;
+        Ok(call::array(py, tractions))
+    }
+
+    fn stress(
+        &self,
+        py: Python<'_>,
+        of: &str,
+        x: Numbers<'_>,
+        depth: Numbers<'_>,
+    ) -> PyResult<[Array; 3]> {
+        let (of, x, depth) = (body(of)?, x.as_array().to_vec(), depth.as_array().to_vec());
+        let found = call::library(py, || {
+            let subsurface = self.0.subsurface(of)?;
+            stresses((&x, &depth), |x, depth| subsurface.at(x, depth))
+        })?;
+        Ok(found.map(|stress| call::array(py, stress)))
+    }
+}

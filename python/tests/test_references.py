@@ -1,0 +1,102 @@
+"""The reference files, at the tolerances of the Rust tests."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scenes import DATA, SCENES, Array, Pair, example_three, from_file, reference
+
+import linecontact as lc
+from linecontact.bodies import CurveFunction
+
+
+@pytest.mark.parametrize(("name", "bodies", "accuracy"), SCENES, ids=[name for name, *_ in SCENES])
+def test_limits_and_pressures(name: str, bodies: Callable[[], Pair], accuracy: float) -> None:
+    want = reference(name)
+    solution = lc.solve(*bodies(), kappa=want.kappa, load=want.load)
+    for got, exact in [(solution.a, want.a), (solution.b, want.b)]:
+        assert abs(got - exact) <= accuracy * max(abs(got), abs(exact))
+    # As tests/suite/estimates.rs: what is said of each error covers it.
+    x, exact_pressures = want.points.T
+    values, errors = solution.pressure_estimate(x)
+    judged = np.isfinite(exact_pressures) & (exact_pressures != 0.0)
+    assert np.all(np.abs(values - exact_pressures)[judged] <= errors[judged])
+
+
+def test_there_are_enough_of_them() -> None:
+    assert len(SCENES) >= 10
+
+
+class Counted:
+    """A function that counts its calls, and the points asked for."""
+
+    def __init__(self, function: CurveFunction) -> None:
+        self.function, self.sizes = function, list[int]()
+
+    def __call__(self, k: Array) -> Sequence[Any]:
+        self.sizes.append(k.size)
+        return self.function(k)
+
+
+def test_python_is_called_for_many_points_at_a_time() -> None:
+    bodies = example_three()
+    counted = [Counted(body.function) for body in bodies if isinstance(body, lc.Curve)]
+    lower, upper = (
+        lc.Curve(body.domain, count) for body, count in zip(bodies, counted, strict=True)
+    )
+    # Both ends at once.
+    assert [count.sizes for count in counted] == [[2], [2]]
+    contact = lc.Contact(lower, upper, kappa=1.0)
+    assert [count.sizes for count in counted] == [[2], [2]]
+    want = reference("paper_example_3_scale_one")
+    cost = contact.solve(load=want.load).cost
+    sizes = [size for count in counted for size in count.sizes[1:]]
+    assert sum(sizes) == cost.evaluations + cost.heights
+    # Of these six are single points, by which the first point of each contact is found on its curve.
+    assert len(sizes) <= 14
+    assert sizes.count(1) <= 6
+
+
+def files(pattern: str) -> list[Path]:
+    return sorted(DATA.glob(pattern))
+
+
+@pytest.mark.parametrize("path", files("several/*.json"), ids=lambda path: path.stem)
+def test_several_contacts(path: Path) -> None:
+    want = json.loads(path.read_text())
+    lower, upper = from_file(want["body1"]), from_file(want["body2"])
+    ends = [float(want["limits"][0][0]), float(want["limits"][-1][1])]
+    edges = [
+        lc.Edge.fixed(end) if kind == "fixed" else lc.Edge.free()
+        for kind, end in zip(want["edges"], ends, strict=True)
+    ]
+    contact = lc.Contact(
+        lower, upper, kappa=float(want["scale_value"]), edges=(edges[0], edges[1])
+    )
+    solution = contact.solve(load=float(want["F"]))
+    limits = np.array([[float(end) for end in on] for on in want["limits"]])
+    found = np.array(solution.intervals)
+    assert found.shape == limits.shape
+    widths = limits[:, 1] - limits[:, 0]
+    allowed = want["tolerance_limits_per_width"] * widths[:, None]
+    assert np.all(np.abs(found - limits) <= allowed)
+    points = np.array([[float(one) for one in point] for point in want["points"]])
+    missed = np.abs(solution.pressure(points[:, 0]) - points[:, 1])
+    assert np.max(missed) <= want["tolerance_pressure_per_max"] * np.max(points[:, 1])
+    loads = [contact.load for contact in solution.contacts()]
+    np.testing.assert_allclose(loads, [float(load) for load in want["loads"]], rtol=1e-9)
+
+
+@pytest.mark.parametrize("path", files("reject_*.json"), ids=lambda path: path.stem)
+def test_refused(path: Path) -> None:
+    want = json.loads(path.read_text())
+    with pytest.raises(lc.LineContactError) as raised:
+        lower, upper = from_file(want["body1"]), from_file(want["body2"])
+        lc.solve(lower, upper, kappa=float(want["scale_value"]), load=float(want["C"]) / np.pi)
+    error = getattr(raised.value, "source", raised.value)
+    assert type(error).__name__ in {f"{want['expected_error']}Error", f"Profile{want['expected_error']}Error"}

@@ -1,0 +1,358 @@
+"""Curves of one's own, pickles, threads, signals, memory, pictures."""
+
+from __future__ import annotations
+
+import gc
+import math
+import os
+import pickle
+import signal
+import threading
+import time
+import xml.dom.minidom
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from scenes import Array, example_four, example_three, gear
+
+import linecontact as lc
+
+FLAT = lc.Flat()
+BODY = lc.Parabola(1.0, (-1.0, 1.0))
+STEEL = lc.Material(210e3, 0.3)
+TO = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+
+
+@dataclass(frozen=True)
+class Circle:
+    """By its angle."""
+
+    radius: float
+
+    def __call__(self, k: Array) -> tuple[Array, ...]:
+        s, c, radius = np.sin(k), np.cos(k), self.radius
+        return radius * s, radius * (1.0 - c), radius * c, radius * s
+
+
+def bumps(x: Array) -> tuple[Any, ...]:
+    return x, x**4 - 2 * x**2, 1.0, 4 * x**3 - 4 * x
+
+
+def bodies() -> list[lc.Body]:
+    x = np.linspace(-1.0, 1.0, 41)
+    points = np.column_stack([x, x**2 / 2])
+    return [
+        FLAT,
+        BODY,
+        lc.Line(0.1, (-1.0, 1.0)),
+        lc.Ellipse(2.0, 1.0, (-1.0, 1.0)),
+        lc.Ellipse.circle(-3.0, (-1.0, 1.0)),
+        lc.Involute(50.0, 0.4, (0.0, 0.8)),
+        lc.Crowning(0.01, 5.0, (-4.0, 4.0)),
+        lc.Wedge((-0.1, 0.2), 1.0),
+        lc.RoundedPunch(1.0, 0.5, 3.0),
+        lc.Spline(points),
+        lc.Spline(points, noise=1e-6, outliers=None),
+        lc.Curve((-1.0, 1.0), Circle(10.0), "convex"),
+        lc.Piecewise([lc.Line(-0.1, (-1.0, 0.0)), BODY.shifted(1.0, 0.0 - 0.5)], tolerance=1e-9),
+    ]
+
+
+def placed(body: lc.Body) -> lc.Body:
+    return body.scaled(2.0).mirrored().flipped().rotated(0.01).shifted(0.3, -0.1)
+
+
+# Curves of one's own.
+
+
+def test_a_curve_is_the_shape_that_it_draws() -> None:
+    shape = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    curve = lc.Curve((-1.0, 1.0), Circle(10.0), convexity="convex")
+    one, other = (lc.solve(FLAT, body, contact_modulus=115e3, load=500.0) for body in (shape, curve))
+    assert abs(one.a / other.a - 1.0) < 1e-14
+    assert one.cost == other.cost
+    # Placed, and joined, it is evaluated in batches, too.
+    for of in (shape.flipped(), lc.Piecewise([shape]).flipped()):
+        assert math.isclose(lc.solve(of, FLAT, contact_modulus=115e3, load=500.0).a, one.a, rel_tol=1e-14)
+
+
+def test_what_a_function_may_return() -> None:
+    want = lc.solve(FLAT, BODY, kappa=1.0, load=0.02).a
+    functions: list[Callable[[Array], Any]] = [
+        lambda k: (k, k**2 / 2, 1.0, k),
+        lambda k: [k, k**2 / 2, 1, k],
+        lambda k: np.array([k, k**2 / 2, np.ones_like(k), k]),
+        lambda k: np.array([k, k**2 / 2, np.ones_like(k), k], order="F"),
+        lambda k: (k, (k**2 / 2).tolist(), np.float32(1.0), k),
+    ]
+    for function in functions:
+        got = lc.solve(FLAT, lc.Curve((-1.0, 1.0), function), kappa=1.0, load=0.02).a
+        assert math.isclose(got, want, rel_tol=1e-14)
+    with pytest.raises(ValueError, match="broadcast"):
+        lc.Curve((-1.0, 1.0), lambda k: (k, k, k, np.ones(3)))
+    with pytest.raises(TypeError):
+        lc.Curve((-1.0, 1.0), lambda k: math.sin(k))  # type: ignore[arg-type, return-value]
+
+
+class Faulty:
+    """Raises from the third call on."""
+
+    def __init__(self, error: BaseException) -> None:
+        self.error, self.calls = error, 0
+
+    def __call__(self, k: Array) -> tuple[Any, ...]:
+        self.calls += 1
+        if self.calls > 2:
+            raise self.error
+        return k, k**2 / 2, 1.0, k
+
+
+@pytest.mark.parametrize("error", [RuntimeError("mine"), KeyboardInterrupt(), lc.SolveError("mine")])
+def test_an_exception_comes_out_as_it_is(error: BaseException) -> None:
+    body = Faulty(error)
+    contact = lc.Contact(FLAT, lc.Curve((-1.0, 1.0), body), kappa=1.0)
+    with pytest.raises(type(error)) as raised:
+        contact.solve(load=0.02)
+    assert raised.value is error
+    # Python is not called again once it has raised.
+    assert body.calls == 3
+    with pytest.raises(type(error)):
+        lc.Solver().solve(contact, load=0.02)
+    assert body.calls == 4
+    # And it is forgotten then.
+    assert lc.solve(FLAT, BODY, kappa=1.0, load=0.02).is_checked
+
+
+def test_a_curve_may_solve_a_contact_itself() -> None:
+    inner = lc.Contact(FLAT, BODY, kappa=1.0)
+
+    def nested(k: Array) -> tuple[Any, ...]:
+        with pytest.raises(lc.SolveError):
+            inner.solve(load=10.0)
+        return k, k**2 / 2, inner.solve(half_width=0.2).load / 0.02, k
+
+    assert math.isclose(lc.solve(FLAT, lc.Curve((-1, 1), nested), kappa=1.0, load=0.02).a, 0.2)
+
+
+def test_a_solver_that_is_solving_refuses_another() -> None:
+    solver = lc.Solver()
+    inner = lc.Contact(FLAT, BODY, kappa=1.0)
+
+    def nested(k: Array) -> tuple[Any, ...]:
+        if k.size > 2:
+            solver.solve(inner, load=0.02)
+        return k, k**2 / 2, 1.0, k
+
+    with pytest.raises(RuntimeError, match="make another"):
+        solver.solve(lc.Contact(FLAT, lc.Curve((-1, 1), nested), kappa=1.0), load=0.02)
+    assert solver.solve(inner, load=0.02).is_checked
+
+
+# Pickles, equality, names.
+
+
+@pytest.mark.parametrize("put", [lambda body: body, placed], ids=["as it is", "placed"])
+@pytest.mark.parametrize("body", bodies(), ids=lambda body: type(body).__name__)
+def test_bodies_pickle(body: lc.Body, put: Callable[[lc.Body], lc.Body]) -> None:
+    if body is FLAT:
+        k = np.linspace(-1.0, 1.0, 101)
+    else:
+        first, last = body.domain
+        k = np.linspace(first, last, 101)
+    body = put(body)
+    again = pickle.loads(pickle.dumps(body))
+    assert again == body and hash(again) == hash(body)
+    assert repr(again) == repr(body)
+    assert again.convexity == body.convexity and again.pieces == body.pieces
+    for one, other in zip(again.at(k), body.at(k), strict=True):
+        np.testing.assert_array_equal(one, other)
+    body.check_derivatives()
+
+
+def test_a_repr_makes_the_body_again() -> None:
+    for body in bodies():
+        if isinstance(body, lc.Spline | lc.Curve):
+            continue
+        for one in (body, placed(body)):
+            assert eval(repr(one), vars(lc)) == one
+    assert "Spline(<41 points from x = -1 to 1>" in repr(bodies()[9])
+
+
+def contacts() -> list[tuple[lc.Contact, dict[str, Any]]]:
+    edges = (lc.Edge.fixed(-0.1), lc.Edge.free())
+    roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    steel = {"materials": (STEEL, lc.Material.rigid()), "plane": "stress"}
+    return [
+        (lc.Contact(FLAT, BODY, contact_modulus=1.0), {"load": 0.02}),
+        (lc.Contact(FLAT, BODY, kappa=1.0, edges=edges), {"load": 0.02}),
+        (lc.Contact(*example_three(), kappa=1.0), {"load": 95.0}),
+        (lc.Contact(*example_four(), kappa=1.0), {"load": 20 / math.pi}),
+        (lc.Contact(*gear(), tolerance=1e-9), {"half_width": 0.1}),
+        (lc.Contact(FLAT, lc.Curve((-2, 2), bumps), contact_modulus=1.0), {"load": 1.0}),
+        (lc.Contact(FLAT, roller, **steel), {"approach": 0.01, "references": TO}),  # type: ignore[arg-type]
+        (lc.Contact(FLAT, roller, kappa=1.0, search="brent"), {"peak_pressure": 0.01}),
+        (lc.Contact(FLAT, BODY, quadrature=lc.Midpoint(64, 3, "even")), {"load": 0.02}),
+        (lc.Contact(FLAT, BODY, kappa=1.0), {"load": 0.02, "centre": 0.05}),
+    ]
+
+
+@pytest.mark.parametrize(("contact", "control"), contacts())
+def test_contacts_and_solutions_pickle(contact: lc.Contact, control: dict[str, Any]) -> None:
+    solution = contact.solve(**control)
+    again = pickle.loads(pickle.dumps(contact))
+    assert again == contact and repr(again) == repr(contact)
+    for other in (again.solve(**control), pickle.loads(pickle.dumps(solution))):
+        assert (other.a, other.b, other.load, other.tilt) == (
+            solution.a,
+            solution.b,
+            solution.load,
+            solution.tilt,
+        )
+        x = np.linspace(*solution.hull, 64)[1:-1]
+        np.testing.assert_array_equal(other.pressure(x), solution.pressure(x))
+        assert other.cost == solution.cost
+
+
+def test_what_else_pickles() -> None:
+    contact = lc.Contact(FLAT, BODY, materials=(STEEL, STEEL))
+    slip = contact.partial_slip(friction=0.4, force=10.0, load=100.0)
+    again = pickle.loads(pickle.dumps(slip))
+    assert again.stick_zones == slip.stick_zones
+    assert again.traction(0.01) == slip.traction(0.01)
+    assert pickle.loads(pickle.dumps(slip.normal)).a == slip.normal.a
+    table = lc.SpringTable(contact, TO, (1.0, 10.0), 1e-3)
+    assert pickle.loads(pickle.dumps(table)).at(3e-4) == table.at(3e-4)
+    summary = slip.normal.summary()
+    assert pickle.loads(pickle.dumps(summary)) == summary
+    solver = pickle.loads(pickle.dumps(lc.Solver()))
+    assert solver.solve(contact, load=100.0).a == slip.normal.a
+
+
+def test_a_lambda_cannot_be_pickled_and_says_so() -> None:
+    body = lc.Curve((-1.0, 1.0), lambda k: (k, k**2 / 2, 1.0, k))
+    with pytest.raises(TypeError, match="top of a module"):
+        pickle.dumps(lc.Contact(FLAT, body))
+
+
+# Threads, signals, memory.
+
+
+def test_eight_threads_find_the_same() -> None:
+    contact = lc.Contact(*example_three(), kappa=1.0)
+    shape = lc.Contact(FLAT, lc.Ellipse.circle(10.0, (-1.0, 1.0)), kappa=1.0)
+    x = np.linspace(-0.05, 0.05, 101)
+
+    def one(_: int) -> list[bytes]:
+        solutions = [scene.solve(load=0.01) for scene in (contact, shape) for _ in range(10)]
+        return [solution.pressure(x * solution.a).tobytes() for solution in solutions]
+
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(one, range(8)))
+    assert all(other == found[0] for other in found)
+
+
+def test_other_threads_go_on_meanwhile() -> None:
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.02)
+    ticks, done = 0, threading.Event()
+
+    def count() -> None:
+        nonlocal ticks
+        while not done.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    began = time.perf_counter()
+    while time.perf_counter() - began < 0.2:
+        solution.max_shear()
+    done.set()
+    counter.join()
+    assert ticks > 20
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers")
+def test_a_signal_ends_what_takes_long() -> None:
+    class Late(Exception):
+        pass
+
+    def late(*_: object) -> None:
+        raise Late
+
+    # Ten seconds and more for hundreds of contacts, and for as many stresses.
+    x = np.linspace(-1.0, 1.0, 10_000)
+    rough = x**2 / 2 + 1e-4 * np.cumsum(np.random.default_rng(1).normal(size=x.size))
+    body = lc.Spline(np.column_stack([x, rough]), outliers=None)
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.02)
+    many = np.full(1_000_000, 0.1)
+    before = signal.signal(signal.SIGALRM, late)
+    try:
+        for work in (
+            lambda: solution.stress(many, 0.1),
+            lambda: lc.solve(FLAT, body, kappa=1.0, load=0.02),
+        ):
+            signal.setitimer(signal.ITIMER_REAL, 0.15)
+            began = time.perf_counter()
+            with pytest.raises(Late):
+                work()
+            assert time.perf_counter() - began < 5.0
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def resident() -> int:
+    """Bytes of memory that this process has."""
+    with open("/proc/self/statm") as numbers:
+        return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc")
+def test_memory_stays_flat() -> None:
+    function = Circle(10.0)
+    x = np.linspace(-0.05, 0.05, 101)
+
+    def solve(count: int) -> None:
+        for i in range(count):
+            body = lc.Curve((-1.0, 1.0), function) if i % 2 else lc.Ellipse.circle(10.0, (-1.0, 1.0))
+            contact = lc.Contact(FLAT, body, kappa=1.0, tolerance=1e-9)
+            contact.solve(load=0.01).pressure(x)
+            if i % 10 == 0:
+                with pytest.raises(lc.SolveError):
+                    contact.solve(load=1e9)
+
+    solve(2_000)
+    gc.collect()
+    before = resident()
+    solve(10_000)
+    gc.collect()
+    assert resident() - before < 2_000_000
+
+
+# Pictures.
+
+
+def test_pictures() -> None:
+    for contact, control in contacts():
+        solution = contact.solve(**control)
+        picture = solution._repr_svg_()
+        assert len(picture) < 3000
+        xml.dom.minidom.parseString(picture)
+        figure = solution.plot()
+        bodies_, pressure, shear, *_ = figure.axes
+        for axes in (bodies_, pressure):
+            for line in axes.lines:
+                drawn = np.asarray(line.get_ydata(), dtype=float)
+                assert np.isfinite(drawn).sum() > 10
+        assert shear.yaxis_inverted()
+
+
+def test_drawn_bodies_just_touch() -> None:
+    roller = lc.Ellipse.circle(10.0, (-1.0, 1.0)).shifted(0.0, 5.0)
+    figure = lc.solve(lc.Line(0.0, (-3, 3)).rotated(0.0), roller, kappa=1.0, load=0.01).plot()
+    upper, lower = (np.asarray(line.get_ydata()) for line in figure.axes[0].lines[:2])
+    assert math.isclose(np.min(upper - lower), 0.0, abs_tol=1e-12)
