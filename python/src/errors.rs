@@ -155,6 +155,7 @@ table! {
     InvalidSlipFriction { friction };
     InvalidShear { quantity, value };
     SlipsEverywhere { force, limit };
+    SticksEverywhere { force, limit };
     ReversedSlip { zone, contact };
     UnlikeBodies { beta };
     SlipNotSupported { why };

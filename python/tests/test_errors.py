@@ -310,6 +310,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"force": 1.0},
     ),
     (
+        lambda: solved().partial_slip(friction=0.4, force=1e-16),
+        "SticksEverywhereError",
+        {"force": 1e-16},
+    ),
+    (
         lambda: solved().partial_slip(friction=0.4, force=1e-5, tension=0.1),
         "ReversedSlipError",
         {},

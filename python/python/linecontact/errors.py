@@ -873,6 +873,22 @@ class SlipsEverywhereError(SolveError):
     limit: float
 
 
+class SticksEverywhereError(SolveError):
+    """The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
+    rounding. Without slip the traction is the force times the rate of the pressure with the load.
+
+    Attributes
+    ----------
+    force : float
+        Q.
+    limit : float
+        μF.
+    """
+
+    force: float
+    limit: float
+
+
 class ReversedSlipError(SolveError):
     """The bodies would stick beside the contact: with so large a tension, or so small a force, slip reverses while
     the force grows, and the history counts.
