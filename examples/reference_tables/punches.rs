@@ -246,26 +246,18 @@ fn tilted(case: &mut Case, half: f64, slope: f64, load: f64) -> Result<(), Box<d
 }
 
 pub fn tilted_punch() -> Made {
-    let (half, slope, load) = (5.0, 0.002, 10e3);
-    let mut case = rigid_on_steel(
-        "tilted_punch",
-        "Rigid flat punch held at a tilt, on both corners",
-        "y = m x for |x| < H",
-        &[
-            ("H", half, LENGTH, "half-width of the punch"),
-            ("m", slope, "1", "slope, held"),
-            ("F", load, FORCE, "load"),
-        ],
-    );
-    tilted(&mut case, half, slope, load)?;
-    Ok(case)
+    held_at_a_tilt("tilted_punch", "Rigid flat punch held at a tilt, on both corners", 0.002)
 }
 
 pub fn lifted_punch() -> Made {
-    let (half, slope, load) = (5.0, 0.01, 10e3);
+    held_at_a_tilt("lifted_punch", "Rigid flat punch held at a larger tilt, on one corner", 0.01)
+}
+
+fn held_at_a_tilt(name: &'static str, title: &'static str, slope: f64) -> Made {
+    let (half, load) = (5.0, 10e3);
     let mut case = rigid_on_steel(
-        "lifted_punch",
-        "Rigid flat punch held at a larger tilt, on one corner",
+        name,
+        title,
         "y = m x for |x| < H",
         &[
             ("H", half, LENGTH, "half-width of the punch"),

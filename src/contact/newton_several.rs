@@ -133,6 +133,7 @@ impl<T: Real> NewtonSeveral<T> {
                 return Ok(SeveralOutcome::Failed);
             }
             self.linear.solve(&self.system.residual, &mut self.step);
+            self.set_moves(held);
             let place = if more_steps.is_none() { self.too_far(held, cut) } else { None };
             if !self.step.iter().all(|step| step.is_finite()) {
                 return Ok(SeveralOutcome::Failed);
@@ -278,7 +279,6 @@ impl<T: Real> NewtonSeveral<T> {
     /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
     /// left open.
     fn too_far(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
-        self.set_moves(corners);
         let mut worst: Option<(T, CutWidth)> = None;
         for i in 0..self.moves.len() - 1 {
             let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
@@ -303,6 +303,7 @@ impl<T: Real> NewtonSeveral<T> {
                 for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
                     *step -= open * by_open;
                 }
+                self.set_moves(corners);
             }
         }
         Some(place)
@@ -342,7 +343,6 @@ impl<T: Real> NewtonSeveral<T> {
     /// the load of a round body goes with it, and so does what is left of a gap that closes.
     fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
-        self.set_moves(corners);
         let count = self.moves.len();
         let mut order = std::mem::take(&mut self.order);
         order.clear();

@@ -77,11 +77,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         LoadCase { kappa: self.kappa, load: self.found.load, free: self.found.free }
     }
 
-    /// The share of the mean pressure that is taken for zero, besides what is in doubt of a pressure.
-    fn rounding() -> T {
-        T::epsilon().cbrt() * T::epsilon().cbrt()
-    }
-
     /// The pressures in each contact.
     pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
         fields.clear();
@@ -145,8 +140,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for (i, field) in fields.iter().enumerate() {
             let on = field.interval();
             let mean = field.load().abs() / on.half_width();
-            let allowed =
-                Self::rounding() * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+            // What is in doubt of a pressure is asked for below.
+            let allowed = ContactState::<T>::rounding()
+                * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
             seen.clear();
             let both = ExteriorField::places(on).into_iter().zip(field.pressures());
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));

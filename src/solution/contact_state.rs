@@ -32,8 +32,12 @@ pub(crate) struct ContactState<T> {
 impl<T: Real> ContactState<T> {
     /// What is taken for nothing beside what is usual in the contacts.
     pub fn nothing(&self) -> T {
-        let rounding = T::epsilon().cbrt() * T::epsilon().cbrt();
         let error = self.error_by_load.or(self.error).unwrap_or(T::zero());
-        rounding.max(T::of(16.0) * error).min(T::of(0.01))
+        Self::rounding().max(T::of(16.0) * error).min(T::of(0.01))
+    }
+
+    /// The same without what is in doubt of the limits.
+    pub fn rounding() -> T {
+        T::epsilon().cbrt() * T::epsilon().cbrt()
     }
 }

@@ -6,7 +6,7 @@
 //! the pressure bends, and where the open gap is about to close. The integrals of the logarithm over a cell are exact.
 #![allow(dead_code)] // Each test crate uses its own part.
 
-use linecontact::{Interval, ParametricProfile};
+use linecontact::{CurvePoint, Interval, ParametricProfile};
 
 /// Cells to begin with.
 const CELLS: usize = 128;
@@ -398,8 +398,15 @@ fn finished(x: &[f64], on: &[bool], found: Found, kappa: f64) -> Oracle {
     Oracle { contacts, errors, approach: found.approach, x, pressure, gap }
 }
 
-/// The height of a body at x, by bisection of `X(k) = x` on the piece that it belongs to.
+/// The height of a body at x.
 pub fn height(body: &dyn ParametricProfile<f64>, x: f64) -> f64 {
+    // Straight on from the nearer end, for what the rounding of k leaves.
+    let at = point(body, x);
+    if at.dx == 0.0 { at.y } else { at.y + at.dy / at.dx * (x - at.x) }
+}
+
+/// The point of a body at x, by bisection of `X(k) = x` on the piece that it belongs to.
+pub fn point(body: &dyn ParametricProfile<f64>, x: f64) -> CurvePoint<f64> {
     let on = |curve: &dyn ParametricProfile<f64>, [mut lo, mut hi]: [f64; 2]| {
         let rising = curve.x(lo) < curve.x(hi);
         for _ in 0..200 {
@@ -409,9 +416,7 @@ pub fn height(body: &dyn ParametricProfile<f64>, x: f64) -> f64 {
             }
             if (curve.x(k) < x) == rising { lo = k } else { hi = k }
         }
-        // Straight on from the nearer end, for what the rounding of k leaves.
-        let at = curve.at(lo);
-        if at.dx == 0.0 { at.y } else { at.y + at.dy / at.dx * (x - at.x) }
+        curve.at(lo)
     };
     match body.pieces() {
         0 => on(body, body.domain()),

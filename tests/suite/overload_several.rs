@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counting, Profile, graph};
+use common::{Counting, Profile, Shares, graph};
 use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -134,11 +134,9 @@ fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
 /// Waves of random height and length: what is said to be borne is, and nothing more.
 #[test]
 fn random_waves_bear_what_the_error_says() {
-    let (mut seed, mut several, mut unknown, mut close) = (1u64, 0, 0, 0);
-    let mut random = |from: f64, to: f64| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        from + (to - from) * (seed >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let (mut several, mut unknown, mut close) = (0, 0, 0);
+    let mut shares = Shares(1);
+    let mut random = |from: f64, to: f64| shares.between(from, to);
     for i in 0..60 {
         let [tall, wave, phase] = [random(0.1, 1.0), random(6.0, 30.0), random(0.0, 6.0)];
         let [from, to] = [random(-1.0, -0.3), random(0.3, 1.0)];

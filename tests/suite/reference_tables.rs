@@ -4,6 +4,7 @@
 //! `tests/common/integrals.rs`.
 #![allow(missing_docs)]
 
+use crate::boundary_elements::point;
 use crate::common::{assert_close, paper, worst};
 use crate::integrals::{integral, principal, strength};
 use linecontact::profile::{Involute, Placed, Placement};
@@ -119,26 +120,10 @@ impl Case {
     }
 }
 
-/// The slope of a body at x, by bisection of its parameter.
+/// The slope of a body at x.
 fn slope_of(body: &dyn ParametricProfile<f64>, x: f64) -> f64 {
-    let on = |curve: &dyn ParametricProfile<f64>, [mut lo, mut hi]: [f64; 2]| {
-        let rising = curve.x(lo) < curve.x(hi);
-        for _ in 0..200 {
-            let k = 0.5 * (lo + hi);
-            if k <= lo.min(hi) || k >= lo.max(hi) {
-                break;
-            }
-            if (curve.x(k) < x) == rising { lo = k } else { hi = k }
-        }
-        let at = curve.at(lo);
-        at.dy / at.dx
-    };
-    if body.pieces() == 0 {
-        return on(body, body.domain());
-    }
-    // Those of the paper have two pieces, which meet at 0.
-    let piece = body.piece(usize::from(x > 0.0)).unwrap();
-    on(piece.curve, piece.k)
+    let at = point(body, x);
+    at.dy / at.dx
 }
 
 fn of_bodies(

@@ -1,6 +1,7 @@
 //! A warm solver on rough bodies, which touch in many places that merge and part from load to load.
 #![allow(missing_docs)]
 
+use crate::common::Shares;
 use linecontact::profile::Spline;
 use linecontact::{
     Contact, ContactError, Control, Flat, Material, PlaneState, Reference, References, Solution,
@@ -12,15 +13,11 @@ type Solved<'b> = Result<Solution<'b, f64>, ContactError<f64>>;
 
 /// A roller of 20 mm with a wave and noise, in mm, by measured points.
 fn rough(seed: u64, wave: f64, noise: f64) -> Spline<f64> {
-    let mut state = seed;
-    let mut random = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut random = Shares(seed);
     let point = |i: i32| {
         let x = 0.01 * f64::from(i);
         let round = 20.0 - (400.0 - x * x).sqrt();
-        [x, round + wave * (2.0 * PI * x / 0.3).sin() + noise * random()]
+        [x, round + wave * (2.0 * PI * x / 0.3).sin() + noise * random.between(-1.0, 1.0)]
     };
     let points: Vec<[f64; 2]> = (-200..=200).map(point).collect();
     Spline::through(&points).unwrap()
