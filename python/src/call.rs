@@ -7,16 +7,34 @@ use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
 use pyo3::prelude::*;
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long a solve goes on before signals are looked at again: unnoticed at a keyboard, and rarely waits for the
 /// interpreter.
-const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
+pub const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
 thread_local! {
     /// What a user's function has raised, or a signal, in the call that this thread is in.
     static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
     static LOOKED: Cell<Option<Instant>> = const { Cell::new(None) };
+    /// Set in a thread of our own, which signals do not reach.
+    static STOP: RefCell<Option<Stop>> = const { RefCell::new(None) };
+}
+
+/// Tells threads of our own to end.
+#[derive(Clone, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
 }
 
 /// Keeps an exception until the library has returned.
@@ -26,6 +44,11 @@ pub fn raise(error: PyErr) {
     });
 }
 
+/// That exception, which is forgotten then.
+pub fn raised() -> Option<PyErr> {
+    RAISED.take()
+}
+
 /// Whether there is one: then nothing that is computed is looked at any more.
 pub fn has_raised() -> bool {
     RAISED.with_borrow(Option::is_some)
@@ -33,6 +56,10 @@ pub fn has_raised() -> bool {
 
 /// Looks at the signals, if it is time to. Ends what is going on where there is an exception.
 pub fn look() -> ControlFlow<()> {
+    if let Some(stopped) = STOP.with_borrow(|stop| stop.as_ref().map(Stop::is_set)) {
+        let ended = stopped || has_raised();
+        return if ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    }
     let now = Instant::now();
     let due = LOOKED.get().is_none_or(|last| now.duration_since(last) >= BETWEEN_SIGNALS);
     if due && !has_raised() {
@@ -60,10 +87,18 @@ pub fn library<R: Send, E: errors::Describe + Send>(
         LOOKED.set(None);
         work()
     });
-    match RAISED.take() {
+    match raised() {
         Some(raised) => Err(raised),
         None => found.map_err(|error| errors::to_python(py, &error)),
     }
+}
+
+/// Work in a thread of our own, until it is done or told to stop.
+pub fn elsewhere<R>(stop: &Stop, work: impl FnOnce() -> R) -> R {
+    let before = STOP.replace(Some(stop.clone()));
+    let found = work();
+    STOP.set(before);
+    found
 }
 
 /// One number in, one out, for each of an array.

@@ -5,8 +5,10 @@ mod call;
 mod curve;
 mod errors;
 mod profile;
+mod quantity;
 mod scene;
 mod solution;
+mod sweep;
 
 use pyo3::prelude::*;
 
@@ -20,4 +22,6 @@ mod _native {
     use super::scene::{Scene, Solver, SpringTable, contact_modulus};
     #[pymodule_export]
     use super::solution::{LoadRates, PartialSlip, Solution};
+    #[pymodule_export]
+    use super::sweep::{quantities, sweep};
 }

@@ -107,9 +107,9 @@ pub fn references((x, lower, upper): ReferenceRow) -> PyResult<References<f64>> 
 }
 
 /// What is prescribed: its name, its numbers, and the references of an approach.
-type Prescribed = (String, Vec<f64>, Option<ReferenceRow>);
+pub type Prescribed = (String, Vec<f64>, Option<ReferenceRow>);
 
-fn control((name, numbers, to): Prescribed) -> PyResult<Control<f64>> {
+pub fn control((name, numbers, to): Prescribed) -> PyResult<Control<f64>> {
     Ok(match (name.as_str(), numbers.as_slice(), to) {
         ("load", &[load], None) => Control::Load(load),
         ("half_width", &[half_width], None) => Control::HalfWidth(half_width),
@@ -142,7 +142,7 @@ pub fn contact_modulus(
 /// Two bodies, their stiffness, edges and settings.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Scene {
-    contact: Contact<'static, f64>,
+    pub contact: Contact<'static, f64>,
 }
 
 #[pymethods]

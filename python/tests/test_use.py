@@ -325,10 +325,17 @@ def test_memory_stays_flat() -> None:
                 with pytest.raises(lc.SolveError):
                     contact.solve(load=1e9)
 
+    def sweep(count: int) -> None:
+        contact = lc.Contact(FLAT, lc.Ellipse.circle(10.0, (-1.0, 1.0)), kappa=1.0)
+        for _ in range(count // 1_000):
+            lc.sweep(contact, load=np.linspace(0.01, 0.1, 1_000))
+
     solve(2_000)
+    sweep(10_000)
     gc.collect()
     before = resident()
     solve(10_000)
+    sweep(100_000)
     gc.collect()
     assert resident() - before < 2_000_000
 

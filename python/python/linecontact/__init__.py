@@ -60,12 +60,14 @@ from .solution import (
     Summary,
 )
 from .solver import Solver, SpringPoints, SpringTable, solve
+from .sweeping import Columns, sweep
 
 __all__ = [
     "Approach",
     "Attempt",
     "Body",
     "Certificate",
+    "Columns",
     "Contact",
     "ContactRegion",
     "Cost",
@@ -108,4 +110,5 @@ __all__ = [
     "contact_modulus",
     "errors",
     "solve",
+    "sweep",
 ]

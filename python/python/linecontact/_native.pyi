@@ -13,6 +13,8 @@ __all__ = [
     "Solver",
     "SpringTable",
     "contact_modulus",
+    "quantities",
+    "sweep",
     "variants",
 ]
 
@@ -29,6 +31,17 @@ _Columns = tuple[_Array, _Array, _Array, _Array, _Array]
 
 def variants() -> list[tuple[str, list[str]]]: ...
 def contact_modulus(lower: _Elastic, upper: _Elastic, state: str) -> float: ...
+def quantities() -> list[str]: ...
+def sweep(
+    scenes: Sequence[Scene],
+    which: npt.NDArray[np.uintp],
+    kind: str,
+    numbers: Sequence[_Array],
+    to: _References | None,
+    wanted: Sequence[str],
+    threads: int,
+    progress: Callable[[int], object] | None,
+) -> tuple[list[_Array], list[tuple[int, Exception]]]: ...
 
 @final
 class Profile:

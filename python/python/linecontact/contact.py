@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
@@ -344,49 +344,39 @@ class Settings(TypedDict, total=False):
     single_interval: bool
 
 
+# Numbers that are prescribed together, and what that is called.
+_CONTROLS: dict[frozenset[str], tuple[str, tuple[str, ...]]] = {
+    frozenset({"load"}): ("load", ("load",)),
+    frozenset({"half_width"}): ("half_width", ("half_width",)),
+    frozenset({"peak_pressure"}): ("peak_pressure", ("peak_pressure",)),
+    frozenset({"approach"}): ("approach", ("approach",)),
+    frozenset({"load", "moment"}): ("moment", ("load", "moment", "about")),
+    frozenset({"load", "moment", "about"}): ("moment", ("load", "moment", "about")),
+    frozenset({"load", "centre"}): ("centre", ("load", "centre")),
+}
+
+
+def _control(given: Mapping[str, Any], references: References | None) -> tuple[str, list[Any]]:
+    """What is prescribed: its name, and its numbers (or arrays of them) in the library's order."""
+    found = _CONTROLS.get(frozenset(given))
+    if found is None or (found[0] == "approach" and references is None):
+        raise TypeError(
+            f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
+            "references, load with moment (and about), or load with centre"
+        )
+    kind, names = found
+    return kind, [given.get(name, 0.0) for name in names]
+
+
 def _prescribed(
-    *,
-    load: float | None,
-    half_width: float | None,
-    peak_pressure: float | None,
-    approach: float | None,
-    references: References | None,
-    moment: float | None,
-    about: float | None,
-    centre: float | None,
+    *, references: References | None, **numbers: float | None
 ) -> tuple[str, list[float], References | None]:
     """What is prescribed, as the library takes it."""
-    given = {
-        name: value
-        for name, value in [
-            ("load", load),
-            ("half_width", half_width),
-            ("peak_pressure", peak_pressure),
-            ("approach", approach),
-            ("references", references),
-            ("moment", moment),
-            ("about", about),
-            ("centre", centre),
-        ]
-        if value is not None
-    }
-    names = set(given)
-    if load is not None and names == {"load"}:
-        return "load", [float(load)], None
-    if half_width is not None and names == {"half_width"}:
-        return "half_width", [float(half_width)], None
-    if peak_pressure is not None and names == {"peak_pressure"}:
-        return "peak_pressure", [float(peak_pressure)], None
-    if approach is not None and names == {"approach", "references"}:
-        return "approach", [float(approach)], references
-    if load is not None and moment is not None and names <= {"load", "moment", "about"}:
-        return "moment", [float(load), float(moment), float(about or 0.0)], None
-    if load is not None and centre is not None and names == {"load", "centre"}:
-        return "centre", [float(load), float(centre)], None
-    raise TypeError(
-        f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
-        "references, load with moment (and about), or load with centre"
-    )
+    given = {name: value for name, value in numbers.items() if value is not None}
+    kind, values = _control(given, references)
+    if references is not None and kind != "approach":
+        raise TypeError("references belong to an approach: give them where one is asked for")
+    return kind, [float(value) for value in values], references
 
 
 class Contact:
@@ -617,8 +607,7 @@ class Contact:
 
 def _wanted(given: Prescribed) -> tuple[str, list[float], References | None]:
     """What is prescribed, of keyword arguments that may be left out."""
-    nothing = dict.fromkeys(Prescribed.__annotations__)
-    return _prescribed(**cast("Any", {**nothing, **given}))
+    return _prescribed(**cast("Any", {"references": None, **given}))
 
 
 def _again(lower: Body, upper: Body, settings: dict[str, Any]) -> Contact:

@@ -1,0 +1,196 @@
+"""Many contacts in one call: over loads, over scenes, on all cores."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from .contact import Contact, References, _control
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+__all__ = ["Columns", "sweep"]
+
+# What is a count, or a yes or no, in its column.
+_KINDS: dict[str, type[Any]] = {"contacts": np.int64, "evaluations": np.int64, "is_checked": np.bool_}
+
+
+class Columns(dict[str, npt.NDArray[Any]]):
+    """The results of a sweep: an array for each quantity, with one number for each row.
+
+    Attributes
+    ----------
+    errors : dict of int to Exception
+        Why rows have failed, by their number.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0)
+    >>> found = lc.sweep(contact, load=[0.02, -1.0])
+    >>> found["error"]
+    array(['', 'InvalidLoadError'], dtype=object)
+    >>> print(found.errors[1])
+    the load is -1.0: it must be finite, and positive where limits are sought
+    """
+
+    errors: dict[int, Exception]
+
+    def __init__(self, columns: dict[str, npt.NDArray[Any]], errors: dict[int, Exception]) -> None:
+        super().__init__(columns)
+        self.errors = errors
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Columns, (dict(self), self.errors)
+
+    def __repr__(self) -> str:
+        rows = len(self["error"])
+        failed = f", {len(self.errors)} failed" if self.errors else ""
+        return f"<Columns: {rows} rows of {', '.join(self)}{failed}>"
+
+    def to_pandas(self) -> DataFrame:
+        """The columns as a data frame of pandas, if it is installed."""
+        try:
+            from pandas import DataFrame
+        except ImportError as missing:
+            raise ImportError("to_pandas() needs pandas: pip install pandas") from missing
+        return DataFrame(dict(self))
+
+
+def sweep(
+    contacts: Contact | Sequence[Contact],
+    *,
+    quantities: Sequence[str] = ("load", "a", "b", "peak_pressure"),
+    references: References | None = None,
+    progress: bool | Callable[[int, int], object] = False,
+    threads: int | None = None,
+    **prescribed: npt.ArrayLike,
+) -> Columns:
+    """Solves many contacts, over all cores, and returns numbers of each as columns.
+
+    Row after row, a contact is found under what is prescribed for it. One contact, or one number, serves all rows.
+    A row that fails fails alone.
+
+    Parameters
+    ----------
+    contacts : Contact or sequence of Contact
+        One for all rows, or one for each.
+    quantities : sequence of str
+        What is asked of each solution; nothing else is computed. Lengths: "a", "b", "half_width" and "centre" (of all
+        that lies between the outermost limits), "peak_x", "centre_of_pressure", "max_shear_x", "max_shear_depth",
+        "approach". Pressures: "peak_pressure" (infinite at a corner), "mean_pressure", "max_shear", "stiffness".
+        "load" is a force/length, "moment" a force, "tilt" is in radians. "limits_error" is a share of the half-width,
+        NaN where both limits were given. "contacts" (how many), "evaluations" (of the curves) and "is_checked" are no
+        floats, and 0 where the row has failed.
+    references : References, optional
+        For the approach and the stiffness, asked for or prescribed.
+    progress : bool or callable
+        True shows a bar if tqdm is installed. A function is called now and then, with how many rows are done and of
+        how many.
+    threads : int, optional
+        Default: as many as this process has cores.
+    **prescribed : array_like
+        As for `Contact.solve`: numbers, or arrays of one number for each row.
+
+    Returns
+    -------
+    Columns
+        A dict of arrays: the quantities, and "error" with the name of what each row has failed with, "" if it has not.
+        Numbers that were not found are NaN.
+
+    Notes
+    -----
+    Rows are solved in runs of up to 32, each from the contact of the row before, the first from nothing: put rows
+    that are alike beside each other, the load innermost. The results do not depend on the number of threads. The
+    functions of a `Curve` are called from all threads; where they raise an exception it is that of the row. Ctrl-C
+    ends a sweep.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0)
+    >>> lc.sweep(contact, load=[0.02, 0.08])["a"].round(12)
+    array([0.2, 0.4])
+
+    Two rollers under three loads each:
+
+    >>> rollers = [lc.Contact(lc.Flat(), lc.Parabola(r, (-9.0, 9.0)), contact_modulus=115e3) for r in (10.0, 20.0)]
+    >>> found = lc.sweep([roller for roller in rollers for _ in range(3)], load=[100.0, 200.0, 300.0] * 2)
+    >>> found["peak_pressure"].reshape(2, 3).round(1)
+    array([[ 605. ,  855.6, 1047.9],
+           [ 427.8,  605. ,  741. ]])
+    """
+    numbers = {name: np.asarray(values, dtype=np.float64) for name, values in prescribed.items()}
+    kind, given = _control(numbers, references)
+    lengths = {len(contacts)} if not isinstance(contacts, Contact) else set()
+    for name, values in numbers.items():
+        if values.ndim > 1:
+            raise ValueError(f"{name} has the shape {values.shape}: give a number, or one for each row")
+        lengths |= {values.size} if values.ndim else set()
+    if len(lengths) > 1:
+        raise ValueError(f"contacts and numbers are of {sorted(lengths)} rows: give as many of each, or one")
+    rows = lengths.pop() if lengths else 1
+    if references is None and {"approach", "stiffness"} & set(quantities):
+        raise TypeError("approach and stiffness are between references: give them")
+
+    if threads is not None and threads < 1:
+        raise ValueError(f"{threads} threads: give one or more")
+
+    scenes: list[_native.Scene]
+    if isinstance(contacts, Contact):
+        scenes, which = [contacts._scene], np.zeros(rows, dtype=np.uintp)
+    else:
+        scenes = [contact._scene for contact in contacts]
+        which = np.arange(rows, dtype=np.uintp)
+    told, close = _bar(progress, rows)
+    try:
+        columns, failures = _native.sweep(
+            scenes,
+            which,
+            kind,
+            [np.broadcast_to(values, (rows,)).astype(np.float64) for values in given],
+            references,
+            list(quantities),
+            _cores() if threads is None else threads,
+            told,
+        )
+    finally:
+        close()
+    found: dict[str, npt.NDArray[Any]] = {
+        name: np.nan_to_num(column).astype(_KINDS[name]) if name in _KINDS else column
+        for name, column in zip(quantities, columns, strict=True)
+    }
+    errors = dict(failures)
+    found["error"] = np.full(rows, "", dtype=object)
+    for row, error in errors.items():
+        found["error"][row] = type(error).__name__
+    return Columns(found, errors)
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    allowed = getattr(os, "sched_getaffinity", None)
+    return len(allowed(0)) if allowed else os.cpu_count() or 1
+
+
+def _bar(
+    progress: bool | Callable[[int, int], object], rows: int
+) -> tuple[Callable[[int], object] | None, Callable[[], object]]:
+    """What is told how many rows are done, and what is called in the end."""
+    if callable(progress):
+        of = progress
+        return lambda done: of(done, rows), lambda: None
+    if progress:
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            return None, lambda: None
+        bar = tqdm(total=rows, unit="contact")
+        return lambda done: bar.update(done - bar.n), bar.close
+    return None, lambda: None

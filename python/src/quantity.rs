@@ -1,0 +1,128 @@
+//! Numbers of a solution by their names: the columns of a sweep.
+
+use linecontact::stress::StressPeak;
+use linecontact::{ContactError, Peak, Real, References, Solution};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::cell::OnceCell;
+
+/// A number that a solution has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    Load,
+    A,
+    B,
+    HalfWidth,
+    Centre,
+    Tilt,
+    MeanPressure,
+    PeakPressure,
+    PeakX,
+    Moment,
+    CentreOfPressure,
+    MaxShear,
+    MaxShearX,
+    MaxShearDepth,
+    Approach,
+    Stiffness,
+    Contacts,
+    LimitsError,
+    IsChecked,
+    Evaluations,
+}
+
+/// Names as they are in Python.
+pub const NAMES: &[(&str, Quantity)] = &[
+    ("load", Quantity::Load),
+    ("a", Quantity::A),
+    ("b", Quantity::B),
+    ("half_width", Quantity::HalfWidth),
+    ("centre", Quantity::Centre),
+    ("tilt", Quantity::Tilt),
+    ("mean_pressure", Quantity::MeanPressure),
+    ("peak_pressure", Quantity::PeakPressure),
+    ("peak_x", Quantity::PeakX),
+    ("moment", Quantity::Moment),
+    ("centre_of_pressure", Quantity::CentreOfPressure),
+    ("max_shear", Quantity::MaxShear),
+    ("max_shear_x", Quantity::MaxShearX),
+    ("max_shear_depth", Quantity::MaxShearDepth),
+    ("approach", Quantity::Approach),
+    ("stiffness", Quantity::Stiffness),
+    ("contacts", Quantity::Contacts),
+    ("limits_error", Quantity::LimitsError),
+    ("is_checked", Quantity::IsChecked),
+    ("evaluations", Quantity::Evaluations),
+];
+
+impl Quantity {
+    pub fn named(name: &str) -> PyResult<Self> {
+        let found = NAMES.iter().find(|(known, _)| *known == name);
+        found.map(|&(_, quantity)| quantity).ok_or_else(|| {
+            let all: Vec<&str> = NAMES.iter().map(|&(known, _)| known).collect();
+            PyValueError::new_err(format!("no quantity {name:?}: there are {}", all.join(", ")))
+        })
+    }
+}
+
+/// What is asked of one solution: what two numbers have in common is computed once.
+pub struct Asked<'s, T: Real> {
+    solution: &'s Solution<'s, T>,
+    references: Option<&'s References<T>>,
+    peak: OnceCell<Peak<T>>,
+    shear: OnceCell<StressPeak<T>>,
+}
+
+fn once<V: Copy, E>(cell: &OnceCell<V>, make: impl FnOnce() -> Result<V, E>) -> Result<V, E> {
+    match cell.get() {
+        Some(&value) => Ok(value),
+        None => make().map(|value| *cell.get_or_init(|| value)),
+    }
+}
+
+impl<'s, T: Real> Asked<'s, T> {
+    pub fn of(solution: &'s Solution<'s, T>, references: Option<&'s References<T>>) -> Self {
+        Self { solution, references, peak: OnceCell::new(), shear: OnceCell::new() }
+    }
+
+    fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
+        once(&self.peak, || self.solution.peak())
+    }
+
+    fn shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+        once(&self.shear, || self.solution.subsurface()?.max_shear())
+    }
+
+    /// Its value; NaN for an error of limits that were given, and for lengths between no references.
+    pub fn value(&self, quantity: Quantity) -> Result<T, ContactError<T>> {
+        let (solution, nan) = (self.solution, T::of(f64::NAN));
+        Ok(match quantity {
+            Quantity::Load => solution.load(),
+            Quantity::A => solution.a(),
+            Quantity::B => solution.b(),
+            Quantity::HalfWidth => solution.hull().half_width(),
+            Quantity::Centre => solution.hull().centre(),
+            Quantity::Tilt => solution.tilt(),
+            Quantity::MeanPressure => solution.mean_pressure(),
+            Quantity::PeakPressure => self.peak()?.pressure,
+            Quantity::PeakX => self.peak()?.x,
+            Quantity::Moment => solution.moment()?,
+            Quantity::CentreOfPressure => solution.centre_of_pressure()?,
+            Quantity::MaxShear => self.shear()?.value,
+            Quantity::MaxShearX => self.shear()?.x,
+            Quantity::MaxShearDepth => self.shear()?.depth,
+            Quantity::Approach => match self.references {
+                Some(references) => solution.approach(references)?.bodies,
+                None => nan,
+            },
+            Quantity::Stiffness => match self.references {
+                Some(references) => solution.stiffness(references)?,
+                None => nan,
+            },
+            Quantity::Contacts => T::of(solution.intervals().len() as f64),
+            Quantity::LimitsError => solution.limits_error().unwrap_or(nan),
+            Quantity::IsChecked => T::of(f64::from(u8::from(solution.report().is_checked()))),
+            Quantity::Evaluations => T::of(solution.cost().evaluations as f64),
+        })
+    }
+}
