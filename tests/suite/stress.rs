@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, worst};
+use linecontact::profile::wedge;
 use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
@@ -354,6 +355,21 @@ fn at_a_tip_and_at_corners() {
     let sigma_x = -form.pressure(0.2, KAPPA) - 0.6 / PI * KAPPA * 0.1;
     assert!((stress.sigma_x / sigma_x - 1.0).abs() < 1e-14);
     assert_eq!(field.at(0.6, 0.0).unwrap().sigma_y, 0.0);
+}
+
+/// Below the tip of a wedge that leans the shear rises along a narrow ridge all the way to the surface: there it is
+/// `κ (m₁ + m₂)/π²`.
+#[test]
+fn below_a_tip_that_leans() {
+    for slopes in [[-0.02f64, 0.05], [-0.3, 0.1], [-1e-3, 1e-2]] {
+        let body = wedge(slopes, 9.0).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+        let solution = contact.solve(Control::HalfWidth(1.0)).unwrap();
+        let shear = solution.subsurface().unwrap().max_shear().unwrap();
+        let limit = KAPPA * (slopes[1] - slopes[0]) / PI.powi(2);
+        assert!((shear.value / limit - 1.0).abs() < 1e-10, "{shear:?} for {limit}");
+        assert!(shear.depth < 1e-5 && shear.x.abs() < 1e-12, "{shear:?}");
+    }
 }
 
 #[test]

@@ -63,13 +63,20 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses breakpoints at which the pressure is infinite.
     fn check_breakpoints(&self) -> Result<(), ContactError<T>> {
-        let breakpoints: Vec<_> = self.integrals.breakpoints().collect();
-        let mut pressures = vec![T::zero(); breakpoints.len()];
-        self.integrals.density.values(&breakpoints, &mut pressures)?;
-        match breakpoints.iter().zip(&pressures).find(|(_, pressure)| !pressure.is_finite()) {
-            Some((&x, _)) => Err(ContactError::Singular { x }),
+        match self.tips()?.first() {
+            Some(&x) => Err(ContactError::Singular { x }),
             None => Ok(()),
         }
+    }
+
+    /// Those breakpoints, from left to right.
+    fn tips(&self) -> Result<Vec<T>, ContactError<T>> {
+        let mut breakpoints: Vec<_> = self.integrals.breakpoints().collect();
+        let mut pressures = vec![T::zero(); breakpoints.len()];
+        self.integrals.density.values(&breakpoints, &mut pressures)?;
+        let mut pressure = pressures.iter();
+        breakpoints.retain(|_| pressure.next().is_some_and(|pressure| !pressure.is_finite()));
+        Ok(breakpoints)
     }
 
     fn largest(
@@ -120,8 +127,16 @@ impl<T: Real> Subsurface<'_, T> {
                 }
             }
         }
-        // Uphill by ever smaller steps, until rounding hides the top.
         let least = T::of(0.1) * T::epsilon().sqrt();
+        // Below a tip the way up may be a ridge that narrows with the depth: too narrow to be followed to its end.
+        for x in self.tips()?.into_iter().filter(|&x| on.contains(x)) {
+            let here = [(x - centre) / half_width, shallowest + least];
+            let found = peak(here)?;
+            if found.value > best.value {
+                (place, best) = (here, found);
+            }
+        }
+        // Uphill by ever smaller steps, until rounding hides the top.
         while across.max(deeper) > least {
             let mut moved = false;
             for [dx, dy] in [[across, T::zero()], [T::zero(), deeper]] {
