@@ -22,13 +22,14 @@ from .contact import Contact, Material, contact_modulus
 from .drawing import BESIDE, before_loading
 from .errors import LineContactError, SingularError
 from .solution import Solution
-from .solver import Solver
 
 __all__ = ["explore"]
 
 # Points of a curve: in each contact, beside each contact, of a body before loading.
 _INSIDE, _OUTSIDE, _BEFORE = 129, 33, 257
-# The grid of the shear: columns for each contact, but not more than so many, and rows.
+# The grid of the shear: columns for each contact, but not more than so many, and rows; how far from a limit they
+# begin to be less dense, in half-widths.
+_FINE = 0.1
 _COLUMNS, _MOST_COLUMNS, _ROWS = 64, 192, 40
 # The shear is kept in steps of this share of its largest value: finer than a screen shows.
 _STEPS = 65535
@@ -59,7 +60,7 @@ def explore(
     contact : Contact
         The scene.
     loads : array_like
-        Per unit length: force/length. They are solved by rising load, each once, by one `Solver`.
+        Per unit length: force/length. Equal ones are solved once.
     path : str or path-like
         Where to write the page, such as "roller.html". A file that is there is written over.
     title : str
@@ -132,10 +133,10 @@ def explore(
 
 def _solved(contact: Contact, loads: list[float]) -> dict[float, Solution | LineContactError]:
     """Each load with its solution, or with why there is none."""
-    solver, found = Solver(), dict[float, Solution | LineContactError]()
+    found = dict[float, Solution | LineContactError]()
     for load in loads:
         try:
-            found[load] = solver.solve(contact, load=load)
+            found[load] = contact.solve(load=load)
         except LineContactError as error:
             found[load] = error
     return found
@@ -271,12 +272,12 @@ def _share_of_lower(contact: Contact) -> float:
 
 
 def _field(solution: Solution, window: Range) -> dict[str, Any]:
-    """The largest shear and its place, and the shear on a grid that is finest where the contacts are."""
-    centres = np.array([on.centre for on in solution.intervals])
-    widths = np.array([on.half_width for on in solution.intervals])
-    columns = min(_COLUMNS * centres.size, _MOST_COLUMNS)
-    x = _graded(window, centres, widths, columns)
-    depth = _graded((0.0, 0.5 * (window[1] - window[0])), np.zeros_like(widths), widths, _ROWS)
+    """The largest shear and its place, and the shear on a grid that is finest at the limits of the contacts."""
+    limits = np.array(solution.intervals)
+    fine = _FINE * 0.5 * (limits[:, 1:] - limits[:, :1])
+    columns = min(_COLUMNS * len(limits), _MOST_COLUMNS)
+    x = _graded(window, limits, fine, columns)
+    depth = _graded((0.0, 0.5 * (window[1] - window[0])), np.zeros_like(fine), fine, _ROWS)
     shear = np.zeros((depth.size, x.size))
     # None at the surface: without friction it bears the same pressure along x as across.
     shear[1:] = solution.stress(x, depth[1:, None]).max_shear()
@@ -298,9 +299,9 @@ def _field(solution: Solution, window: Range) -> dict[str, Any]:
 
 def _graded(span: Range, centres: FloatArray, widths: FloatArray, count: int) -> FloatArray:
     """Places over a span, as dense as 1/sqrt((x - c)² + w²), added up over all centres."""
-    fine = np.linspace(*span, 4097)
-    risen = np.sum(np.arcsinh((fine[:, None] - centres) / widths), axis=1)
-    return np.interp(np.linspace(risen[0], risen[-1], count), risen, fine)
+    every = np.linspace(*span, 4097)
+    risen = np.sum(np.arcsinh((every[:, None, None] - centres) / widths), axis=(1, 2))
+    return np.interp(np.linspace(risen[0], risen[-1], count), risen, every)
 
 
 def _packed(numbers: FloatArray) -> str:
