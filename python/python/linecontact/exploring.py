@@ -81,8 +81,8 @@ def explore(
 
     Notes
     -----
-    The shapes of the loaded bodies are right, their heights are up to a rigid displacement: the ends of the picture
-    keep theirs. Without materials each surface is drawn with half of the deformation. The largest shear is that in
+    The shapes of the loaded bodies are right, their heights are up to a rigid displacement: at the ends of the axis of
+    all loads it is none. Without materials each surface is drawn with half of the deformation. The largest shear is that in
     the plane, the same in both bodies.
 
     Examples
@@ -225,15 +225,15 @@ def _curves(solution: Solution, window: Range) -> dict[str, Any]:
 
 
 def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, float]]:
-    """The places that `sample` leaves out, with their pressures: corners at the ends, and a tip."""
+    """The places that `sample` leaves out, with their pressures: corners at the ends, and the largest pressure."""
     found = []
     for x, strength in zip(solution.hull, solution.edge_singularities, strict=True):
         if x not in sampled:
             pressure = math.copysign(math.inf, strength) if _is_infinite(solution, strength) else 0.0
             found.append((x, pressure))
     peak = _peak(solution)
-    if peak["pressure"] is None and solution.hull.left < peak["x"] < solution.hull.right:
-        found.append((peak["x"], math.inf))
+    if peak["x"] not in (*sampled, *solution.hull):
+        found.append((peak["x"], math.inf if peak["pressure"] is None else peak["pressure"]))
     return found
 
 
