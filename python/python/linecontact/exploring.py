@@ -254,7 +254,8 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
     bounds = bounds[int(pressed[0]) : len(bounds) - int(pressed[1])]
     bounds = bounds[bounds[:, 0] < bounds[:, 1]]
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _OUTSIDE))
-    places = (bounds[:, :1] + (bounds[:, 1:] - bounds[:, :1]) * share).ravel()
+    # From both ends, so that both are met without rounding.
+    places = bounds[:, :1] * share[::-1] + bounds[:, 1:] * share
     return places[~np.isin(places, limits)]
 
 
