@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from scenes import SCENES, Pair, reference
 
 import linecontact as lc
 
@@ -322,6 +323,34 @@ def test_what_is_infinite_is_called_so(browser: Any, tmp_path: Path) -> None:
         assert page.locator("#load").is_disabled()
         assert painted(page) > 5
         keep(page, str(tmp_path / "punch.png"))
+
+
+# The largest shear takes minutes where a slope jumps and one side is far steeper.
+SLOW = {"tilted_wedge", "rounded_punch_1e-6"}
+ODD = {name: pair for name, pair, _ in SCENES if name not in SLOW}
+
+
+@pytest.mark.parametrize(("name", "pair"), ODD.items(), ids=ODD)
+def test_any_size_and_shape(name: str, pair: Callable[[], Pair], browser: Any, tmp_path: Path) -> None:
+    want = reference(name)
+    contact = lc.Contact(*pair(), kappa=want.kappa)
+    file = lc.explore(contact, [0.5 * want.load, want.load], tmp_path / "page.html", units=("m", "Pa", "N/m"))
+    with opened(browser, file, **PHONE) as page:
+        for fit in (False, True):
+            page.locator("#fit").set_checked(fit)
+            drawn, words = page.locator("#picture").inner_html(), page.locator("body").inner_text()
+            for wrong in ("NaN", "undefined", "null", "Infinity"):
+                assert wrong not in drawn and wrong not in words
+            assert page.locator("#picture .grid").count() > 5
+            assert painted(page) > 1
+        peak = page.locator("#peak").get_attribute("value")
+        solution = contact.solve(load=want.load)
+        try:
+            assert float(peak) == solution.peak().pressure
+        except lc.errors.SingularError:
+            assert float(peak) == math.inf
+        assert page.evaluate("document.documentElement.scrollWidth") <= 360
+        keep(page, str(tmp_path / "page.png"))
 
 
 def test_a_hostile_title_does_nothing(browser: Any, tmp_path: Path) -> None:
