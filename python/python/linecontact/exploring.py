@@ -81,9 +81,11 @@ def explore(
 
     Notes
     -----
+    A load takes about a tenth of a second, nearly all of it for the shear; more where a slope jumps in the contact.
+
     The shapes of the loaded bodies are right, their heights are up to a rigid displacement: at the ends of the axis of
-    all loads it is none. Without materials each surface is drawn with half of the deformation. The largest shear is that in
-    the plane, the same in both bodies.
+    all loads it is none. Without materials each surface is drawn with half of the deformation. The largest shear is
+    that in the plane, the same in both bodies.
 
     Examples
     --------
