@@ -88,7 +88,7 @@ def test_types() -> None:
     strict = ["mypy", "--strict", "--config-file", str(HERE.parent / "pyproject.toml")]
     checks = [
         [*strict, "-p", "linecontact"],
-        [*strict, *map(str, HERE.glob("*.py"))],
+        [*strict, *map(str, HERE.rglob("*.py"))],
         # What the stub says of the extension is what the extension says of itself.
         ["mypy.stubtest", "linecontact._native"],
     ]

@@ -358,6 +358,11 @@ def test_pictures() -> None:
         assert shear.yaxis_inverted()
 
 
+def test_heights_of_a_place_that_is_met_at_once() -> None:
+    # The others take another step, and zero is bounded by zero from one side.
+    np.testing.assert_allclose(BODY.heights([0.0, 1e-150, -2e-150]), [0.0, 5e-301, 2e-300], rtol=1e-12)
+
+
 def test_drawn_bodies_just_touch() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0)).shifted(0.0, 5.0)
     figure = lc.solve(lc.Line(0.0, (-3, 3)).rotated(0.0), roller, kappa=1.0, load=0.01).plot()

@@ -43,6 +43,7 @@ from .contact import (
     contact_modulus,
 )
 from .errors import EvaluationError, InputError, LineContactError, SolveError
+from .exploring import explore
 from .solution import (
     Approach,
     Attempt,
@@ -109,6 +110,7 @@ __all__ = [
     "Wedge",
     "contact_modulus",
     "errors",
+    "explore",
     "solve",
     "sweep",
 ]

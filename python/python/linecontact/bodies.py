@@ -130,14 +130,15 @@ class Body(ABC):
         for _ in range(100):
             here, height, dx, _ = self.at(k)
             missed = here - wanted
-            if np.all(np.abs(missed) <= 1e-12 * size):
+            met = np.abs(missed) <= 1e-12 * size
+            if np.all(met):
                 break
             beyond = (missed > 0) == rises
             low, high = np.where(beyond, low, k), np.where(beyond, k, high)
             with np.errstate(divide="ignore", invalid="ignore"):
                 newton = k - missed / dx
             inside = (newton > low) & (newton < high)
-            k = np.where(inside, newton, 0.5 * low + 0.5 * high)
+            k = np.where(met, k, np.where(inside, newton, 0.5 * low + 0.5 * high))
         within = (wanted >= np.min(ends)) & (wanted <= np.max(ends))
         return np.where(within, height, np.nan)
 

@@ -9,10 +9,12 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from ._numbers import FloatArray
+    from .contact import Contact
     from .solution import Solution
 
 # By how much more than the contacts is shown, as a share of their width; and to what depth, in half-widths.
-_BESIDE = 0.5
+BESIDE = 0.5
 _DEPTH = 2.0
 
 _WIDTH, _HEIGHT, _MARGIN = 320, 150, 24
@@ -45,6 +47,16 @@ def svg(solution: Solution) -> str:
     )
 
 
+def before_loading(
+    contact: Contact, x: FloatArray, tilt: float = 0.0
+) -> tuple[FloatArray, FloatArray]:
+    """The heights of both bodies, brought together until they just touch."""
+    lower, upper = contact.lower.heights(x), contact.upper.heights(x) + tilt * x
+    shown = np.isfinite(lower) & np.isfinite(upper)
+    touching = np.min((upper - lower)[shown], initial=np.inf)
+    return lower, upper - touching if np.isfinite(touching) else upper
+
+
 def plot(solution: Solution) -> Figure:
     """Bodies, pressure and subsurface shear, one below the other over the same x."""
     try:
@@ -52,16 +64,12 @@ def plot(solution: Solution) -> Figure:
     except ImportError as missing:
         raise ImportError("plot() needs matplotlib: pip install matplotlib") from missing
     on, contact = solution.hull, solution.contact
-    beside = 2 * _BESIDE * on.half_width
+    beside = 2 * BESIDE * on.half_width
     x = np.linspace(on.left - beside, on.right + beside, 401)
     figure = Figure(figsize=(6.4, 8.0), layout="constrained")
     bodies, pressure, below = figure.subplots(3, 1, sharex=True)
 
-    lower, upper = contact.lower.heights(x), contact.upper.heights(x) + solution.tilt * x
-    shown = np.isfinite(lower) & np.isfinite(upper)
-    touching = np.min((upper - lower)[shown], initial=np.inf)
-    if np.isfinite(touching):
-        upper = upper - touching
+    lower, upper = before_loading(contact, x, solution.tilt)
     bodies.plot(x, upper, color="#08519c", label="upper body")
     bodies.plot(x, lower, color="#a63603", label="lower body")
     bodies.set_ylabel("y before loading")

@@ -1,0 +1,332 @@
+"""One page to look at a contact under many loads, without a network: `explore.html` with the numbers put in."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+import re
+from base64 import b64encode
+from collections.abc import Sequence
+from importlib.resources import files
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._numbers import FloatArray, Numbers, Range
+from .bodies import Body
+from .contact import Contact, Material, contact_modulus
+from .drawing import BESIDE, before_loading
+from .errors import LineContactError, SingularError
+from .solution import Solution
+
+__all__ = ["explore"]
+
+# Points of a curve: in each contact, beside each contact, of a body before loading.
+_INSIDE, _OUTSIDE, _BEFORE = 129, 33, 257
+# The grid of the shear: columns for each contact, but not more than so many, and rows; how far from a limit they
+# begin to be less dense, in half-widths.
+_FINE = 0.1
+_COLUMNS, _MOST_COLUMNS, _ROWS = 64, 192, 40
+# The shear is kept in steps of this share of its largest value: finer than a screen shows.
+_STEPS = 65535
+# Where shear or pressure are infinite, the pictures end at the shear this deep, in half-widths, and at so many mean
+# pressures.
+_SHALLOW, _MEANS = 0.1, 3.0
+# Strengths of singularities, in mean pressures, that are none.
+_ROUNDING = 1e-12
+# What is left of the description of a body that is a long one.
+_WORDS = 400
+
+
+def explore(
+    contact: Contact,
+    loads: float | Numbers,
+    path: str | PathLike[str],
+    *,
+    title: str = "Line contact",
+    units: Sequence[str] = ("", "", ""),
+) -> Path:
+    """Writes a page on which a slider moves the load: both bodies, the pressure, and the shear below it.
+
+    The page is one file, and needs a browser, but no network. The slider steps through the loads that are given:
+    whatever is shown has been solved. A load that fails is a mark on it, with the message of its error.
+
+    Parameters
+    ----------
+    contact : Contact
+        The scene.
+    loads : array_like
+        Per unit length: force/length. Equal ones are solved once.
+    path : str or path-like
+        Where to write the page, such as "roller.html". A file that is there is written over.
+    title : str
+        The heading.
+    units : (str, str, str)
+        Names of the units of lengths, pressures and loads, to be shown with the numbers, such as
+        ``("mm", "MPa", "N/mm")``.
+
+    Returns
+    -------
+    pathlib.Path
+        Of the page.
+
+    Raises
+    ------
+    linecontact.errors.LineContactError
+        If all loads fail: the error of the first.
+
+    Notes
+    -----
+    A load takes about a tenth of a second, nearly all of it for the shear; more where a slope jumps in the contact.
+
+    The shapes of the loaded bodies are right, their heights are up to a rigid displacement: at the ends of the axis of
+    all loads it is none. Without materials each surface is drawn with half of the deformation. The largest shear is
+    that in the plane, the same in both bodies.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> import linecontact as lc
+    >>> roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    >>> contact = lc.Contact(lc.Flat(), roller, contact_modulus=115e3)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     to = Path(folder) / "roller.html"
+    ...     page = lc.explore(contact, np.linspace(100, 900, 5), to, units=("mm", "MPa", "N/mm"))
+    ...     page.stat().st_size < 200_000
+    True
+    """
+    length, pressure, force = units
+    wanted = np.unique(np.asarray(loads, dtype=np.float64))
+    if wanted.size == 0 or not np.all(np.isfinite(wanted)):
+        raise ValueError("give at least one load, and finite ones")
+    reach = _reach(contact)
+    solved = _solved(contact, wanted.tolist())
+    spans = [_window(one, reach) for one in solved.values() if isinstance(one, Solution)]
+    window = min((left for left, _ in spans), default=0.0), max((right for _, right in spans), default=0.0)
+    frames = {load: _frame(one, window, reach) for load, one in solved.items()}
+    errors = [frame for frame in frames.values() if isinstance(frame, LineContactError)]
+    if len(errors) == len(frames):
+        raise errors[0]
+    x = np.linspace(*window, _BEFORE)
+    lower, upper = before_loading(contact, x)
+    data = {
+        "units": {"length": length, "pressure": pressure, "load": force},
+        "bodies": {"lower": _words(contact.lower), "upper": _words(contact.upper)},
+        "shared": contact._settings["materials"] is None,
+        "window": window,
+        "before": {"x": _packed(x), "lower": _packed(lower), "upper": _packed(upper)},
+        "frames": [
+            {"load": load, "error": f"{type(frame).__name__}: {frame}"}
+            if isinstance(frame, LineContactError)
+            else {"load": load, **frame}
+            for load, frame in frames.items()
+        ],
+    }
+    page = Path(path)
+    page.write_text(_filled(title, data), encoding="utf-8")
+    return page
+
+
+def _solved(contact: Contact, loads: list[float]) -> dict[float, Solution | LineContactError]:
+    """Each load with its solution, or with why there is none."""
+    found = dict[float, Solution | LineContactError]()
+    for load in loads:
+        try:
+            found[load] = contact.solve(load=load)
+        except LineContactError as error:
+            found[load] = error
+    return found
+
+
+def _reach(contact: Contact) -> Range:
+    """From where to where both bodies are."""
+    ends = [np.sort(body.at(body.domain)[0]) for body in (contact.lower, contact.upper)]
+    return max(float(left) for left, _ in ends), min(float(right) for _, right in ends)
+
+
+def _window(solution: Solution, reach: Range) -> Range:
+    """What is shown of the bodies: the contacts and some of what is beside them."""
+    on = solution.hull
+    beside = 2 * BESIDE * on.half_width
+    return max(on.left - beside, reach[0]), min(on.right + beside, reach[1])
+
+
+def _frame(
+    solved: Solution | LineContactError, window: Range, reach: Range
+) -> dict[str, Any] | LineContactError:
+    """What the page shows of one load."""
+    if isinstance(solved, LineContactError):
+        return solved
+    try:
+        numbers = {**_numbers(solved), "window": _window(solved, reach)}
+        return {**numbers, **_curves(solved, window), **_field(solved, window)}
+    except LineContactError as error:
+        return error
+
+
+def _numbers(solution: Solution) -> dict[str, Any]:
+    summary = solution.summary()
+    contacts = [
+        {
+            "left": one.interval.left,
+            "right": one.interval.right,
+            "load": one.load,
+            "peak": None if one.peak is None else one.peak._asdict(),
+        }
+        for one in solution.contacts()
+    ]
+    return {
+        "contacts": contacts,
+        "half_width": solution.half_width,
+        "peak": _peak(solution),
+        "mean_pressure": summary.mean_pressure,
+        "centre_of_pressure": summary.centre_of_pressure,
+        "limits_error": summary.limits_error,
+        "checked": summary.checked,
+        "steep": solution.is_steep,
+    }
+
+
+def _peak(solution: Solution) -> dict[str, Any]:
+    """The largest pressure and its x; None for one that is infinite."""
+    try:
+        return solution.peak()._asdict()
+    except SingularError as infinite:
+        return {"x": infinite.x, "pressure": None}
+
+
+def _curves(solution: Solution, window: Range) -> dict[str, Any]:
+    """Pressure, gap and lower surface over x, from one end of the window to the other."""
+    inside, beside = np.column_stack(solution.sample(_INSIDE)), _beside(solution, window)
+    left_out = np.reshape(_left_out(solution, inside[:, 0]), (-1, 2))
+    table = np.concatenate([inside, left_out, np.column_stack([beside, np.zeros(beside.size)])])
+    gaps = np.concatenate([np.zeros(len(inside) + len(left_out)), solution.gap(beside)])
+    order = np.argsort(table[:, 0], kind="stable")
+    (x, pressures), gap = table[order].T, gaps[order]
+    lower, upper = solution.contact.lower.heights(x), solution.contact.upper.heights(x)
+    # By how much both surfaces together have given way: the loaded gap is that before loading, less the approach of
+    # the bodies, and this.
+    given_way = gap - (upper - lower)
+    ends = given_way[np.isfinite(given_way)][[0, -1]]
+    drawn = pressures[np.isfinite(pressures)]
+    peak = _peak(solution)["pressure"]
+    top = _MEANS * abs(solution.mean_pressure) if peak is None else peak
+    return {
+        "x": _packed(x),
+        "pressure": _packed(pressures),
+        "gap": _packed(gap),
+        "lower": _packed(lower - _share_of_lower(solution.contact) * (given_way - np.mean(ends))),
+        "pressure_axis": [max(float(np.min(drawn, initial=0.0)), -top), top],
+    }
+
+
+def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, float]]:
+    """The places that `sample` leaves out, with their pressures: corners at the ends, and the largest pressure."""
+    found = []
+    for x, strength in zip(solution.hull, solution.edge_singularities, strict=True):
+        if x not in sampled:
+            pressure = math.copysign(math.inf, strength) if _is_infinite(solution, strength) else 0.0
+            found.append((x, pressure))
+    peak = _peak(solution)
+    if peak["x"] not in (*sampled, *solution.hull):
+        found.append((peak["x"], math.inf if peak["pressure"] is None else peak["pressure"]))
+    return found
+
+
+def _is_infinite(solution: Solution, strength: float) -> bool:
+    """Whether the strength of a singularity is more than rounding."""
+    return abs(strength) > _ROUNDING * abs(solution.mean_pressure)
+
+
+def _beside(solution: Solution, window: Range) -> FloatArray:
+    """Places beside and between the contacts, more of them next to the limits: not beyond a corner that is pressed,
+    where one of the bodies ends."""
+    pressed = [
+        strength > 0.0 and _is_infinite(solution, strength)
+        for strength in solution.edge_singularities
+    ]
+    limits = [limit for on in solution.intervals for limit in on]
+    bounds = np.reshape([window[0], *limits, window[1]], (-1, 2))
+    bounds = bounds[int(pressed[0]) : len(bounds) - int(pressed[1])]
+    bounds = bounds[bounds[:, 0] < bounds[:, 1]]
+    share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _OUTSIDE))
+    # From both ends, so that both are met without rounding.
+    places = bounds[:, :1] * share[::-1] + bounds[:, 1:] * share
+    return places[~np.isin(places, limits)]
+
+
+def _share_of_lower(contact: Contact) -> float:
+    """How much of what both surfaces give way the lower one does: half without materials."""
+    materials = contact._settings["materials"]
+    if materials is None:
+        return 0.5
+    lower, upper = (Material(*material) for material in materials)
+    if lower == Material.rigid():
+        return 0.0
+    plane = contact._settings["plane"]
+    alone = contact_modulus(lower, Material.rigid(), plane)
+    return contact_modulus(lower, upper, plane) / alone
+
+
+def _field(solution: Solution, window: Range) -> dict[str, Any]:
+    """The largest shear and its place, and the shear on a grid that is finest at the limits of the contacts."""
+    limits = np.array(solution.intervals)
+    fine = _FINE * 0.5 * (limits[:, 1:] - limits[:, :1])
+    columns = min(_COLUMNS * len(limits), _MOST_COLUMNS)
+    x = _graded(window, limits, fine, columns)
+    depth = _graded((0.0, 0.5 * (window[1] - window[0])), np.zeros_like(fine), fine, _ROWS)
+    shear = np.zeros((depth.size, x.size))
+    # None at the surface: without friction it bears the same pressure along x as across.
+    shear[1:] = solution.stress(x, depth[1:, None]).max_shear()
+    try:
+        largest: dict[str, Any] = solution.max_shear()._asdict()
+        top = largest["value"]
+    except SingularError as infinite:
+        largest = {"x": infinite.x, "depth": 0.0, "value": None}
+        top = float(np.max(shear[depth >= _SHALLOW * solution.half_width]))
+    unit = float(np.max(shear)) / _STEPS
+    field = {
+        "x": _packed(x),
+        "depth": _packed(depth),
+        "unit": unit,
+        "shear": _base64(np.round(shear / unit).astype("<u2")),
+    }
+    return {"shear": largest, "shear_axis": top, "field": field}
+
+
+def _graded(span: Range, centres: FloatArray, widths: FloatArray, count: int) -> FloatArray:
+    """Places over a span, as dense as 1/sqrt((x - c)² + w²), added up over all centres."""
+    every = np.linspace(*span, 4097)
+    risen = np.sum(np.arcsinh((every[:, None, None] - centres) / widths), axis=(1, 2))
+    return np.interp(np.linspace(risen[0], risen[-1], count), risen, every)
+
+
+def _packed(numbers: FloatArray) -> str:
+    """All digits of an array, for the page to unpack."""
+    return _base64(numbers.astype("<f8"))
+
+
+def _base64(array: npt.NDArray[Any]) -> str:
+    return b64encode(array.tobytes()).decode("ascii")
+
+
+def _words(body: Body) -> str:
+    words = repr(body)
+    return words if len(words) <= _WORDS else words[: _WORDS - 1] + "…"
+
+
+def _filled(title: str, data: dict[str, Any]) -> str:
+    """The page, with the title and the data where it says so."""
+    parts = {
+        "title": html.escape(title),
+        # No `<` in it ends the script.
+        "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+    }
+    page = files(__package__).joinpath("explore.html").read_text(encoding="utf-8")
+    return re.sub(r"\{\{(title|data)\}\}", lambda place: parts[place[1]], page)
