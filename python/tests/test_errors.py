@@ -69,6 +69,70 @@ def two_jumps() -> lc.Piecewise:
     return lc.Piecewise([lc.Line(0.0, (-1.0, 0.0)), lc.Line(1.0, (0.5, 1.0))])
 
 
+def sinh_parameter(k: Any) -> tuple[Any, ...]:
+    size = math.sinh(40.0)
+    x, dx = np.sinh(40.0 * k) / size, 40.0 * np.cosh(40.0 * k) / size
+    return x, x**2 / 2, dx, x * dx
+
+
+def dwindling(x: Any) -> tuple[Any, ...]:
+    """Behind its end this curve would turn down."""
+    return x, x**2 / 2 - x**4 / 4, 1.0, x - x**3
+
+
+def waves(x: Any) -> tuple[Any, ...]:
+    """Beyond the contact, and too short for any number of panels."""
+    return x, x**2 / 2, 1.0, x + np.maximum(x - 0.5, 0.0) ** 4 * np.sin(1e9 * x)
+
+
+def missed_bump(x: Any) -> tuple[Any, ...]:
+    """Too narrow for the panels, and too slight to be felt."""
+    width, rise = 2e-3, 1e-4
+    t = np.clip((x - 0.123) / width, -1.0, 1.0)
+    area = t - 2 / 3 * t**3 + t**5 / 5
+    return x, x**2 / 2 + rise * width * area, 1.0, x + rise * (1 - t**2) ** 2
+
+
+def saw(k: Any) -> tuple[Any, ...]:
+    """Hundreds of kinks that nobody has declared."""
+    x, dx = k + 0.1 * k**3, 1.0 + 0.3 * k**2
+    u = (400.0 * x) % 1.0
+    tooth = np.abs(2 * u - 1.0) - 0.5
+    sum_ = np.where(u < 0.5, u - u**2, 0.25 + (u - 0.5) ** 2) - u / 2
+    return x, x**2 / 2 + sum_ / 4000.0, dx, (x + tooth / 10.0) * dx
+
+
+class Sinks:
+    """A double well, one half of which sinks once it is told to."""
+
+    def __init__(self) -> None:
+        self.sunk = 0.0
+
+    def __call__(self, x: Any) -> tuple[Any, ...]:
+        return x, x**4 - 2 * x**2 + self.sunk * (x > 0), 1.0, 4 * x**3 - 4 * x
+
+    def certify(self) -> None:
+        solution = lc.solve(FLAT, lc.Curve((-2.5, 2.5), self), kappa=1.0, load=0.1)
+        self.sunk = 1e-6
+        solution.certify()
+
+
+def in_a_groove() -> lc.Contact:
+    groove, punch = lc.Parabola(3.0, (-1.5, 1.5)), lc.RoundedPunch(1.0, 0.1, 1.05)
+    return lc.Contact(groove, punch, kappa=1.0, single_interval=True)
+
+
+def one_sided(inversion: lc.Search) -> None:
+    lc.solve(
+        FLAT,
+        lc.Curve((-1, 1), sinh_parameter),
+        kappa=1.0,
+        load=0.3,
+        inversion=inversion,
+        quadrature=lc.Midpoint(),
+    )
+
+
 CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     # Bodies.
     (lambda: lc.Parabola(0.0, (-1, 1)), "ProfileParameterError", {"value": 0.0}),
@@ -120,6 +184,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         lambda: spline((0, 0), (1, 1e308), (2, -1e308), (3, 1e308), outliers=None),
         "SplineOverflowError",
         {"row": 2},
+    ),
+    (
+        lambda: lc.Spline(np.column_stack([X, 1e308 * X**2]), noise=1e306, outliers=None),
+        "SplineSmoothingError",
+        {},
     ),
     # Scenes.
     (
@@ -271,6 +340,45 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         lambda: solved(search=lc.Search("brent", relative=-1.0)),
         "LimitSearchError",
         {"source.value": -1.0},
+    ),
+    (
+        lambda: lc.solve(FLAT, lc.Curve((-1, 2), dwindling), kappa=1.0, load=0.01),
+        "EndReachedError",
+        {"end": 2.0, "kappa_is_default": False},
+    ),
+    (lambda: in_a_groove().solve(load=1.0), "NoEquilibriumError", {}),
+    (
+        lambda: contact(edges=(lc.Edge.fixed(-0.1), lc.Edge.fixed(0.1))).solve(load=1e308),
+        "OverflowError",
+        {"interval": (-0.1, 0.1)},
+    ),
+    (
+        lambda: lc.solve(FLAT, lc.Curve((-1, 1), saw), kappa=1.0, peak_pressure=0.07),
+        "BudgetSpentError",
+        {"budget": (1 << 20) + 2048},
+    ),
+    (
+        lambda: lc.solve(FLAT, lc.Curve((-3, 3), waves), kappa=1.0, load=0.02).certify(),
+        "UndecidedError",
+        {},
+    ),
+    (
+        lambda: lc.solve(
+            FLAT, lc.Curve((-1, 1), missed_bump), kappa=1.0, load=0.08, certified=True
+        ),
+        "FeatureMissedError",
+        {},
+    ),
+    (lambda: Sinks().certify(), "UnbalancedError", {}),
+    (
+        lambda: one_sided(lc.Search("brent", max_evaluations=2)),
+        "InversionError",
+        {"body": "upper"},
+    ),
+    (
+        lambda: contact(quadrature=lc.Midpoint(2)).solve(peak_pressure=0.1),
+        "UnresolvedError",
+        {},
     ),
     # Questions.
     (lambda: solved().approach(TO), "NoMaterialsError", {}),

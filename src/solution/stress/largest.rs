@@ -8,7 +8,7 @@ use crate::{ContactError, Interval, Real};
 const COLUMNS: usize = 33;
 const ROWS: usize = 32;
 
-/// The depths looked at, in half-widths; the least stands for the surface.
+/// The depths of the first look, in half-widths, besides the surface. The way up may end nearer to it.
 const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
 
@@ -18,7 +18,7 @@ impl<T: Real> Subsurface<'_, T> {
     /// the largest. Its value has nearly all digits, its place half of them.
     ///
     /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
-    /// the depth goes to zero: then the depth is about a millionth of the half-width.
+    /// the depth goes to zero: then the depth is next to nothing.
     ///
     /// It takes some thousand stresses, each of them time for each piece of the bodies in the contact,
     /// but pressures only next to its place: three seconds for a thousand pieces.
@@ -101,10 +101,11 @@ impl<T: Real> Subsurface<'_, T> {
         value: &impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
     ) -> Result<StressPeak<T>, ContactError<T>> {
         let (centre, half_width) = (on.centre(), on.half_width());
-        // By places in half-widths, the depth by its logarithm.
+        // By places in half-widths, the depth by its logarithm: where places are not told apart any more is the surface.
         let [shallowest, deepest] = [SHALLOWEST, DEEPEST].map(|depth| T::of(depth.ln()));
+        let surface = T::epsilon().ln();
         let peak = |[along, down]: [T; 2]| {
-            let depth = if down > shallowest { half_width * down.exp() } else { T::zero() };
+            let depth = if down > surface { half_width * down.exp() } else { T::zero() };
             let x = centre + half_width * along;
             match self.at(x, depth) {
                 Ok(stress) => Ok(StressPeak { x, depth, value: value(stress)? }),
@@ -113,46 +114,63 @@ impl<T: Real> Subsurface<'_, T> {
                 Err(error) => Err(error),
             }
         };
-        let step = [3.0 / (COLUMNS - 1) as f64, (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64];
-        let [mut across, mut deeper] = step.map(T::of);
+        let grid = [3.0 / (COLUMNS - 1) as f64, (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64];
+        let grid = grid.map(T::of);
         let mut place = [T::zero(); 2];
         let mut best = StressPeak { x: centre, depth: half_width, value: -T::one() };
         for column in 0..COLUMNS {
             for row in 0..ROWS {
-                let along = T::of(-1.5) + across * T::count(column);
-                let here = [along, shallowest + deeper * T::count(row)];
+                let along = T::of(-1.5) + grid[0] * T::count(column);
+                let down = if row == 0 { surface } else { shallowest + grid[1] * T::count(row) };
+                let here = [along, down];
                 let found = peak(here)?;
                 if found.value > best.value {
                     (place, best) = (here, found);
                 }
             }
         }
-        let least = T::of(0.1) * T::epsilon().sqrt();
-        // Below a tip the way up may be a ridge that narrows with the depth: too narrow to be followed to its end.
+        // The way up to a corner or a tip is a ridge that narrows with the depth, and bends. Below a tip it is too narrow
+        // in the end, but there it is known where it ends.
         for x in self.tips()?.into_iter().filter(|&x| on.contains(x)) {
-            let here = [(x - centre) / half_width, shallowest + least];
+            let here = [(x - centre) / half_width, T::of(0.5) * surface];
             let found = peak(here)?;
             if found.value > best.value {
                 (place, best) = (here, found);
             }
         }
-        // Uphill by ever smaller steps, until rounding hides the top.
-        while across.max(deeper) > least {
-            let mut moved = false;
-            for [dx, dy] in [[across, T::zero()], [T::zero(), deeper]] {
-                for sign in [T::one(), -T::one()] {
-                    let down = (place[1] + sign * dy).max(shallowest).min(deepest);
-                    let here = [place[0] + sign * dx, down];
+        let (least, rounding) = (T::of(0.1) * T::epsilon().sqrt(), T::of(4.0) * T::epsilon());
+        // Uphill by Rosenbrock's method, until rounding hides the top. Steps are tried along two axes: one that gains is
+        // made longer, one that does not shorter and turned round. Once both have gained and then not, the first axis
+        // is laid along the way that was made.
+        let mut axes = [[T::one(), T::zero()], [T::zero(), T::one()]];
+        let mut steps = grid;
+        loop {
+            let start = place;
+            let (mut has_gained, mut has_failed) = ([false; 2], [false; 2]);
+            while has_failed != [true; 2] {
+                for i in 0..2 {
+                    let mut here = [0, 1].map(|j| place[j] + steps[i] * axes[i][j]);
+                    here[1] = here[1].max(surface).min(deepest);
                     let found = peak(here)?;
-                    if found.value > best.value {
-                        (place, best, moved) = (here, found, true);
+                    if found.value - best.value > rounding * best.value {
+                        (place, best) = (here, found);
+                        steps[i] *= T::of(3.0);
+                        has_gained[i] = true;
+                    } else {
+                        steps[i] *= T::of(-0.5);
+                        has_failed[i] |= has_gained[i];
                     }
                 }
+                if steps[0].abs().max(steps[1].abs()) < least {
+                    return Ok(best);
+                }
             }
-            if !moved {
-                (across, deeper) = (T::of(0.5) * across, T::of(0.5) * deeper);
+            let way = [0, 1].map(|j| place[j] - start[j]);
+            let length = way[0].hypot(way[1]);
+            if length > T::zero() {
+                let [x, y] = way.map(|part| part / length);
+                axes = [[x, y], [-y, x]];
             }
         }
-        Ok(best)
     }
 }
