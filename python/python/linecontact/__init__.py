@@ -42,6 +42,7 @@ from .contact import (
     Search,
     contact_modulus,
 )
+from .differentiating import gradient, parameters
 from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .solution import (
     Approach,
@@ -109,6 +110,8 @@ __all__ = [
     "Wedge",
     "contact_modulus",
     "errors",
+    "gradient",
+    "parameters",
     "solve",
     "sweep",
 ]
