@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, cast, overload
 
 import numpy as np
@@ -22,28 +22,26 @@ Parameter: TypeAlias = str | Mapping[str, float]
 __all__ = ["gradient", "parameters"]
 
 
+# A name is a sequence of its letters: the first that fits counts.
 @overload
-def gradient(
+def gradient(  # type: ignore[overload-overlap]
     contact: Contact, of: str, by: Parameter, **prescribed: Unpack[Prescribed]
 ) -> tuple[float, float]: ...
 @overload
-def gradient(
-    contact: Contact,
-    of: str,
-    by: list[str] | list[Parameter] | tuple[Parameter, ...],
-    **prescribed: Unpack[Prescribed],
+def gradient(  # type: ignore[overload-overlap]
+    contact: Contact, of: str, by: Sequence[Parameter], **prescribed: Unpack[Prescribed]
 ) -> tuple[float, FloatArray]: ...
 @overload
 def gradient(
     contact: Contact,
-    of: list[str] | tuple[str, ...],
-    by: Parameter | list[str] | list[Parameter] | tuple[Parameter, ...],
+    of: Sequence[str],
+    by: Parameter | Sequence[Parameter],
     **prescribed: Unpack[Prescribed],
 ) -> tuple[FloatArray, FloatArray]: ...
 def gradient(
     contact: Contact,
-    of: str | list[str] | tuple[str, ...],
-    by: Parameter | list[str] | list[Parameter] | tuple[Parameter, ...],
+    of: str | Sequence[str],
+    by: Parameter | Sequence[Parameter],
     **prescribed: Unpack[Prescribed],
 ) -> tuple[float | FloatArray, float | FloatArray]:
     """Numbers of a solution, and their derivatives by numbers of the scene.
@@ -55,10 +53,10 @@ def gradient(
     ----------
     contact : Contact
         Of any bodies but a `Curve`, whose second derivatives are not known.
-    of : str or list of str
+    of : str or sequence of str
         What is differentiated: "load", "a", "b", "half_width", "centre", "tilt", "mean_pressure", "peak_pressure",
         "moment", "centre_of_pressure", "max_shear", and with references "approach" and "stiffness".
-    by : str or mapping or list of them
+    by : str or mapping or sequence of them
         By what: numbers of the bodies as their constructors call them ("upper.depth", "lower.angles.0",
         "upper.parts.1.radius"), of the steps that have placed them ("upper.rotated.angle", "lower.shifted.along"; of
         two steps of the same name "upper.rotated.0.angle" and "upper.rotated.1.angle"), of the contact
@@ -101,7 +99,7 @@ def gradient(
     ...     roller, ["half_width", "peak_pressure"], ["upper.radius", "load"], load=500.0
     ... )
     >>> values.round(4)
-    array([2.3528300e-01, 1.3528819e+03])
+    array([2.3530000e-01, 1.3528791e+03])
     >>> (derivatives * [10.0, 500.0] / values[:, None]).round(12)  # powers of R and F
     array([[ 0.5,  0.5],
            [-0.5,  0.5]])
@@ -114,11 +112,12 @@ def gradient(
     ...     return lc.gradient(contact, "peak_pressure", ["upper.depth"], load=500.0)
     >>> value, derivative = peak([0.1])
     >>> round(value, 1), derivative.round(1)
-    (0, 0)
+    (384.0, array([1906.7]))
     """
     quantities = [of] if isinstance(of, str) else list(of)
     alone = isinstance(by, str | Mapping)
-    rates = [[(one, 1.0)] if isinstance(one, str) else list(one.items()) for one in ([by] if alone else by)]
+    each = [by] if isinstance(by, str | Mapping) else by
+    rates = [[(one, 1.0)] if isinstance(one, str) else list(one.items()) for one in each]
     values, columns = _native.gradient(contact._scene, *_given(prescribed, quantities), quantities, rates)
     derivatives = np.array(columns, dtype=np.float64).reshape(len(rates), len(quantities)).T
     if alone:
