@@ -33,6 +33,7 @@ pub fn gradient(
     let mut solver = Solver::new();
     let mut derivatives = Vec::with_capacity(by.len());
     for rates in &by {
+        py.check_signals()?;
         let mut lift = Varied::by(rates);
         let contact = scene.lifted(py, &mut lift)?;
         let (control, between) = given(&prescribed, to.as_ref(), &mut lift)?;

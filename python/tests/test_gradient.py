@@ -172,6 +172,11 @@ def fixed(x: float) -> lc.Contact:
     return lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, 0.5)), kappa=1.3, edges=edges)
 
 
+def cut_off(x: float) -> lc.Contact:
+    edges = (lc.Edge.free(), lc.Edge.free_until(x))
+    return lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, x)), kappa=1.3, edges=edges)
+
+
 def sticky(left: float, right: float) -> lc.Contact:
     edges = (lc.Edge.adhesive(left), lc.Edge.adhesive(right))
     return lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, 2.0)), kappa=1.3, edges=edges)
@@ -247,6 +252,12 @@ SCENES: dict[str, Scene] = {
         {"upper.rotated.angle": -0.1, "upper.scaled.factor": 1.2},
     ),
     "fixed edge": Scene(fixed, {"edges.1.value": 0.3}, of=("a", "b", "mean_pressure", "moment")),
+    "body with a corner": Scene(
+        cut_off,
+        {"x": 0.3},
+        {"x": {"upper.domain.1": 1.0, "edges.1.value": 1.0}},
+        of=("a", "b", "mean_pressure", "moment"),
+    ),
     "adhesive edges": Scene(
         sticky,
         {"edges.0.value": 0.02, "edges.1.value": 0.03},
@@ -361,6 +372,36 @@ def test_scaled_scenes_have_scaled_solutions(name: str) -> None:
             size[of.index(quantity)] += least
     assert np.all(np.abs(of_lengths - values * [OF_LENGTHS.get(one, 0) for one in of]) <= 1e-12 * size)
     assert np.all(np.abs(of_stiffness - values * [OF_STIFFNESS.get(one, 0) for one in of]) <= 1e-12 * size)
+
+
+CONTROLS: list[dict[str, Any]] = [
+    {"load": 50.0},
+    {"half_width": 0.2},
+    {"peak_pressure": 300.0},
+    {"approach": 0.001, "references": BETWEEN},
+    {"load": 50.0, "moment": 1.0, "about": 0.05},
+    {"load": 50.0, "centre": 0.1},
+]
+
+
+@pytest.mark.parametrize("prescribed", CONTROLS, ids=lambda prescribed: ", ".join(prescribed))
+def test_whatever_is_prescribed_scales(prescribed: dict[str, Any]) -> None:
+    lower = lc.Crowning(-1.0, 5.0, (-4.0, 4.0)).rotated(0.01)
+    contact = lc.Contact(lower, lc.Ellipse(7.0, 9.0, (-1.0, 1.1)), materials=(STEEL, ALUMINIUM))
+    of = ["load", "half_width", "tilt", "peak_pressure", "moment", "approach", "stiffness"]
+    asked = {"references": BETWEEN, **prescribed}
+    known = lc.parameters(contact, **asked)
+    values, derivatives = lc.gradient(contact, of, list(known), **asked)
+    by_length = {"youngs_modulus": 0, "poisson_ratio": 0, "peak_pressure": 0, "moment": 2}
+    by_pressure = {"load": 1, "moment": 1, "youngs_modulus": 1, "peak_pressure": 1}
+    names = [name.split(".")[-1] for name in known]
+    lengths = [by_length.get(last, degree(name)) for name, last in zip(known, names, strict=True)]
+    pressures = [by_pressure.get(last, 0) for last in names]
+    size = np.abs(values) + [0, 0, 1e-3, 0, values[0] * values[1], 0, 0]
+    share = np.sum(derivatives * list(known.values()) * lengths, axis=1) - values * [1, 1, 0, 0, 2, 1, 0]
+    assert np.all(np.abs(share) <= 1e-11 * size), share / size
+    share = np.sum(derivatives * list(known.values()) * pressures, axis=1) - values * [1, 0, 0, 1, 1, 0, 1]
+    assert np.all(np.abs(share) <= 1e-11 * size), share / size
 
 
 def degree(name: str) -> int:
