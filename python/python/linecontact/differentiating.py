@@ -84,7 +84,8 @@ def gradient(
     Notes
     -----
     Where contacts are born or merge, and where an edge reaches its corner, there is no derivative: what comes out is
-    that of one side, or not finite. Where the largest pressure moves from one maximum to another its derivative jumps.
+    that of one side, or not finite. Where the largest pressure moves from one maximum to another its derivative jumps;
+    where two maxima are equal, as in a symmetric scene, it is that of one, and by another parameter maybe of the other.
 
     The derivative of a body by the place where two of its parts meet is that of the parts: move both by a mapping, or
     a gap opens between them.
