@@ -74,7 +74,7 @@ pub fn look() -> ControlFlow<()> {
 }
 
 /// For [`Contact::watch`](linecontact::Contact::watch).
-pub fn watch(_: Cost, _: Interval<f64>) -> ControlFlow<()> {
+pub fn watch<T>(_: Cost, _: Interval<T>) -> ControlFlow<()> {
     look()
 }
 

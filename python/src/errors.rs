@@ -1,8 +1,9 @@
 //! Each error of the library as an exception of its own, with its numbers: the classes are in `errors.py`.
 
+use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::SplineError;
 use linecontact::search::{Root, SearchError};
-use linecontact::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError};
+use linecontact::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError, Real};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use std::fmt::Display;
@@ -16,7 +17,7 @@ pub trait Describe: Display {
 }
 
 /// Something that an error names.
-trait Named {
+pub trait Named {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>>;
 }
 
@@ -31,26 +32,32 @@ macro_rules! plain {
 }
 plain!(f64, usize, u32, bool, &'static str);
 
+impl Named for Dual64 {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.re.named(py)
+    }
+}
+
 macro_rules! nested {
-    ($($type:ty),*) => {$(
-        impl Named for $type {
+    ($($type:ident),*) => {$(
+        impl<T: Real + Named> Named for $type<T> {
             fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
                 to_python(py, self).into_py_any(py)
             }
         }
     )*};
 }
-nested!(ProfileError<f64>, SearchError<f64>);
+nested!(ProfileError, SearchError);
 
-impl Named for [f64; 2] {
+impl<T: Named> Named for [T; 2] {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        (self[0], self[1]).into_py_any(py)
+        (self[0].named(py)?, self[1].named(py)?).into_py_any(py)
     }
 }
 
-impl Named for Interval<f64> {
+impl<T: Real + Named> Named for Interval<T> {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        (self.left, self.right).into_py_any(py)
+        [self.left, self.right].named(py)
     }
 }
 
@@ -60,21 +67,21 @@ impl Named for Body {
     }
 }
 
-impl Named for Edge<f64> {
+impl<T: Named> Named for Edge<T> {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        match *self {
-            Self::Free => ("free", None::<f64>),
-            Self::Fixed(x) => ("fixed", Some(x)),
-            Self::FreeUntil(x) => ("free_until", Some(x)),
-            Self::Adhesive(work) => ("adhesive", Some(work)),
+        match self {
+            Self::Free => ("free", None),
+            Self::Fixed(x) => ("fixed", Some(x.named(py)?)),
+            Self::FreeUntil(x) => ("free_until", Some(x.named(py)?)),
+            Self::Adhesive(work) => ("adhesive", Some(work.named(py)?)),
         }
         .into_py_any(py)
     }
 }
 
-impl Named for Root<f64> {
+impl<T: Named> Named for Root<T> {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        (self.x, self.residual, self.evaluations).into_py_any(py)
+        (self.x.named(py)?, self.residual.named(py)?, self.evaluations).into_py_any(py)
     }
 }
 
@@ -82,7 +89,7 @@ impl Named for Root<f64> {
 macro_rules! table {
     ($type:ident, $prefix:literal, $names:ident, transparent: [$($inner:ident),*];
      $($variant:ident { $($field:ident),* };)*) => {
-        impl Describe for $type<f64> {
+        impl<T: Real + Named> Describe for $type<T> {
             fn row(&self, py: Python<'_>) -> PyResult<Row> {
                 Ok(match self {
                     $(Self::$inner(error) => return error.row(py),)*

@@ -4,6 +4,8 @@
 mod call;
 mod curve;
 mod errors;
+mod gradient;
+mod lift;
 mod profile;
 mod quantity;
 mod scene;
@@ -16,6 +18,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::errors::variants;
+    #[pymodule_export]
+    use super::gradient::{gradient, parameters};
     #[pymodule_export]
     use super::profile::Profile;
     #[pymodule_export]

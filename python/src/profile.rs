@@ -2,52 +2,186 @@
 
 use crate::call::{self, Array, Numbers};
 use crate::curve::Curve;
-use crate::errors;
+use crate::errors::{self, Named};
+use crate::lift::{AsTheyAre, Lift};
 use linecontact::profile::{
     Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
     wedge,
 };
-use linecontact::{ContactError, PiecewiseError};
-use linecontact::{Convexity, CurvePoint, Flat, ParametricProfile, Piecewise, check_derivatives};
+use linecontact::{
+    ContactError, Convexity, CurvePoint, Flat, ParametricProfile, Piecewise, Real,
+    check_derivatives,
+};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 
-pub type Shared = Arc<dyn ParametricProfile<f64>>;
+pub type Shared<T> = Arc<dyn ParametricProfile<T>>;
+
+/// A name that Python knows, and its numbers.
+type Step = (String, Vec<f64>);
+
+/// What a body is made of: everything that it is built from, in numbers of any kind.
+pub enum Recipe {
+    Flat,
+    Line { slope: f64, domain: [f64; 2] },
+    Parabola { radius: f64, domain: [f64; 2] },
+    Ellipse { along: f64, across: f64, angles: [f64; 2] },
+    Involute { base_radius: f64, origin: f64, angles: [f64; 2] },
+    Crowning { depth: f64, half_length: f64, domain: [f64; 2] },
+    Wedge { slopes: [f64; 2], reach: f64 },
+    RoundedPunch { flat: f64, radius: f64, reach: f64 },
+    Spline { points: Vec<[f64; 2]>, noise: f64, outliers: Option<f64> },
+    Curve(Arc<Curve>),
+    Piecewise { parts: Vec<Py<Profile>>, tolerance: Option<f64> },
+    Placed { body: Py<Profile>, steps: Vec<Step> },
+}
 
 /// A body that can be put elsewhere: how depends on what it is joined from.
-enum Shape {
-    Smooth(Shared),
-    Joined(Piecewise<f64, Shared>),
-    Wedge([f64; 2], f64),
-    RoundedPunch(f64, f64, f64),
-    Spline(Spline<f64>),
+#[derive(Clone)]
+pub enum Built<T: Real> {
+    Smooth(Shared<T>),
+    Joined(Piecewise<T, Shared<T>>),
+    Wedge(Piecewise<T, Line<T>>),
+    RoundedPunch(Piecewise<T, Placed<T, Parabola<T>>>),
+    Spline(Spline<T>),
 }
 
 /// A body, ready to be pressed against another.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Profile {
-    shape: Shape,
-    pub shared: Shared,
+    pub recipe: Recipe,
+    pub built: Built<f64>,
+    shared: Shared<f64>,
 }
 
-/// A row of Python's own: the name of a step and its numbers.
-type Step = (String, Vec<f64>);
+fn smooth<T: Real + Named, E: Into<ContactError<T>>>(
+    py: Python<'_>,
+    made: Result<impl ParametricProfile<T> + 'static, E>,
+) -> PyResult<Built<T>> {
+    let made = made.map_err(|error| errors::to_python(py, &error.into()))?;
+    Ok(Built::Smooth(Arc::new(made)))
+}
 
-fn placement(steps: Vec<Step>) -> PyResult<Placement<f64>> {
+impl Recipe {
+    /// The body, of numbers that `lift` makes of those here.
+    pub fn build<L: Lift>(&self, py: Python<'_>, lift: &mut L) -> PyResult<Built<L::Of>> {
+        match *self {
+            Self::Flat => Ok(Built::Smooth(Arc::new(Flat))),
+            Self::Line { slope, domain } => {
+                let slope = lift.number("slope", slope);
+                smooth(py, Line::new(slope, lift.pair("domain", domain)))
+            }
+            Self::Parabola { radius, domain } => {
+                let radius = lift.number("radius", radius);
+                smooth(py, Parabola::new(radius, lift.pair("domain", domain)))
+            }
+            Self::Ellipse { along, across, angles } => {
+                let (along, across) = (lift.number("along", along), lift.number("across", across));
+                smooth(py, Ellipse::new(along, across, lift.pair("angles", angles)))
+            }
+            Self::Involute { base_radius, origin, angles } => {
+                let base_radius = lift.number("base_radius", base_radius);
+                let origin = lift.number("origin", origin);
+                smooth(py, Involute::new(base_radius, origin, lift.pair("angles", angles)))
+            }
+            Self::Crowning { depth, half_length, domain } => {
+                let depth = lift.number("depth", depth);
+                let half_length = lift.number("half_length", half_length);
+                smooth(py, Crowning::new(depth, half_length, lift.pair("domain", domain)))
+            }
+            Self::Wedge { slopes, reach } => {
+                let (slopes, reach) = (lift.pair("slopes", slopes), lift.number("reach", reach));
+                call::library(py, || wedge(slopes, reach)).map(Built::Wedge)
+            }
+            Self::RoundedPunch { flat, radius, reach } => {
+                let (flat, radius) = (lift.number("flat", flat), lift.number("radius", radius));
+                let reach = lift.number("reach", reach);
+                call::library(py, || rounded_punch(flat, radius, reach)).map(Built::RoundedPunch)
+            }
+            // What has been measured is no parameter.
+            Self::Spline { ref points, noise, outliers } => {
+                let of = <L::Of as Real>::of;
+                let points: Vec<_> = points.iter().map(|point| point.map(of)).collect();
+                let fit = Fit { noise: of(noise), outliers: outliers.map(of) };
+                call::library(py, || Spline::fitted(&points, fit)).map(Built::Spline)
+            }
+            Self::Curve(ref curve) => lift.curve(curve),
+            Self::Piecewise { ref parts, tolerance } => {
+                let mut built = Vec::with_capacity(parts.len());
+                lift.inside("parts", |lift| {
+                    for (i, part) in parts.iter().enumerate() {
+                        let part = lift.inside(i, |lift| lift.body(py, part.get()))?;
+                        built.push(part.shared());
+                    }
+                    Ok::<_, PyErr>(())
+                })?;
+                let joined = call::library(py, || match tolerance {
+                    None => Piecewise::new(built),
+                    Some(tolerance) => {
+                        Piecewise::with_tolerance(built, <L::Of as Real>::of(tolerance))
+                    }
+                });
+                joined.map(Built::Joined)
+            }
+            Self::Placed { ref body, ref steps } => {
+                let body = lift.body(py, body.get())?;
+                let placement = placement(steps, lift)?;
+                // What is put elsewhere is put there in one go: Python keeps the steps.
+                call::library(py, || body.placed(placement)).map(Built::Smooth)
+            }
+        }
+    }
+}
+
+fn placement<L: Lift>(steps: &[Step], lift: &mut L) -> PyResult<Placement<L::Of>> {
     let mut placement = Placement::default();
-    for (name, numbers) in steps {
-        placement = match (name.as_str(), numbers.as_slice()) {
-            ("shifted", &[along, across]) => placement.shifted(along, across),
-            ("mirrored", []) => placement.mirrored(),
-            ("flipped", []) => placement.flipped(),
-            ("rotated", &[angle]) => placement.rotated(angle),
-            ("scaled", &[factor]) => placement.scaled(factor),
-            _ => return Err(PyValueError::new_err(format!("no step {name}{numbers:?}"))),
+    for (i, (name, numbers)) in steps.iter().enumerate() {
+        let alike = |steps: &[Step]| steps.iter().filter(|(other, _)| other == name).count();
+        // A number tells steps of the same name apart.
+        let label = match alike(steps) {
+            1 => Cow::from(name),
+            _ => Cow::from(format!("{name}.{}", alike(&steps[..i]))),
         };
+        placement = lift.inside(label, |lift| {
+            Ok(match (name.as_str(), numbers.as_slice()) {
+                ("shifted", &[along, across]) => {
+                    let along = lift.number("along", along);
+                    placement.shifted(along, lift.number("across", across))
+                }
+                ("mirrored", []) => placement.mirrored(),
+                ("flipped", []) => placement.flipped(),
+                ("rotated", &[angle]) => placement.rotated(lift.number("angle", angle)),
+                ("scaled", &[factor]) => placement.scaled(lift.number("factor", factor)),
+                _ => return Err(PyValueError::new_err(format!("no step {name}{numbers:?}"))),
+            })
+        })?;
     }
     Ok(placement)
+}
+
+impl<T: Real> Built<T> {
+    pub fn shared(&self) -> Shared<T> {
+        match self {
+            Self::Smooth(shared) => shared.clone(),
+            Self::Joined(whole) => Arc::new(whole.clone()),
+            Self::Wedge(whole) => Arc::new(whole.clone()),
+            Self::RoundedPunch(whole) => Arc::new(whole.clone()),
+            Self::Spline(spline) => Arc::new(spline.clone()),
+        }
+    }
+
+    fn placed(self, placement: Placement<T>) -> Result<Shared<T>, ContactError<T>> {
+        Ok(match self {
+            Self::Smooth(shared) => Arc::new(Placed::new(shared, placement)?),
+            Self::Joined(whole) => Arc::new(whole.placed(placement)?),
+            Self::Wedge(whole) => Arc::new(whole.placed(placement)?),
+            Self::RoundedPunch(whole) => Arc::new(whole.placed(placement)?),
+            Self::Spline(spline) => Arc::new(spline.placed(placement)?),
+        })
+    }
 }
 
 fn convexity(name: &str) -> PyResult<Convexity> {
@@ -64,13 +198,10 @@ fn convexity(name: &str) -> PyResult<Convexity> {
 }
 
 impl Profile {
-    fn smooth<E: Into<ContactError<f64>>>(
-        py: Python<'_>,
-        made: Result<impl ParametricProfile<f64> + 'static, E>,
-    ) -> PyResult<Self> {
-        let made = made.map_err(|error| errors::to_python(py, &error.into()))?;
-        let shared: Shared = Arc::new(made);
-        Ok(Self { shape: Shape::Smooth(shared.clone()), shared })
+    fn of(py: Python<'_>, recipe: Recipe) -> PyResult<Self> {
+        let built = recipe.build(py, &mut AsTheyAre)?;
+        let shared = built.shared();
+        Ok(Self { recipe, built, shared })
     }
 }
 
@@ -78,44 +209,42 @@ impl Profile {
 impl Profile {
     #[staticmethod]
     fn flat(py: Python<'_>) -> PyResult<Self> {
-        Self::smooth(py, Ok::<_, ContactError<f64>>(Flat))
+        Self::of(py, Recipe::Flat)
     }
 
     #[staticmethod]
     fn line(py: Python<'_>, slope: f64, domain: [f64; 2]) -> PyResult<Self> {
-        Self::smooth(py, Line::new(slope, domain))
+        Self::of(py, Recipe::Line { slope, domain })
     }
 
     #[staticmethod]
     fn parabola(py: Python<'_>, radius: f64, domain: [f64; 2]) -> PyResult<Self> {
-        Self::smooth(py, Parabola::new(radius, domain))
+        Self::of(py, Recipe::Parabola { radius, domain })
     }
 
     #[staticmethod]
     fn ellipse(py: Python<'_>, along: f64, across: f64, angles: [f64; 2]) -> PyResult<Self> {
-        Self::smooth(py, Ellipse::new(along, across, angles))
+        Self::of(py, Recipe::Ellipse { along, across, angles })
     }
 
     #[staticmethod]
     fn involute(py: Python<'_>, base_radius: f64, origin: f64, angles: [f64; 2]) -> PyResult<Self> {
-        Self::smooth(py, Involute::new(base_radius, origin, angles))
+        Self::of(py, Recipe::Involute { base_radius, origin, angles })
     }
 
     #[staticmethod]
     fn crowning(py: Python<'_>, depth: f64, half_length: f64, domain: [f64; 2]) -> PyResult<Self> {
-        Self::smooth(py, Crowning::new(depth, half_length, domain))
+        Self::of(py, Recipe::Crowning { depth, half_length, domain })
     }
 
     #[staticmethod]
     fn wedge(py: Python<'_>, slopes: [f64; 2], reach: f64) -> PyResult<Self> {
-        let shared = call::library(py, || wedge(slopes, reach))?;
-        Ok(Self { shape: Shape::Wedge(slopes, reach), shared: Arc::new(shared) })
+        Self::of(py, Recipe::Wedge { slopes, reach })
     }
 
     #[staticmethod]
     fn rounded_punch(py: Python<'_>, flat: f64, radius: f64, reach: f64) -> PyResult<Self> {
-        let shared = call::library(py, || rounded_punch(flat, radius, reach))?;
-        Ok(Self { shape: Shape::RoundedPunch(flat, radius, reach), shared: Arc::new(shared) })
+        Self::of(py, Recipe::RoundedPunch { flat, radius, reach })
     }
 
     /// Rows of x and y.
@@ -127,10 +256,9 @@ impl Profile {
         noise: f64,
         outliers: Option<f64>,
     ) -> PyResult<Self> {
-        let points: Vec<[f64; 2]> =
-            points.as_array().rows().into_iter().map(|row| [row[0], row[1]]).collect();
-        let spline = call::library(py, || Spline::fitted(&points, Fit { noise, outliers }))?;
-        Ok(Self { shape: Shape::Spline(spline.clone()), shared: Arc::new(spline) })
+        let rows = points.as_array();
+        let points = rows.rows().into_iter().map(|row| [row[0], row[1]]).collect();
+        Self::of(py, Recipe::Spline { points, noise, outliers })
     }
 
     #[staticmethod]
@@ -142,53 +270,18 @@ impl Profile {
         bulges: &str,
     ) -> PyResult<Self> {
         let curve = Curve::new(py, domain, function, convexity(bulges)?)?;
-        Self::smooth(py, Ok::<_, ContactError<f64>>(curve))
+        Self::of(py, Recipe::Curve(Arc::new(curve)))
     }
 
     #[staticmethod]
     #[pyo3(signature = (parts, tolerance))]
-    fn piecewise(
-        py: Python<'_>,
-        parts: Vec<Bound<'_, Self>>,
-        tolerance: Option<f64>,
-    ) -> PyResult<Self> {
-        let parts: Vec<Shared> = parts.iter().map(|part| part.get().shared.clone()).collect();
-        let joined = call::library(py, || match tolerance {
-            None => Piecewise::new(parts),
-            Some(tolerance) => Piecewise::with_tolerance(parts, tolerance),
-        })?;
-        Ok(Self { shape: Shape::Joined(joined.clone()), shared: Arc::new(joined) })
+    fn piecewise(py: Python<'_>, parts: Vec<Py<Self>>, tolerance: Option<f64>) -> PyResult<Self> {
+        Self::of(py, Recipe::Piecewise { parts, tolerance })
     }
 
-    fn placed(&self, py: Python<'_>, steps: Vec<Step>) -> PyResult<Self> {
-        let placement = placement(steps)?;
-        fn joined<P: ParametricProfile<f64> + 'static>(
-            put: Piecewise<f64, P>,
-        ) -> Result<Shared, PiecewiseError<f64>> {
-            Ok(Arc::new(put))
-        }
-        let shared: Shared = match &self.shape {
-            Shape::Smooth(shared) => {
-                let shared = shared.clone();
-                Arc::new(call::library(py, || Placed::new(shared, placement))?)
-            }
-            Shape::Joined(whole) => {
-                let whole = whole.clone();
-                call::library(py, || whole.placed(placement).and_then(joined))?
-            }
-            &Shape::Wedge(slopes, reach) => {
-                call::library(py, || wedge(slopes, reach)?.placed(placement).and_then(joined))?
-            }
-            &Shape::RoundedPunch(flat, radius, reach) => call::library(py, || {
-                rounded_punch(flat, radius, reach)?.placed(placement).and_then(joined)
-            })?,
-            Shape::Spline(spline) => {
-                let spline = spline.clone();
-                call::library(py, || spline.placed(placement).and_then(joined))?
-            }
-        };
-        // What is put elsewhere is put there in one go: Python keeps the steps.
-        Ok(Self { shape: Shape::Smooth(shared.clone()), shared })
+    #[pyo3(name = "placed")]
+    fn put(body: Py<Self>, py: Python<'_>, steps: Vec<Step>) -> PyResult<Self> {
+        Self::of(py, Recipe::Placed { body, steps })
     }
 
     #[getter]

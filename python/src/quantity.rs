@@ -63,6 +63,21 @@ impl Quantity {
             PyValueError::new_err(format!("no quantity {name:?}: there are {}", all.join(", ")))
         })
     }
+
+    /// One that changes smoothly with the scene, and whose derivative the library knows.
+    pub fn differentiable(name: &str) -> PyResult<Self> {
+        let found = Self::named(name)?;
+        let why = match found {
+            // They are found by searches for a largest value, which know no derivatives.
+            Self::PeakX | Self::MaxShearX | Self::MaxShearDepth => {
+                "is the place of a largest value"
+            }
+            Self::Contacts | Self::IsChecked | Self::Evaluations => "does not change smoothly",
+            Self::LimitsError => "is an estimate",
+            _ => return Ok(found),
+        };
+        Err(PyValueError::new_err(format!("{name} {why}: it has no derivative here")))
+    }
 }
 
 /// What is asked of one solution: what two numbers have in common is computed once.

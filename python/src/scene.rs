@@ -1,13 +1,14 @@
 //! Scenes, and what solves them.
 
 use crate::call::{self, Array, Numbers};
+use crate::lift::{AsTheyAre, Lift};
 use crate::profile::Profile;
 use crate::solution::{PartialSlip, Solution};
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, StoppingCriteria};
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, Exponents, Interval, Material, Midpoint,
-    Panels, PlaneState, Reference, References, Shear,
+    Panels, PlaneState, Real, Reference, References, Shear,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -38,7 +39,7 @@ fn kept<S: Debug + Send + Sync + 'static>(setting: S) -> &'static S {
     setting
 }
 
-fn search(choice: &Choice) -> PyResult<&'static dyn LimitSearch<f64>> {
+fn search<T: Real>(choice: &Choice) -> PyResult<&'static dyn LimitSearch<T>> {
     let &[absolute, relative, residual, evaluations] = choice.1.as_slice() else {
         return none_such("search", choice);
     };
@@ -54,7 +55,7 @@ fn search(choice: &Choice) -> PyResult<&'static dyn LimitSearch<f64>> {
     })
 }
 
-fn quadrature(choice: &Choice) -> PyResult<&'static dyn Quadrature<f64>> {
+fn quadrature<T: Real>(choice: &Choice) -> PyResult<&'static dyn Quadrature<T>> {
     Ok(match (choice.0.as_str(), choice.1.as_slice()) {
         ("panels", &[tolerance]) => kept(Panels { tolerance }),
         ("midpoint", &[segments, extrapolations, even]) => {
@@ -66,12 +67,13 @@ fn quadrature(choice: &Choice) -> PyResult<&'static dyn Quadrature<f64>> {
     })
 }
 
-fn edge((name, value): &(String, f64)) -> PyResult<Edge<f64>> {
+fn edge<L: Lift>((name, value): &(String, f64), lift: &mut L) -> PyResult<Edge<L::Of>> {
+    let mut given = || lift.number("value", *value);
     Ok(match name.as_str() {
         "free" => Edge::Free,
-        "fixed" => Edge::Fixed(*value),
-        "free_until" => Edge::FreeUntil(*value),
-        "adhesive" => Edge::Adhesive(*value),
+        "fixed" => Edge::Fixed(given()),
+        "free_until" => Edge::FreeUntil(given()),
+        "adhesive" => Edge::Adhesive(given()),
         _ => return none_such("edge", &(name.clone(), vec![*value])),
     })
 }
@@ -79,8 +81,11 @@ fn edge((name, value): &(String, f64)) -> PyResult<Edge<f64>> {
 /// E and ν; of a rigid body nothing.
 type Elastic = Option<(f64, f64)>;
 
-fn material(of: Elastic) -> Material<f64> {
-    of.map_or(Material::Rigid, |(modulus, ratio)| Material::elastic(modulus, ratio))
+fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
+    of.map_or(Material::Rigid, |(modulus, ratio)| {
+        let modulus = lift.number("youngs_modulus", modulus);
+        Material::elastic(modulus, lift.number("poisson_ratio", ratio))
+    })
 }
 
 fn plane(name: &str) -> PyResult<PlaneState> {
@@ -94,32 +99,65 @@ fn plane(name: &str) -> PyResult<PlaneState> {
 /// x, and kind and length of both.
 pub type ReferenceRow = (f64, (String, f64), (String, f64));
 
-pub fn references((x, lower, upper): ReferenceRow) -> PyResult<References<f64>> {
-    let reference = |(name, length): (String, f64)| {
+pub fn references(row: ReferenceRow) -> PyResult<References<f64>> {
+    references_of(&row, &mut AsTheyAre)
+}
+
+pub fn references_of<L: Lift>(
+    (x, lower, upper): &ReferenceRow,
+    lift: &mut L,
+) -> PyResult<References<L::Of>> {
+    let reference = |(name, length): &(String, f64), lift: &mut L| {
+        let mut given = || lift.number("value", *length);
         Ok(match name.as_str() {
-            "depth" => Reference::Depth(length),
-            "disc" => Reference::Disc(length),
-            "length" => Reference::Length(length),
-            _ => return none_such("reference", &(name, vec![length])),
+            "depth" => Reference::Depth(given()),
+            "disc" => Reference::Disc(given()),
+            "length" => Reference::Length(given()),
+            _ => return none_such("reference", &(name.clone(), vec![*length])),
         })
     };
-    Ok(References { x, lower: reference(lower)?, upper: reference(upper)? })
+    lift.inside("references", |lift| {
+        Ok(References {
+            x: lift.number("x", *x),
+            lower: lift.inside("lower", |lift| reference(lower, lift))?,
+            upper: lift.inside("upper", |lift| reference(upper, lift))?,
+        })
+    })
 }
 
 /// What is prescribed: its name, its numbers, and the references of an approach.
 pub type Prescribed = (String, Vec<f64>, Option<ReferenceRow>);
 
-pub fn control((name, numbers, to): Prescribed) -> PyResult<Control<f64>> {
+pub fn control(prescribed: Prescribed) -> PyResult<Control<f64>> {
+    control_of(&prescribed, &mut AsTheyAre)
+}
+
+pub fn control_of<L: Lift>(
+    (name, numbers, to): &Prescribed,
+    lift: &mut L,
+) -> PyResult<Control<L::Of>> {
     Ok(match (name.as_str(), numbers.as_slice(), to) {
-        ("load", &[load], None) => Control::Load(load),
-        ("half_width", &[half_width], None) => Control::HalfWidth(half_width),
-        ("peak_pressure", &[pressure], None) => Control::PeakPressure(pressure),
-        ("approach", &[approach], Some(to)) => {
-            Control::Approach { approach, references: references(to)? }
+        ("load", &[load], None) => Control::Load(lift.number("load", load)),
+        ("half_width", &[half_width], None) => {
+            Control::HalfWidth(lift.number("half_width", half_width))
         }
-        ("moment", &[load, moment, about], None) => Control::Moment { load, moment, about },
-        ("centre", &[load, at], None) => Control::CentreOfPressure { load, at },
-        _ => return none_such("control", &(name, numbers)),
+        ("peak_pressure", &[pressure], None) => {
+            Control::PeakPressure(lift.number("peak_pressure", pressure))
+        }
+        ("approach", &[approach], Some(to)) => {
+            let approach = lift.number("approach", approach);
+            Control::Approach { approach, references: references_of(to, lift)? }
+        }
+        ("moment", &[load, moment, about], None) => Control::Moment {
+            load: lift.number("load", load),
+            moment: lift.number("moment", moment),
+            about: lift.number("about", about),
+        },
+        ("centre", &[load, at], None) => Control::CentreOfPressure {
+            load: lift.number("load", load),
+            at: lift.number("centre", at),
+        },
+        _ => return none_such("control", &(name.clone(), numbers.clone())),
     })
 }
 
@@ -136,13 +174,99 @@ pub fn contact_modulus(
     state: &str,
 ) -> PyResult<f64> {
     let state = plane(state)?;
-    call::library(py, || state.contact_modulus(material(lower), material(upper)))
+    let [lower, upper] = [lower, upper].map(|of| material(of, &mut AsTheyAre));
+    call::library(py, || state.contact_modulus(lower, upper))
+}
+
+/// All that a contact is made of.
+struct Settings {
+    lower: Py<Profile>,
+    upper: Py<Profile>,
+    kappa: Option<f64>,
+    contact_modulus: Option<f64>,
+    materials: Option<(Elastic, Elastic, String)>,
+    edges: Option<[(String, f64); 2]>,
+    edge_pressure: Option<[f64; 6]>,
+    start: Option<[f64; 2]>,
+    inversion: Option<Choice>,
+    limit_search: Option<Choice>,
+    quadrature: Option<Choice>,
+    certified: bool,
+    single_interval: bool,
+}
+
+impl Settings {
+    /// The contact, of numbers that `lift` makes of those here.
+    fn build<L: Lift>(&self, py: Python<'_>, lift: &mut L) -> PyResult<Contact<'static, L::Of>> {
+        let lower = lift.inside("lower", |lift| lift.body(py, self.lower.get()))?.shared();
+        let upper = lift.inside("upper", |lift| lift.body(py, self.upper.get()))?.shared();
+        let mut contact = call::library(py, || Contact::owned(lower, upper))?
+            .watch(&call::watch)
+            .certified(self.certified)
+            .single_interval(self.single_interval);
+        if let Some(kappa) = self.kappa {
+            contact = contact.kappa(lift.number("kappa", kappa));
+        }
+        if let Some(modulus) = self.contact_modulus {
+            contact = contact.contact_modulus(lift.number("contact_modulus", modulus));
+        }
+        if let Some((lower, upper, state)) = &self.materials {
+            let [lower, upper] = lift.inside("materials", |lift| {
+                [(0, *lower), (1, *upper)].map(|(i, of)| lift.inside(i, |lift| material(of, lift)))
+            });
+            contact = contact.materials(lower, upper, plane(state)?);
+        }
+        if let Some([left, right]) = &self.edges {
+            let (left, right) = lift.inside("edges", |lift| {
+                let left = lift.inside(0, |lift| edge(left, lift))?;
+                Ok::<_, PyErr>((left, lift.inside(1, |lift| edge(right, lift))?))
+            })?;
+            contact = contact.edges(left, right);
+        }
+        if let Some([at_a, at_b, distance_a, distance_b, tolerance_a, tolerance_b]) =
+            self.edge_pressure
+        {
+            contact = contact.edge_pressure(lift.inside("edge_pressure", |lift| EdgePressure {
+                at_a: lift.number("at_a", at_a),
+                at_b: lift.number("at_b", at_b),
+                distance_a: lift.number("distance_a", distance_a),
+                distance_b: lift.number("distance_b", distance_b),
+                tolerance_a: <L::Of as Real>::of(tolerance_a),
+                tolerance_b: <L::Of as Real>::of(tolerance_b),
+            }));
+        }
+        if let Some([left, right]) = self.start.map(|ends| ends.map(<L::Of as Real>::of)) {
+            contact = contact.start(Interval { left, right });
+        }
+        if let Some(choice) = &self.inversion {
+            contact = contact.inversion(search(choice)?);
+        }
+        if let Some(choice) = &self.limit_search {
+            contact = contact.limit_search(search(choice)?);
+        }
+        if let Some(choice) = &self.quadrature {
+            contact = contact.quadrature(quadrature(choice)?);
+        }
+        Ok(contact)
+    }
 }
 
 /// Two bodies, their stiffness, edges and settings.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Scene {
+    settings: Settings,
     pub contact: Contact<'static, f64>,
+}
+
+impl Scene {
+    /// The contact in numbers of another kind.
+    pub fn lifted<L: Lift>(
+        &self,
+        py: Python<'_>,
+        lift: &mut L,
+    ) -> PyResult<Contact<'static, L::Of>> {
+        self.settings.build(py, lift)
+    }
 }
 
 #[pymethods]
@@ -153,8 +277,8 @@ impl Scene {
     #[expect(clippy::too_many_arguments, reason = "each is a setting with a name")]
     fn new(
         py: Python<'_>,
-        lower: Bound<'_, Profile>,
-        upper: Bound<'_, Profile>,
+        lower: Py<Profile>,
+        upper: Py<Profile>,
         kappa: Option<f64>,
         contact_modulus: Option<f64>,
         materials: Option<(Elastic, Elastic, String)>,
@@ -167,47 +291,23 @@ impl Scene {
         certified: bool,
         single_interval: bool,
     ) -> PyResult<Self> {
-        let [lower, upper] = [lower, upper].map(|body| body.get().shared.clone());
-        let mut contact = call::library(py, || Contact::owned(lower, upper))?
-            .watch(&call::watch)
-            .certified(certified)
-            .single_interval(single_interval);
-        if let Some(kappa) = kappa {
-            contact = contact.kappa(kappa);
-        }
-        if let Some(modulus) = contact_modulus {
-            contact = contact.contact_modulus(modulus);
-        }
-        if let Some((lower, upper, state)) = materials {
-            contact = contact.materials(material(lower), material(upper), plane(&state)?);
-        }
-        if let Some([left, right]) = &edges {
-            contact = contact.edges(edge(left)?, edge(right)?);
-        }
-        if let Some([at_a, at_b, distance_a, distance_b, tolerance_a, tolerance_b]) = edge_pressure
-        {
-            contact = contact.edge_pressure(EdgePressure {
-                at_a,
-                at_b,
-                distance_a,
-                distance_b,
-                tolerance_a,
-                tolerance_b,
-            });
-        }
-        if let Some([left, right]) = start {
-            contact = contact.start(Interval { left, right });
-        }
-        if let Some(choice) = inversion {
-            contact = contact.inversion(search(&choice)?);
-        }
-        if let Some(choice) = limit_search {
-            contact = contact.limit_search(search(&choice)?);
-        }
-        if let Some(choice) = quadrature {
-            contact = contact.quadrature(self::quadrature(&choice)?);
-        }
-        Ok(Self { contact })
+        let settings = Settings {
+            lower,
+            upper,
+            kappa,
+            contact_modulus,
+            materials,
+            edges,
+            edge_pressure,
+            start,
+            inversion,
+            limit_search,
+            quadrature,
+            certified,
+            single_interval,
+        };
+        let contact = settings.build(py, &mut AsTheyAre)?;
+        Ok(Self { settings, contact })
     }
 
     fn solve(&self, py: Python<'_>, prescribed: Prescribed) -> PyResult<Solution> {

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import importlib
 import inspect
+import io
 import pkgutil
 import re
 import subprocess
@@ -81,6 +83,20 @@ def test_the_code_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert len(blocks) > 1
     exec("\n".join(blocks), {})
     assert (tmp_path / "roller.png").exists()
+
+
+def test_the_tutorial_prints_what_it_says() -> None:
+    """Block after block of `docs/python.md`, each with the text under it."""
+    pytest.importorskip("scipy")
+    tutorial = (HERE.parents[1] / "docs" / "python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```)?", tutorial, re.DOTALL)
+    assert len(blocks) == tutorial.count("```python") > 10
+    known: dict[str, object] = {}
+    for code, text in blocks:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(code, known)
+        assert printed.getvalue() == text, code
 
 
 def test_types() -> None:

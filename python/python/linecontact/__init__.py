@@ -42,6 +42,7 @@ from .contact import (
     Search,
     contact_modulus,
 )
+from .differentiating import gradient, parameters
 from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .solution import (
@@ -111,6 +112,8 @@ __all__ = [
     "contact_modulus",
     "errors",
     "explore",
+    "gradient",
+    "parameters",
     "solve",
     "sweep",
 ]

@@ -13,6 +13,8 @@ __all__ = [
     "Solver",
     "SpringTable",
     "contact_modulus",
+    "gradient",
+    "parameters",
     "quantities",
     "sweep",
     "variants",
@@ -31,6 +33,16 @@ _Columns = tuple[_Array, _Array, _Array, _Array, _Array]
 
 def variants() -> list[tuple[str, list[str]]]: ...
 def contact_modulus(lower: _Elastic, upper: _Elastic, state: str) -> float: ...
+def gradient(
+    scene: Scene,
+    prescribed: _Prescribed,
+    to: _References | None,
+    wanted: list[str],
+    by: list[list[tuple[str, float]]],
+) -> tuple[list[float], list[list[float]]]: ...
+def parameters(
+    scene: Scene, prescribed: _Prescribed | None, to: _References | None
+) -> list[tuple[str, float]]: ...
 def quantities() -> list[str]: ...
 def sweep(
     scenes: Sequence[Scene],
