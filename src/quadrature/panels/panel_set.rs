@@ -21,6 +21,10 @@ const MOST_SPLITS: usize = 4096;
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
 
+/// Panels, besides twice as many as the first cover has, that extensions may add before all is covered anew. (Each
+/// adds one at least, and whatever is asked of the panels takes time for every one.)
+const MOST_ADDED: usize = 6;
+
 /// Where a span whose heights contradict its slopes is halved.
 const ASIDE: f64 = 0.46;
 
@@ -40,6 +44,8 @@ pub(crate) struct EndProbe<T> {
 #[derive(Clone)]
 pub(crate) struct PanelSet<T> {
     pub panels: Vec<Panel<T>>,
+    /// How many covered the span when it was first covered, or covered anew.
+    at_first: usize,
     /// Panels still to be looked at, the leftmost last.
     waiting: Vec<Candidate<T>>,
     traces: [SampleCache<T>; 2],
@@ -67,6 +73,7 @@ impl<T: Real> PanelSet<T> {
     pub fn new(tolerance: T) -> Self {
         Self {
             panels: Vec::new(),
+            at_first: 0,
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
             size: T::zero(),
@@ -179,12 +186,22 @@ impl<T: Real> PanelSet<T> {
         on: Interval<T>,
     ) -> Result<(), ContactError<T>> {
         let Some(have) = self.interval() else {
-            return self.sample(gap, on, 0, None);
+            self.sample(gap, on, 0, None)?;
+            self.at_first = self.panels.len();
+            return Ok(());
         };
         // More than a sliver at a time, but beside a breakpoint perhaps not much.
         let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
+        if self.panels.len() > 2 * self.at_first + MOST_ADDED {
+            let more = sliver * (have.right - have.left);
+            let left = if on.left < have.left { on.left - more } else { have.left };
+            let right = if on.right > have.right { on.right + more } else { have.right };
+            let left = left.max(half * on.left.min(have.left) + half * range[0]);
+            let right = right.min(half * on.right.max(have.right) + half * range[1]);
+            return self.sample_anew(gap, Interval { left, right });
+        }
         let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
         // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
         // breakpoint is between them.

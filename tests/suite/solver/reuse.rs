@@ -5,6 +5,7 @@ use crate::common;
 use crate::common::NanSafe;
 
 use common::{Counting, graph, on_flat, paper, power, scenes};
+use linecontact::profile::Ellipse;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
     ParametricProfile, Solution, Solver,
@@ -355,5 +356,26 @@ fn a_report_is_of_one_solution_only() {
         let solution = solver.solve(&contact, Control::Load(load)).unwrap();
         assert_eq!(solution.report().attempts().len(), 1, "F = {load}");
         assert!(solution.report().is_checked());
+    }
+}
+
+/// A load that rises by a thousandth at a time: what was sampled is added to step by step, and once it is in many
+/// pieces it is sampled anew, or each load would take longer than the one before.
+#[test]
+fn a_load_that_rises_slowly() {
+    let body = Ellipse::circle(10.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
+    for (rate, most) in [(1.001f64, 1500), (1.01, 1400), (1.1, 900)] {
+        let (mut solver, mut load, mut evaluations) = (Solver::new(), 1.0, 0);
+        while load < 2000.0 {
+            let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+            evaluations += solution.cost().evaluations;
+            let cold = contact.solve(Control::Load(load)).unwrap();
+            let estimate = solution.limits_error().unwrap();
+            assert!((solution.a() / cold.a() - 1.0).abs() < 1e-14, "{load}: {solution:?}");
+            assert!(estimate < 2.0 * cold.limits_error().unwrap(), "{load}: {estimate:e}");
+            load *= rate;
+        }
+        assert!(evaluations < most, "{evaluations} at {rate}");
     }
 }
