@@ -24,7 +24,7 @@ import sys
 import time
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from importlib import metadata
 from itertools import islice
@@ -71,7 +71,7 @@ class Study:
     version: str = metadata.version("linecontact")
 
     @classmethod
-    def of(cls, points: Sequence[int], block_rows: int) -> Study:
+    def of(cls, points: Sequence[int], block_rows: int = 4096) -> Study:
         """A study of as many crownings, misalignments and loads."""
         crownings, misalignments, loads = points
         return cls(
@@ -323,13 +323,11 @@ def main() -> None:
     folder = given.folder.resolve()
     study = Study.of(given.points, given.block)
     if given.scheduler:
-        client = Client(given.scheduler)
+        cluster = nullcontext(given.scheduler)
     else:
-        client = Client(LocalCluster(n_workers=given.local, threads_per_worker=1, dashboard_address=None))
-    with client:
+        cluster = LocalCluster(n_workers=given.local, threads_per_worker=1, dashboard_address=None)
+    with cluster as address, Client(address) as client:
         run(client, study, folder, Told(study))
-        if not given.scheduler:
-            client.cluster.close()
     found = optimum(study, read_all(study, folder))
     print(table(found))
     print(f"{study.size} scenes, {sum(found.failed.values())} failed: {found.failed}")

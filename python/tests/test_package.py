@@ -88,9 +88,10 @@ def test_types() -> None:
     strict = ["mypy", "--strict", "--config-file", str(HERE.parent / "pyproject.toml")]
     checks = [
         [*strict, "-p", "linecontact"],
-        [*strict, *map(str, HERE.glob("*.py"))],
+        [*strict, *map(str, HERE.rglob("*.py"))],
         # What the stub says of the extension is what the extension says of itself.
         ["mypy.stubtest", "linecontact._native"],
+        [*strict, *map(str, (HERE.parent / "examples").glob("*.py"))],
     ]
     for check in checks:
         command = [sys.executable, "-m", *check]
