@@ -9,9 +9,8 @@ The plane of the contact is that of the roller's axis: its generatrix, with loga
 in plane strain. Lengths are in mm, angles in radians, loads in N/mm, pressures in MPa.
 
 The study is cut into blocks of a few thousand rows, load innermost. A worker solves a block with `lc.sweep` and writes
-it, so that no results pass through the scheduler or are kept by the client. Its file has another name until it is
-whole. So each finished file is a finished block, and writing one twice changes nothing. All workers and the client see
-the folder: on a cluster it is a shared one.
+it to the folder, which on a cluster is a shared one: no results pass through the scheduler, or are kept by the client.
+A file has another name until it is whole. So each file is a finished block, and one written twice is the same.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ class Study:
     crownings: Range = Range(0.001, 0.03, 100)
     misalignments: Range = Range(0.0, 1e-3, 100)
     loads: Range = Range(200.0, 3000.0, 100)
-    # The crowning is that of a roller whose generatrix would end here, and that is cut off a little before.
+    # Where the logarithm would go down for ever, and where the roller ends before.
     half_length: float = 8.0
     reach: float = 7.9
     # A multiple of the 32 rows that a sweep solves one from the other.
@@ -91,7 +90,7 @@ class Study:
 
     @property
     def fingerprint(self) -> str:
-        return hashlib.sha256(repr((self, QUANTITIES)).encode()).hexdigest()[:12]
+        return hashlib.sha256(repr((self, STEEL, QUANTITIES)).encode()).hexdigest()[:12]
 
     def name(self, block: int) -> str:
         return f"{self.fingerprint}-{block:06}.parquet"
@@ -116,7 +115,7 @@ def solve_block(study: Study, block: int, threads: int | None = 1) -> dict[str, 
         raise RuntimeError(f"the study was started with linecontact {study.version}, this worker has {here}")
     crownings, misalignments, loads = (of.values() for of in (study.crownings, study.misalignments, study.loads))
     pairs, load = np.divmod(rows(study, block), loads.size)
-    crowning, misalignment = (crownings[pairs // misalignments.size], misalignments[pairs % misalignments.size])
+    crowning, misalignment = crownings[pairs // misalignments.size], misalignments[pairs % misalignments.size]
     rollers: dict[int, lc.Contact] = {}
     contacts = []
     for pair, depth, angle in zip(pairs.tolist(), crowning.tolist(), misalignment.tolist(), strict=True):
@@ -127,12 +126,12 @@ def solve_block(study: Study, block: int, threads: int | None = 1) -> dict[str, 
     return {"crowning": crowning, "misalignment": misalignment, "load": loads[load], **found}
 
 
-def write_block(study: Study, folder: Path, block: int, threads: int | None = 1) -> int:
+def write_block(study: Study, folder: Path, block: int) -> int:
     """Solves a block and writes it, all or nothing. Returns how many rows have failed."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    found = solve_block(study, block, threads)
+    found = solve_block(study, block)
     path = folder / study.name(block)
     # A worker that was given up may still be at the same block.
     unfinished = path.with_suffix(f".{uuid.uuid4().hex}.tmp")
