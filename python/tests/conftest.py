@@ -1,4 +1,4 @@
-"""Tests find each other's scenes; nothing opens a window."""
+"""Tests find each other's scenes, and the examples; nothing opens a window."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ import sys
 from pathlib import Path
 
 os.environ.setdefault("MPLBACKEND", "agg")
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent / "examples")]

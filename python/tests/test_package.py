@@ -107,6 +107,7 @@ def test_types() -> None:
         [*strict, *map(str, HERE.rglob("*.py"))],
         # What the stub says of the extension is what the extension says of itself.
         ["mypy.stubtest", "linecontact._native"],
+        [*strict, *map(str, (HERE.parent / "examples").glob("*.py"))],
     ]
     for check in checks:
         command = [sys.executable, "-m", *check]
