@@ -326,8 +326,8 @@ def test_what_is_infinite_is_called_so(browser: Any, tmp_path: Path) -> None:
 
 
 # The largest shear takes minutes where a slope jumps and one side is far steeper.
-SLOW = {"tilted_wedge", "rounded_punch_1e-6"}
-ODD = {name: pair for name, pair, _ in SCENES if name not in SLOW}
+
+ODD = {name: pair for name, pair, _ in SCENES}
 
 
 @pytest.mark.parametrize(("name", "pair"), ODD.items(), ids=ODD)
