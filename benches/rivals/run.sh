@@ -40,6 +40,13 @@ else
     without "SciPy and the boundary elements: python3 with venv and pip is needed"
 fi
 
+# Built anew each time, as it is this checkout's.
+if "$python" -m pip install --quiet "$here/../../python" 2>/dev/null; then
+    "$python" "$here/linecontact_python.py" >>"$to/found.tsv"
+else
+    without "this library in Python: python3 with venv, pip and cargo is needed"
+fi
+
 cargo bench --quiet --bench tasks -- judge "$to/found.tsv" >"$to/all.tsv"
 
 # Evaluations of the curves and microseconds; "-" where no setting gets there.

@@ -384,6 +384,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 
     fn reset(&mut self, same_bodies: bool) {
         self.panel_set.cost = Cost::default();
+        self.panel_set.look_back();
         self.several.reset(same_bodies);
         self.is_several = false;
         if !same_bodies {

@@ -325,8 +325,6 @@ def test_what_is_infinite_is_called_so(browser: Any, tmp_path: Path) -> None:
         keep(page, str(tmp_path / "punch.png"))
 
 
-# The largest shear takes minutes where a slope jumps and one side is far steeper.
-
 ODD = {name: pair for name, pair, _ in SCENES}
 
 

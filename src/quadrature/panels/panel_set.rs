@@ -21,8 +21,8 @@ const MOST_SPLITS: usize = 4096;
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
 
-/// Panels, besides twice as many as the first cover has, that extensions may add before all is covered anew. (Each
-/// adds one at least, and whatever is asked of the panels takes time for every one.)
+/// Panels, besides twice as many as the first cover has, that the extensions of solve after solve may add before all is
+/// covered anew. (Each adds one at least, and whatever is asked of the panels takes time for every one.)
 const MOST_ADDED: usize = 6;
 
 /// Where a span whose heights contradict its slopes is halved.
@@ -46,6 +46,8 @@ pub(crate) struct PanelSet<T> {
     pub panels: Vec<Panel<T>>,
     /// How many covered the span when it was first covered, or covered anew.
     at_first: usize,
+    /// Whether it is to be covered anew when more is asked for.
+    is_cut_up: bool,
     /// Panels still to be looked at, the leftmost last.
     waiting: Vec<Candidate<T>>,
     traces: [SampleCache<T>; 2],
@@ -74,6 +76,7 @@ impl<T: Real> PanelSet<T> {
         Self {
             panels: Vec::new(),
             at_first: 0,
+            is_cut_up: false,
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
             size: T::zero(),
@@ -98,6 +101,11 @@ impl<T: Real> PanelSet<T> {
             self.traces.iter_mut().for_each(SampleCache::clear);
             self.held = [None; 2];
         }
+    }
+
+    /// Before the next solve with the same bodies.
+    pub fn look_back(&mut self) {
+        self.is_cut_up = self.panels.len() > 2 * self.at_first + MOST_ADDED;
     }
 
     /// Looks at a limit that is given, unless it is at the end of a piece, of which more is known.
@@ -194,7 +202,7 @@ impl<T: Real> PanelSet<T> {
         let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
-        if self.panels.len() > 2 * self.at_first + MOST_ADDED {
+        if std::mem::take(&mut self.is_cut_up) {
             let more = sliver * (have.right - have.left);
             let left = if on.left < have.left { on.left - more } else { have.left };
             let right = if on.right > have.right { on.right + more } else { have.right };
