@@ -10,6 +10,9 @@ use crate::{ContactError, Interval, Real};
 /// The most points of a contact that [`Pressure::sample`] takes.
 const MOST_POINTS: usize = 1 << 20;
 
+/// Points of a row within which one at a limit, or beyond, makes all go one by one.
+const ROW: usize = 256;
+
 impl<T: Real> Solution<'_, T> {
     /// The pressure distribution. With [`Panels`](crate::Panels) it takes no further sample.
     ///
@@ -95,17 +98,25 @@ impl<T: Real> Pressure<'_, T> {
         if x.len() != pressures.len() {
             return Err(ContactError::LengthMismatch { x: x.len(), pressures: pressures.len() });
         }
-        let mut cost = Cost::default();
+        self.fill(x, pressures, &mut Cost::default())
+    }
+
+    /// All at once if all are strictly inside and finite, else row by row: what is not goes one by one.
+    fn fill(&self, x: &[T], pressures: &mut [T], cost: &mut Cost) -> Result<(), ContactError<T>> {
         // Without a way out of the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
-            self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut cost)?;
+            self.integrator.pressures(self.gap, &self.load_case, x, pressures, cost)?;
             let finite = |pressure: &T| pressure.is_finite();
             if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
                 return Ok(());
             }
         }
+        if x.len() > ROW {
+            let mut rows = x.chunks(ROW).zip(pressures.chunks_mut(ROW));
+            return rows.try_for_each(|(x, pressures)| self.fill(x, pressures, cost));
+        }
         for (&x, pressure) in x.iter().zip(pressures) {
-            *pressure = self.estimate(x, &mut cost)?.value;
+            *pressure = self.estimate(x, cost)?.value;
         }
         Ok(())
     }

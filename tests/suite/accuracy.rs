@@ -214,6 +214,18 @@ fn many_at_once_are_the_same_as_one_by_one() {
         assert_eq!(many[1..3], [0.0, 0.0], "{}", scene.name);
         let one = pressure.estimate(x[3], &mut Cost::default()).unwrap().value;
         assert!((many[3] - one).abs() <= 4.0 * f64::EPSILON * one.abs());
+        // Limits and places beyond them among so many that they are taken row by row.
+        let x: Vec<f64> = (0..700)
+            .map(|i| on.centre() + on.half_width() * (f64::from(i) / 349.5 - 1.0))
+            .chain([on.left, on.right, outside])
+            .collect();
+        let mut many = vec![f64::NAN; x.len()];
+        pressure.at_many(&x, &mut many).unwrap();
+        for (&x, many) in x.iter().zip(many) {
+            let one = pressure.estimate(x, &mut Cost::default()).unwrap().value;
+            let ulps = (many - one).abs() / (f64::EPSILON * one.abs());
+            assert!(many == one || ulps <= 4.0, "{}: {many} is not {one} at {x}", scene.name);
+        }
     }
 }
 
