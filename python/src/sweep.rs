@@ -6,7 +6,7 @@ use crate::quantity::{Asked, NAMES, Quantity};
 use crate::scene::{ReferenceRow, Scene, control, references};
 use linecontact::{ContactError, Control, References, Solver};
 use numpy::PyArrayLike1;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -31,6 +31,7 @@ struct Row<'s> {
 type Found = (Vec<f64>, Option<Failure>);
 
 fn row(
+    stop: &Stop,
     solver: &mut Solver<f64>,
     &Row { scene, control }: &Row<'_>,
     wanted: &[Quantity],
@@ -57,7 +58,13 @@ fn row(
         }
     }
     let failed = match call::raised() {
-        Some(raised) => Some(Failure::Raised(raised)),
+        Some(raised) => {
+            // What is no mistake of a function, but means to end all: KeyboardInterrupt, SystemExit.
+            if !Python::attach(|py| raised.is_instance_of::<PyException>(py)) {
+                stop.set();
+            }
+            Some(Failure::Raised(raised))
+        }
         None => failed.map(Failure::Refused),
     };
     (numbers, failed)
@@ -96,10 +103,19 @@ pub fn sweep(
         let control = control((kind.to_owned(), numbers, prescribed_references.clone()))?;
         rows.push(Row { scene: scenes[scene].get(), control });
     }
-    let found = in_parallel(py, &rows, threads, progress, |solver, scene| {
-        row(solver, scene, &wanted, between.as_ref())
+    let mut found = in_parallel(py, &rows, threads, progress, |stop, solver, scene| {
+        row(stop, solver, scene, &wanted, between.as_ref())
     })?;
 
+    let ends = |(_, failed): &Found| match failed {
+        Some(Failure::Raised(raised)) => !raised.is_instance_of::<PyException>(py),
+        _ => false,
+    };
+    if let Some(i) = found.iter().position(ends)
+        && let Some(Failure::Raised(raised)) = found.swap_remove(i).1
+    {
+        return Err(raised);
+    }
     let column = |i: usize| call::array(py, found.iter().map(|(numbers, _)| numbers[i]).collect());
     let columns = (0..wanted.len()).map(column).collect();
     let mut failures = Vec::new();
@@ -123,7 +139,7 @@ fn in_parallel<R: Send>(
     rows: &[Row<'_>],
     threads: usize,
     progress: Option<Py<PyAny>>,
-    one: impl Fn(&mut Solver<f64>, &Row<'_>) -> R + Sync,
+    one: impl Fn(&Stop, &mut Solver<f64>, &Row<'_>) -> R + Sync,
 ) -> PyResult<Vec<R>> {
     let (stop, done) = (Stop::default(), AtomicUsize::new(0));
     let look = |py: Python<'_>| -> PyResult<()> {
@@ -148,7 +164,7 @@ fn in_parallel<R: Send>(
                     if stop.is_set() {
                         Err(())
                     } else {
-                        Ok(call::elsewhere(&stop, || one(solver, row)))
+                        Ok(call::elsewhere(&stop, || one(&stop, solver, row)))
                     }
                 };
                 let count = |so_far| done.store(so_far, Ordering::Relaxed);

@@ -13,7 +13,11 @@ import linecontact as lc
 
 # The same scenes in each run: what is new is for the random scenes of the library.
 SAME = settings(
-    deadline=None, derandomize=True, max_examples=150, suppress_health_check=[HealthCheck.too_slow]
+    database=None,
+    deadline=None,
+    derandomize=True,
+    max_examples=150,
+    suppress_health_check=[HealthCheck.too_slow],
 )
 FLAT = lc.Flat()
 

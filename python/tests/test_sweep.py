@@ -168,6 +168,27 @@ def test_an_exception_of_a_function_is_that_of_its_row() -> None:
     np.testing.assert_allclose(found["a"][[0, 2]], 0.2, rtol=1e-14)
 
 
+class Ends:
+    """Raises what means to end all."""
+
+    def __init__(self, error: BaseException) -> None:
+        self.error = error
+
+    def __call__(self, x: Array) -> tuple[Any, ...]:
+        if x.size > 2:
+            raise self.error
+        return x, x**2 / 2, 1.0, x
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), SystemExit(3)])
+def test_what_means_to_end_all_ends_it(error: BaseException) -> None:
+    contacts = [lc.Contact(FLAT, lc.Curve((-1.0, 1.0), parabola), kappa=1.0) for _ in range(100)]
+    contacts[7] = lc.Contact(FLAT, lc.Curve((-1.0, 1.0), Ends(error)), kappa=1.0)
+    with pytest.raises(type(error)) as raised:
+        lc.sweep(contacts, load=0.02)
+    assert raised.value is error
+
+
 def test_rows() -> None:
     assert lc.sweep(ROLLER, load=5.0)["a"].shape == (1,)
     assert lc.sweep([ROLLER] * 3, load=5.0)["a"].shape == (3,)
@@ -186,6 +207,9 @@ def test_rows() -> None:
         lc.sweep(ROLLER, approach=1.0)
     with pytest.raises(TypeError, match="between references"):
         lc.sweep(ROLLER, load=1.0, quantities=["stiffness"])
+    assert list(lc.sweep(ROLLER, load=1.0, quantities="half_width", threads=10**9)) == ["half_width", "error"]
+    with pytest.raises(TypeError, match="no Contact"):
+        lc.sweep([ROLLER, FLAT], load=1.0)  # type: ignore[list-item]
     with pytest.raises(ValueError, match="threads"):
         lc.sweep(ROLLER, load=1.0, threads=0)
 

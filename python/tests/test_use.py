@@ -155,6 +155,31 @@ def test_a_solver_that_is_solving_refuses_another() -> None:
 # Pickles, equality, names.
 
 
+def test_nothing_changes() -> None:
+    roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    contact = lc.Contact(FLAT, roller, kappa=1.0)
+    solution = contact.solve(load=0.02)
+    slip = lc.Contact(FLAT, BODY, contact_modulus=1.0).partial_slip(friction=0.4, force=0.03, load=0.1)
+    for one, name in [
+        (roller, "along"),
+        (roller.shifted(1.0), "steps"),
+        (roller, "anything"),
+        (contact, "upper"),
+        (contact, "kappa"),
+    ]:
+        with pytest.raises(AttributeError, match="make another"):
+            setattr(one, name, 5.0)
+        with pytest.raises(AttributeError):
+            delattr(one, name)
+    for found in (solution, slip):
+        with pytest.raises(AttributeError):
+            found.contact = contact  # type: ignore[misc]
+    with pytest.raises(TypeError, match="no Body"):
+        lc.Contact(FLAT, 1)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="plane"):
+        lc.Contact(FLAT, BODY, contact_modulus=1.0, plane="stress")
+
+
 @pytest.mark.parametrize("put", [lambda body: body, placed], ids=["as it is", "placed"])
 @pytest.mark.parametrize("body", bodies(), ids=lambda body: type(body).__name__)
 def test_bodies_pickle(body: lc.Body, put: Callable[[lc.Body], lc.Body]) -> None:

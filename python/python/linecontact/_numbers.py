@@ -18,6 +18,26 @@ Range: TypeAlias = tuple[float, float]
 """From one number to another."""
 
 
+class Unchanging:
+    """What does not change: once `_SEAL` is set, no attribute can be set any more, as nobody would look at it."""
+
+    __slots__ = ()
+    _SEAL = ""
+
+    def _refuse(self, name: str) -> None:
+        if hasattr(self, self._SEAL):
+            kind = type(self).__name__
+            raise AttributeError(f"{name} cannot be set: a {kind} does not change, make another")
+
+    def __setattr__(self, name: str, value: object) -> None:
+        self._refuse(name)
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        self._refuse(name)
+        super().__delattr__(name)
+
+
 def as_range(given: Sequence[float]) -> Range:
     """Two numbers as a tuple."""
     first, last = given

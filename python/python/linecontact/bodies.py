@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._numbers import FloatArray, Numbers, Range, as_range
+from ._numbers import FloatArray, Numbers, Range, Unchanging, as_range
 
 Bulge: TypeAlias = Literal["unknown", "straight", "convex", "concave"]
 Step: TypeAlias = tuple[str, tuple[float, ...]]
@@ -37,7 +37,7 @@ __all__ = [
 ]
 
 
-class Body(ABC):
+class Body(Unchanging, ABC):
     """A surface as a curve `[X(k), Y(k)]` of a parameter `k`, over which `X` rises or falls strictly.
 
     A body does not change: `shifted` and the like return another one. Bodies that are equal have the same numbers.
@@ -49,6 +49,7 @@ class Body(ABC):
     Ellipse(10.0, 10.0, (-1.4, 1.4)).shifted(3.0, 0.0).flipped()
     """
 
+    _SEAL = "_profile"
     _profile: _native.Profile
 
     @abstractmethod

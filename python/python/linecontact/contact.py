@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
-from ._numbers import Range, as_range
+from ._numbers import Range, Unchanging, as_range
 from .bodies import Body
 from .solution import PartialSlip, Solution
 
@@ -379,7 +379,7 @@ def _prescribed(
     return kind, [float(value) for value in values], references
 
 
-class Contact:
+class Contact(Unchanging):
     """Two bodies to be pressed together, and the way to find their contact. One serves any number of loads.
 
     Parameters
@@ -426,6 +426,8 @@ class Contact:
     limits to ... of the half-width, checked
     """
 
+    _SEAL = "_scene"
+
     def __init__(
         self,
         lower: Body,
@@ -445,6 +447,11 @@ class Contact:
         certified: bool = False,
         single_interval: bool = False,
     ) -> None:
+        for body in (lower, upper):
+            if not isinstance(body, Body):
+                raise TypeError(f"{body!r} is no Body: make one, such as Flat() or a Curve")
+        if plane != "strain" and materials is None:
+            raise TypeError("the plane goes with materials: a contact_modulus or kappa has it already")
         if sum(given is not None for given in (contact_modulus, materials, kappa)) > 1:
             raise TypeError("contact_modulus, materials and kappa say the same: give one of them")
         if edges is not None and edge_pressure is not None:

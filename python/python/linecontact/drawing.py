@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 BESIDE = 0.5
 _DEPTH = 2.0
 
+# Places at which the shear is drawn: over all that is shown, and again below the contacts.
+_COLUMNS = 48
+
 _WIDTH, _HEIGHT, _MARGIN = 320, 150, 24
 
 
@@ -85,8 +88,12 @@ def plot(solution: Solution) -> Figure:
     pressure.set_ylabel("pressure")
 
     # Not the surface itself, where the pressure may be infinite.
-    depth = on.half_width * np.linspace(0.01, _DEPTH, 48)
-    across = np.linspace(x[0], x[-1], 97)
+    # Denser below each contact, and nearer to the surface where they are narrow.
+    narrowest = min(interval.half_width for interval in solution.intervals)
+    depth = np.geomspace(0.02 * narrowest, _DEPTH * on.half_width, 48)
+    columns = max(_COLUMNS // len(solution.intervals), 3)
+    below_each = [np.linspace(*interval, columns) for interval in solution.intervals]
+    across = np.unique(np.concatenate([np.linspace(x[0], x[-1], _COLUMNS), *below_each]))
     shear = solution.stress(across[None, :], depth[:, None]).max_shear()
     drawn = below.contourf(across, depth, shear, levels=12, cmap="cividis")
     figure.colorbar(drawn, ax=below, label="largest shear")

@@ -101,6 +101,9 @@ def explore(
     ...     page.stat().st_size < 200_000
     True
     """
+    page = Path(path)
+    if not page.parent.is_dir():
+        raise FileNotFoundError(f"no folder {page.parent}, for {page.name}")
     length, pressure, force = units
     wanted = np.unique(np.asarray(loads, dtype=np.float64))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
@@ -128,7 +131,6 @@ def explore(
             for load, frame in frames.items()
         ],
     }
-    page = Path(path)
     page.write_text(_filled(title, data), encoding="utf-8")
     return page
 

@@ -350,15 +350,20 @@ class Solution:
     array([0.        , 0.06366198, 0.05513289])
     """
 
-    __slots__ = ("_found", "_prescribed", "contact")
+    __slots__ = ("_contact", "_found", "_prescribed")
 
     def __init__(
         self, found: _native.Solution, contact: Contact, prescribed: Prescribed
     ) -> None:
-        self._found, self.contact, self._prescribed = found, contact, prescribed
+        self._found, self._contact, self._prescribed = found, contact, prescribed
+
+    @property
+    def contact(self) -> Contact:
+        """The scene."""
+        return self._contact
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _solved_again, (self.contact, self._prescribed)
+        return _solved_again, (self._contact, self._prescribed)
 
     # Where the bodies touch.
 
@@ -661,7 +666,7 @@ class Solution:
     def partial_slip(self, *, friction: float, force: float, tension: float = 0.0) -> PartialSlip:
         """The same contact, found anew, with a tangential force that friction carries: see `Contact.partial_slip`."""
         acting = (float(friction), float(force), float(tension))
-        return _slipped_again(self.contact, self._prescribed, acting)
+        return _slipped_again(self._contact, self._prescribed, acting)
 
     # The whole.
 
@@ -743,7 +748,7 @@ class PartialSlip:
     <PartialSlip: force 0.03, sticks in [-0.178412, 0.178412]>
     """
 
-    __slots__ = ("_acting", "_found", "_prescribed", "contact")
+    __slots__ = ("_acting", "_contact", "_found", "_prescribed")
 
     def __init__(
         self,
@@ -752,11 +757,16 @@ class PartialSlip:
         prescribed: Prescribed,
         acting: tuple[float, float, float],
     ) -> None:
-        self._found, self.contact = found, contact
+        self._found, self._contact = found, contact
         self._prescribed, self._acting = prescribed, acting
 
+    @property
+    def contact(self) -> Contact:
+        """The scene."""
+        return self._contact
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return _slipped_again, (self.contact, self._prescribed, self._acting)
+        return _slipped_again, (self._contact, self._prescribed, self._acting)
 
     def __repr__(self) -> str:
         zones = ", ".join(f"[{on.left:.6g}, {on.right:.6g}]" for on in self.stick_zones)
@@ -765,7 +775,7 @@ class PartialSlip:
     @property
     def normal(self) -> Solution:
         """The contact under its load, without what acts along it."""
-        return Solution(self._found.normal, self.contact, self._prescribed)
+        return Solution(self._found.normal, self._contact, self._prescribed)
 
     @property
     def friction(self) -> float:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Columns", "sweep"]
 
+# More than machines have cores: starting them would take longer than any sweep.
+_MOST_THREADS = 512
+
 # What is a count, or a yes or no, in its column.
 _KINDS: dict[str, type[Any]] = {"contacts": np.int64, "evaluations": np.int64, "is_checked": np.bool_}
 
@@ -66,7 +69,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
 def sweep(
     contacts: Contact | Sequence[Contact],
     *,
-    quantities: Sequence[str] = ("load", "a", "b", "peak_pressure"),
+    quantities: Sequence[str] | str = ("load", "a", "b", "peak_pressure"),
     references: References | None = None,
     progress: bool | Callable[[int, int], object] = False,
     threads: int | None = None,
@@ -81,7 +84,7 @@ def sweep(
     ----------
     contacts : Contact or sequence of Contact
         One for all rows, or one for each.
-    quantities : sequence of str
+    quantities : sequence of str, or str
         What is asked of each solution; nothing else is computed. Lengths: "a", "b", "half_width" and "centre" (of all
         that lies between the outermost limits), "peak_x", "centre_of_pressure", "max_shear_x", "max_shear_depth",
         "approach". Pressures: "peak_pressure" (infinite at a corner), "mean_pressure", "max_shear", "stiffness".
@@ -94,7 +97,7 @@ def sweep(
         True shows a bar if tqdm is installed. A function is called now and then, with how many rows are done and of
         how many.
     threads : int, optional
-        Default: as many as this process has cores.
+        How many at most. Default: as many as this process has cores.
     **prescribed : array_like
         As for `Contact.solve`: numbers, or arrays of one number for each row.
 
@@ -108,8 +111,8 @@ def sweep(
     -----
     Rows are solved in runs of up to 32, each from the contact of the row before, the first from nothing: put rows
     that are alike beside each other, the load innermost. The results do not depend on the number of threads. The
-    functions of a `Curve` are called from all threads; where they raise an exception it is that of the row. Ctrl-C
-    ends a sweep.
+    functions of a `Curve` are called from all threads; where they raise an exception it is that of the row, but
+    KeyboardInterrupt and SystemExit end the sweep, as Ctrl-C does.
 
     Examples
     --------
@@ -126,6 +129,7 @@ def sweep(
     array([[ 605. ,  855.6, 1047.9],
            [ 427.8,  605. ,  741. ]])
     """
+    quantities = [quantities] if isinstance(quantities, str) else list(quantities)
     numbers = {name: np.asarray(values, dtype=np.float64) for name, values in prescribed.items()}
     kind, given = _control(numbers, references)
     lengths = {len(contacts)} if not isinstance(contacts, Contact) else set()
@@ -142,6 +146,9 @@ def sweep(
     if threads is not None and threads < 1:
         raise ValueError(f"{threads} threads: give one or more")
 
+    for contact in [] if isinstance(contacts, Contact) else contacts:
+        if not isinstance(contact, Contact):
+            raise TypeError(f"{contact!r} is no Contact")
     scenes: list[_native.Scene]
     if isinstance(contacts, Contact):
         scenes, which = [contacts._scene], np.zeros(rows, dtype=np.uintp)
@@ -156,8 +163,8 @@ def sweep(
             kind,
             [np.broadcast_to(values, (rows,)).astype(np.float64) for values in given],
             references,
-            list(quantities),
-            _cores() if threads is None else threads,
+            quantities,
+            min(_cores() if threads is None else threads, max(rows, 1), _MOST_THREADS),
             told,
         )
     finally:
