@@ -155,6 +155,12 @@ def test_a_solver_that_is_solving_refuses_another() -> None:
 # Pickles, equality, names.
 
 
+def test_without_a_modulus_it_is_said_so() -> None:
+    assert "κ is 1" in str(lc.solve(FLAT, BODY, load=0.02))
+    for given in ({"kappa": 1.0}, {"contact_modulus": 1.0}, {"materials": (STEEL, STEEL)}):
+        assert "κ" not in str(lc.solve(FLAT, BODY, load=0.02, **given))
+
+
 def test_nothing_changes() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
     contact = lc.Contact(FLAT, roller, kappa=1.0)

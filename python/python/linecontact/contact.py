@@ -491,6 +491,11 @@ class Contact(Unchanging):
             single_interval=single_interval,
         )
 
+    @property
+    def has_modulus(self) -> bool:
+        """Whether it was said how stiff the bodies are. If not, pressures are those of κ = 1."""
+        return any(self._settings[name] is not None for name in ("contact_modulus", "materials", "kappa"))
+
     def _set(self) -> dict[str, Any]:
         """What has been set."""
         usual = {"plane": "strain", "certified": False, "single_interval": False}

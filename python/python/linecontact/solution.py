@@ -698,7 +698,9 @@ class Solution:
         )
 
     def __str__(self) -> str:
-        return str(self._found)
+        if self.contact.has_modulus:
+            return str(self._found)
+        return f"{self._found}\nκ is 1, as no modulus and no materials were given"
 
     def __repr__(self) -> str:
         contacts = ", ".join(f"[{on.left:.6g}, {on.right:.6g}]" for on in self.intervals)
