@@ -142,7 +142,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Piecewise([lc.Wedge((-1, 1), 1.0)]).flipped(),
         "PiecewiseInPieceError",
-        {"piece": 0, "source.pieces": 2},
+        {"piece": 0, "source": "ProfileJoinedError", "source.pieces": 2},
     ),
     (
         lambda: graph(lambda x: x**2, lambda x: x).check_derivatives(),
@@ -157,7 +157,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Piecewise([lc.Curve((-1, 1), lambda k: (k / k, k, 1.0, 1.0))]),
         "PiecewiseInPieceError",
-        {"source.quantity": "X", "source.k": 0.0},
+        {"source": "ProfileNotFiniteError", "source.quantity": "X", "source.k": 0.0},
     ),
     (lambda: lc.Piecewise([]), "PiecewiseNoPiecesError", {}),
     (lambda: lc.Piecewise([BODY], tolerance=-1.0), "PiecewiseToleranceError", {"tolerance": -1.0}),
@@ -188,7 +188,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Spline(np.column_stack([X, 1e308 * X**2]), noise=1e306, outliers=None),
         "SplineSmoothingError",
-        {},
+        {"source": "SearchNotFiniteError"},
     ),
     # Scenes.
     (
@@ -199,7 +199,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Contact(FLAT, lc.Curve((-1, 1), lambda k: (k**2, k, 2 * k, 1.0))),
         "ProfileError",
-        {"body": "upper", "source.x": 0.0},
+        {"body": "upper", "source": "ProfileTurnsBackError", "source.x": 0.0},
     ),
     (lambda: contact().solve(load=-1.0), "InvalidLoadError", {"quantity": "load", "value": -1.0}),
     (
@@ -334,12 +334,12 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: solved(search=lc.Search("bisection", max_evaluations=3)),
         "LimitSearchError",
-        {"source.best": None},
+        {"source": "SearchBudgetError", "source.best": None},
     ),
     (
         lambda: solved(search=lc.Search("brent", relative=-1.0)),
         "LimitSearchError",
-        {"source.value": -1.0},
+        {"source": "SearchToleranceError", "source.value": -1.0},
     ),
     (
         lambda: lc.solve(FLAT, lc.Curve((-1, 2), dwindling), kappa=1.0, load=0.01),
@@ -461,6 +461,8 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
         found: Any = error
         for attribute in path.split("."):
             found = getattr(found, attribute)
+        if path == "source":
+            found = type(found).__name__
         assert want is None or found == want, path
     # Errors come from other processes as they are.
     again = pickle.loads(pickle.dumps(error))
@@ -468,10 +470,24 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
     assert sorted(vars(again)) == sorted(vars(error))
 
 
-def test_most_of_them_are_provoked() -> None:
+# Not to be had with what this package takes, or by no scene that is known.
+NOT_PROVOKED = {
+    "ApproachFallsError": "no scene is known",
+    "CancelledError": "comes out as KeyboardInterrupt, or as the exception of a function",
+    "IntegralError": "no scene is known",
+    "LengthMismatchError": "arrays of results are made here",
+    "ProfilePiecesError": "of a trait for bodies of several pieces",
+    "SearchBracketError": "of a search of one's own",
+    "SearchLeftBracketError": "of a search of one's own",
+    "SearchNoSignChangeError": "of a search of one's own",
+    "SearchNotConvergedError": "of a search of one's own",
+}
+
+
+def test_all_others_are_provoked() -> None:
     provoked = {name for _, name, _ in CASES}
-    # Of the solver's own those left need a liar of a curve, or minutes.
-    assert len(provoked) >= 55
+    provoked |= {numbers["source"] for _, _, numbers in CASES if "source" in numbers}
+    assert provoked == set(dict(_native.variants())) - set(NOT_PROVOKED)
 
 
 def rust_variants(path: str, enum: str) -> list[str]:
