@@ -345,7 +345,8 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// A function that watches a solve, and may end it: it is told the cost so far and the span of `x` last
     /// sampled, each time that the bodies are sampled and before each new set of contacts is tried. Where it
-    /// answers `ControlFlow::Break` the solve ends with [`ContactError::Cancelled`].
+    /// answers `ControlFlow::Break` the solve ends with [`ContactError::Cancelled`]; so does the search for the
+    /// [largest stress](crate::stress::Subsurface::max_shear) below a solution.
     ///
     /// ```
     /// use linecontact::profile::Parabola;

@@ -320,10 +320,17 @@ def test_a_signal_ends_what_takes_long() -> None:
     body = lc.Spline(np.column_stack([x, rough]), outliers=None)
     solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.02)
     many = np.full(1_000_000, 0.1)
+    # Minutes for the largest shear below several contacts.
+    x = np.linspace(-8.0, 8.0, 400)
+    y = x**2 / 4000 + np.random.default_rng(3).normal(0.0, 2e-4, x.size)
+    points = np.column_stack([x, y + 0.01 * np.exp(-(((x - 1.5) / 0.15) ** 2))])
+    measured = lc.solve(FLAT, lc.Spline(points, noise=2e-4), kappa=1.8e5, load=200.0)
+    assert len(measured.contacts()) > 2
     before = signal.signal(signal.SIGALRM, late)
     try:
         for work in (
             lambda: solution.stress(many, 0.1),
+            measured.max_shear,
             lambda: lc.solve(FLAT, body, kappa=1.0, load=0.02),
         ):
             signal.setitimer(signal.ITIMER_REAL, 0.15)

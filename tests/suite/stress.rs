@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, worst};
-use linecontact::profile::{rounded_punch, wedge};
+use linecontact::profile::{Parabola, rounded_punch, wedge};
 use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
@@ -10,7 +10,7 @@ use linecontact::stress::{Stress, Subsurface};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint};
 use linecontact::{ParametricProfile, Piecewise};
 use std::f64::consts::PI;
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, ControlFlow, Div, Mul, Sub};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 const KAPPA: f64 = 1.7;
@@ -370,6 +370,22 @@ fn below_a_tip_that_leans() {
         assert!((shear.value / limit - 1.0).abs() < 1e-8, "{shear:?} for {limit}");
         assert!(shear.depth < 1e-4 && shear.x.abs() < 1e-4, "{shear:?}");
     }
+}
+
+#[test]
+fn the_search_for_the_largest_shear_can_be_ended() {
+    let (looks, parabola) = (AtomicUsize::new(0), Parabola::new(1.0, [-1.0, 1.0]).unwrap());
+    let watch = |_, _| {
+        let is_over = looks.fetch_add(1, Relaxed) >= 100;
+        if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let contact = Contact::new(&Flat, &parabola).unwrap().watch(&watch);
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
+    let field = solution.subsurface().unwrap();
+    for error in [field.max_shear().unwrap_err(), field.max_von_mises(0.3).unwrap_err()] {
+        assert!(matches!(error, ContactError::Cancelled { .. }), "{error}");
+    }
+    assert_eq!(looks.load(Relaxed), 102);
 }
 
 /// A flat punch with round corners of which the load bends next to nothing: the largest shear is below a corner, as

@@ -427,7 +427,10 @@ class Solution:
 
     @property
     def is_checked(self) -> bool:
-        """Whether this was checked to be the contact of the bodies, as far as the samples of the solve show."""
+        """Whether this was checked to be the contact of the bodies, as far as the samples of the solve show.
+
+        A `Curve` that is said to be convex is taken at its word: `certify` does not.
+        """
         return self._found.is_checked
 
     @property

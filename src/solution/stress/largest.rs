@@ -25,7 +25,8 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and
-    /// with friction also where the slope of the gap jumps; those of [`at`](Self::at).
+    /// with friction also where the slope of the gap jumps; those of [`at`](Self::at);
+    /// [`ContactError::Cancelled`] by who [watches](crate::Contact::watch).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
         self.check_edges()?;
         if !self.friction.is_zero() {
@@ -107,6 +108,7 @@ impl<T: Real> Subsurface<'_, T> {
         let peak = |[along, down]: [T; 2]| {
             let depth = if down > surface { half_width * down.exp() } else { T::zero() };
             let x = centre + half_width * along;
+            self.solution.gap().check_watch(self.solution.cost(), on)?;
             match self.at(x, depth) {
                 Ok(stress) => Ok(StressPeak { x, depth, value: value(stress)? }),
                 // Shear that is bounded, or an edge whose strength is nothing but rounding.
