@@ -1,4 +1,4 @@
-//! Numbers of a solution by their names: the columns of a sweep.
+//! Numbers of a solution by their names: the columns of a sweep, and what has a gradient.
 
 use linecontact::stress::StressPeak;
 use linecontact::{ContactError, Peak, Real, References, Solution};

@@ -72,6 +72,14 @@ def solved(lower: lc.Body, upper: lc.Body, load: float, **settings: Any) -> lc.S
         return None
 
 
+def found(scene: tuple[lc.Body, lc.Body, float]) -> lc.Solution:
+    """The solution; scenes without one are left out."""
+    solution = solved(*scene)
+    assume(solution is not None)
+    assert solution is not None
+    return solution
+
+
 def close(one: lc.Solution, other: lc.Solution, factor: float = 1.0, shift: float = 0.0) -> None:
     """Whether the limits are the same, but for a scale and a shift, to what they are said to be good for."""
     assert one.limits_error is not None and other.limits_error is not None
@@ -85,9 +93,8 @@ def close(one: lc.Solution, other: lc.Solution, factor: float = 1.0, shift: floa
 @given(scenes())
 def test_pressures_carry_the_load_and_meet_the_equation(scene: tuple[lc.Body, lc.Body, float]) -> None:
     lower, upper, load = scene
-    solution = solved(lower, upper, load)
-    assume(solution is not None)
-    assert solution is not None and solution.is_checked
+    solution = found(scene)
+    assert solution.is_checked
     on = solution.hull
     # By Gauss and Chebyshev: to rounding where bodies are smooth, to less beside a kink, and to little at a tip, where
     # the pressure is infinite.
@@ -110,9 +117,7 @@ def test_pressures_carry_the_load_and_meet_the_equation(scene: tuple[lc.Body, lc
 @given(scenes(), st.floats(-3.0, 3.0), sizes(1e-3, 1e3))
 def test_put_elsewhere(scene: tuple[lc.Body, lc.Body, float], shift: float, factor: float) -> None:
     lower, upper, load = scene
-    solution = solved(lower, upper, load)
-    assume(solution is not None)
-    assert solution is not None
+    solution = found(scene)
 
     def of(put: Any, load: float = load) -> lc.Solution:
         other = solved(put(lower), put(upper), load)
@@ -133,9 +138,7 @@ def test_put_elsewhere(scene: tuple[lc.Body, lc.Body, float], shift: float, fact
 @given(scenes(), sizes(1e-6, 1e12))
 def test_stiffer_and_loaded_as_much_more(scene: tuple[lc.Body, lc.Body, float], factor: float) -> None:
     lower, upper, load = scene
-    solution = solved(lower, upper, load)
-    assume(solution is not None)
-    assert solution is not None
+    solution = found(scene)
     stiffer = lc.solve(lower, upper, kappa=factor, load=factor * load)
     close(solution, stiffer)
     assert math.isclose(stiffer.mean_pressure, factor * solution.mean_pressure, rel_tol=1e-12)
@@ -145,9 +148,7 @@ def test_stiffer_and_loaded_as_much_more(scene: tuple[lc.Body, lc.Body, float], 
 @given(scenes())
 def test_what_is_found_can_be_prescribed(scene: tuple[lc.Body, lc.Body, float]) -> None:
     lower, upper, load = scene
-    solution = solved(lower, upper, load)
-    assume(solution is not None)
-    assert solution is not None
+    solution = found(scene)
     contact = lc.Contact(lower, upper, kappa=1.0)
     by_width = contact.solve(half_width=solution.half_width)
     assert math.isclose(by_width.load, load, rel_tol=1e-9)

@@ -95,6 +95,7 @@ impl<T: Real> PanelSet<T> {
     /// Forgets the panels; the curves' last points are kept if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
+        self.is_cut_up = false;
         self.size = T::zero();
         self.derivative_sizes.clear();
         if !same_bodies {
@@ -202,7 +203,7 @@ impl<T: Real> PanelSet<T> {
         let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
-        if std::mem::take(&mut self.is_cut_up) {
+        if self.is_cut_up {
             let more = sliver * (have.right - have.left);
             let left = if on.left < have.left { on.left - more } else { have.left };
             let right = if on.right > have.right { on.right + more } else { have.right };
