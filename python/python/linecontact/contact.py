@@ -356,8 +356,15 @@ _CONTROLS: dict[frozenset[str], tuple[str, tuple[str, ...]]] = {
 }
 
 
-def _control(given: Mapping[str, Any], references: References | None) -> tuple[str, list[Any]]:
-    """What is prescribed: its name, and its numbers (or arrays of them) in the library's order."""
+def _control(
+    given: Mapping[str, Any], references: References | None, quantities: Sequence[str] = ()
+) -> tuple[str, list[Any]]:
+    """What is prescribed: its name, and its numbers (or arrays of them) in the library's order.
+
+    References must be there for it, and for the quantities that are asked for.
+    """
+    if references is None and {"approach", "stiffness"} & set(quantities):
+        raise TypeError("approach and stiffness are between references: give them")
     found = _CONTROLS.get(frozenset(given))
     if found is None or (found[0] == "approach" and references is None):
         raise TypeError(

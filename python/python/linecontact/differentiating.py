@@ -159,8 +159,6 @@ def _given(
     """What is prescribed, and between what an approach is measured."""
     numbers: dict[str, Any] = {**cast("Any", prescribed)}
     references: References | None = numbers.pop("references", None)
-    if references is None and {"approach", "stiffness"} & set(quantities):
-        raise TypeError("approach and stiffness are between references: give them")
-    kind, values = _control(numbers, references)
+    kind, values = _control(numbers, references, quantities)
     wanted = kind, [float(value) for value in values], references if kind == "approach" else None
     return wanted, references

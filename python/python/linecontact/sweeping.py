@@ -131,7 +131,7 @@ def sweep(
     """
     quantities = [quantities] if isinstance(quantities, str) else list(quantities)
     numbers = {name: np.asarray(values, dtype=np.float64) for name, values in prescribed.items()}
-    kind, given = _control(numbers, references)
+    kind, given = _control(numbers, references, quantities)
     lengths = {len(contacts)} if not isinstance(contacts, Contact) else set()
     for name, values in numbers.items():
         if values.ndim > 1:
@@ -140,8 +140,6 @@ def sweep(
     if len(lengths) > 1:
         raise ValueError(f"contacts and numbers are of {sorted(lengths)} rows: give as many of each, or one")
     rows = lengths.pop() if lengths else 1
-    if references is None and {"approach", "stiffness"} & set(quantities):
-        raise TypeError("approach and stiffness are between references: give them")
 
     if threads is not None and threads < 1:
         raise ValueError(f"{threads} threads: give one or more")
