@@ -2,7 +2,7 @@
 # Instructions of one call, counted by valgrind: unlike a time the same in every run.
 #
 #   benches/instructions.sh [PIECES...]      default 1 100
-#   benches/instructions.sh --check          compares with benches/instructions.tsv, within 5 %
+#   benches/instructions.sh --check          compares with benches/instructions.tsv, within 2 %
 #   benches/instructions.sh --update         keeps those of this run there
 #
 # A compiler other than the one that the counts kept are of makes other counts: --check says so and compares
@@ -77,13 +77,13 @@ print) counts "$@" ;;
             for (i = 1; i <= NF && same; i++) {
                 number = $i ~ /^[0-9]+$/ && old[i] ~ /^[0-9]+$/
                 off = number ? $i - old[i] : 0
-                same = number ? off <= 0.05 * old[i] && -off <= 0.05 * old[i] : $i == old[i]
+                same = number ? off <= 0.02 * old[i] && -off <= 0.02 * old[i] : $i == old[i]
             }
             if (!same) { print "kept  " kept[FNR] "\nfound " $0; bad = 1 }
         }
         END {
             if (bad || FNR != lines) { print "if that is meant, keep it with --update"; exit 1 }
-            print "instructions as kept, within 5 %"
+            print "instructions as kept, within 2 %"
         }' "$kept" "$found" || { rm "$found"; exit 1; }
     rm "$found"
     ;;

@@ -29,7 +29,7 @@ use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{
     ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
 };
-use crate::{ContactError, Interval, ParametricProfile, Real, Solver};
+use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Solver};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::ops::ControlFlow;
@@ -67,7 +67,7 @@ pub struct Contact<'b, T: Real> {
     gap: Gap<'b, T>,
     kappa: T,
     stiffness: Stiffness<T>,
-    edges: [Edge<T>; 2],
+    edges: Ends<Edge<T>>,
     edge_pressure: Option<EdgePressure<T>>,
     start: Option<Interval<T>>,
     search: Option<&'b dyn LimitSearch<T>>,
@@ -164,10 +164,10 @@ impl<T: Real> ContactState<T> {
         let tilt = conditions.tilt(interval, m);
         let mean = m.m0 + tilt;
         let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = [strength(m.m1 - mean), strength(m.m1 + mean)];
+        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
         let free = conditions.edges.map(|edge| edge.is_free());
         let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
-        let ends = [interval.left, interval.right];
+        let ends = Ends { left: interval.left, right: interval.right };
         Self {
             interval,
             load,
@@ -184,10 +184,10 @@ impl<T: Real> ContactState<T> {
     }
 
     /// A corner that is said to hold the contact, and would have to pull at it.
-    fn lifts_off(&self, edges: &[Edge<T>; 2]) -> Option<ContactError<T>> {
+    fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
         let mean = T::of(0.5) * self.load.abs() / self.interval.half_width();
         let rounding = T::epsilon().sqrt() * mean;
-        edges.iter().zip(self.strengths).find_map(|(edge, strength)| match *edge {
+        edges.zip(self.strengths).into_iter().find_map(|(edge, strength)| match edge {
             Edge::Fixed(x) if strength < -rounding => {
                 let (interval, load) = (self.interval, self.load);
                 Some(ContactError::LiftsOff { x, strength, interval, load })
@@ -250,7 +250,7 @@ impl<'b, T: Real> Contact<'b, T> {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
             stiffness: Stiffness::Default,
-            edges: [Edge::Free; 2],
+            edges: Ends::both(Edge::Free),
             edge_pressure: None,
             start: None,
             search: None,
@@ -303,7 +303,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
     #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
-        Self { edges: [left, right], edge_pressure: None, ..self }
+        Self { edges: Ends { left, right }, edge_pressure: None, ..self }
     }
 
     /// Edges where the pressure has given values at given distances from the limits: the paper's
@@ -439,7 +439,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if self.edge_pressure.is_some() {
             return refuse("the edges are by Eq. (6)");
         }
-        if self.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_))) {
+        if self.edges.are_adhesive() {
             return refuse("an edge is Adhesive");
         }
         if let Some(bodies) = self.elasticity()? {
@@ -591,11 +591,11 @@ impl<'b, T: Real> Contact<'b, T> {
         };
         // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
-        if found.strengths.iter().any(|strength| !strength.is_finite()) {
+        if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
             return Err(ContactError::Overflow { interval: found.interval });
         }
         let known = found.error.is_none_or(|error| error >= T::zero());
-        if !known && found.adhesive == [false; 2] {
+        if !known && found.adhesive == Ends::both(false) {
             return Err(ContactError::Overflow { interval: found.interval });
         }
         found.ends = self.ends();
@@ -624,15 +624,15 @@ impl<'b, T: Real> Contact<'b, T> {
         let nested = nested::find(self, equations, integrator, self.start, cost)?;
         let m = integrator.moments(&self.gap, nested.on)?;
         let given = Given::Load(load);
-        let conditions = Conditions { kappa, edges: [Edge::Fixed(load); 2], given };
+        let conditions = Conditions { kappa, edges: Ends::both(Edge::Fixed(load)), given };
         Ok(ContactState::new(&conditions, nested.on, load, Some(nested.error), &m))
     }
 
     /// The conditions of a given load.
     fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
-        let sought = edges.iter().any(|edge| edge.is_free());
-        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        let sought = edges.into_iter().any(|edge| edge.is_free());
+        let adhesive = edges.are_adhesive();
         if sought && !adhesive {
             check_positive("load", load)?;
         } else if !load.is_finite() {
@@ -642,17 +642,20 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Where the bodies end. A corner ends them.
-    fn ends(&self) -> [T; 2] {
+    fn ends(&self) -> Ends<T> {
         let [left, right] = self.gap.range();
         let corner = |edge: Edge<T>| match edge {
             Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => Some(x),
             _ => None,
         };
-        let [first, last] = self.edges.map(corner);
-        [first.map_or(left, |x| x.max(left)), last.map_or(right, |x| x.min(right))]
+        let corners = self.edges.map(corner);
+        Ends {
+            left: corners.left.map_or(left, |x| x.max(left)),
+            right: corners.right.map_or(right, |x| x.min(right)),
+        }
     }
 
-    fn checked_edges(&self) -> Result<[Edge<T>; 2], ContactError<T>> {
+    fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
@@ -686,11 +689,12 @@ fn check_positive<T: Real>(quantity: &'static str, value: T) -> Result<(), Conta
 /// Whether an interval lies in a range, up to the rounding of its limits.
 fn check_within<T: Real>(
     Interval { left, right }: Interval<T>,
-    range: [T; 2],
+    ends: Ends<T>,
     rounding: T,
 ) -> Result<(), ContactError<T>> {
-    for (x, beyond) in [(left, range[0] - left), (right, right - range[1])] {
+    for (x, beyond) in [(left, ends.left - left), (right, right - ends.right)] {
         if beyond > rounding {
+            let range = [ends.left, ends.right];
             return Err(ContactError::OutsideBodies { x, range });
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::profile::SplineError;
 use crate::search::SearchError;
-use crate::{Edge, Interval, PiecewiseError, ProfileError, Real};
+use crate::{Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
 use std::fmt;
 use thiserror::Error;
 
@@ -421,7 +421,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt \
          {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load \
-         inward, lower it, or extend the domain", ends[0], ends[1]
+         inward, lower it, or extend the domain", ends.left, ends.right
     )]
     TiltNotFound {
         /// Load per unit length asked for.
@@ -433,7 +433,7 @@ pub enum ContactError<T: Real> {
         /// The tilt of that contact.
         tilt: T,
         /// Where the bodies end.
-        ends: [T; 2],
+        ends: Ends<T>,
     },
     /// The bodies come apart: the pull is more than adhesion can bear.
     #[error(

@@ -21,7 +21,7 @@ pub use sampler::Sampler;
 use crate::profile::{Convexity, Piece};
 use crate::real::same;
 use crate::search::LimitSearch;
-use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real};
+use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real, Side};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -188,13 +188,6 @@ impl std::ops::AddAssign for Cost {
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
         self.heights = self.heights.saturating_add(other.heights);
     }
-}
-
-/// The side from which a breakpoint is looked at.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Side {
-    Left,
-    Right,
 }
 
 impl<'b, T: Real> Gap<'b, T> {

@@ -1,8 +1,9 @@
 //! The contact as an interval of x.
 
-use crate::Real;
 use crate::real::same;
+use crate::{Real, Side};
 use std::fmt::{Display, Formatter, LowerExp, Result};
+use std::ops::Index;
 
 /// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
 ///
@@ -71,6 +72,18 @@ impl<T: Real> Interval<T> {
             self.right - width * half.sin().powi(2)
         } else {
             self.left + width * half.cos().powi(2)
+        }
+    }
+}
+
+/// The limit on one side.
+impl<T> Index<Side> for Interval<T> {
+    type Output = T;
+
+    fn index(&self, side: Side) -> &T {
+        match side {
+            Side::Left => &self.left,
+            Side::Right => &self.right,
         }
     }
 }

@@ -84,6 +84,7 @@
 #[cfg(feature = "autodiff")]
 pub mod autodiff;
 pub mod contact;
+mod ends;
 mod error;
 pub mod gap;
 mod interval;
@@ -101,6 +102,7 @@ mod spring;
 mod sweep;
 
 pub use contact::{Contact, Control, Edge, EdgePressure};
+pub use ends::{Ends, Side};
 pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;

@@ -27,7 +27,7 @@ pub use midpoint::{Exponents, Midpoint};
 pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 use std::any::Any;
 
 /// How many times the budget of a search may be spent where no samples are kept.
@@ -94,7 +94,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
 
     /// Announces prescribed limits, at -b and at a, before samples are taken up to there: what the bodies do
     /// between the last sample and such a limit would go unseen. Default: no-op.
-    fn prescribe_limits(&mut self, _gap: &Gap<'_, T>, _limits: [Option<T>; 2]) {}
+    fn prescribe_limits(&mut self, _gap: &Gap<'_, T>, _limits: Ends<Option<T>>) {}
 
     /// The interval over which samples are at hand. `None` (the default) if none are kept.
     fn sampled_interval(&self) -> Option<Interval<T>> {
@@ -178,8 +178,8 @@ pub struct LoadCase<T> {
     pub kappa: T,
     /// Load per unit length F.
     pub load: T,
-    /// Whether the limits -b and a are such that `K_b` and `K_a` vanish: left before right.
-    pub free: [bool; 2],
+    /// Whether the edges are free: `K_b` and `K_a` vanish there.
+    pub free: Ends<bool>,
 }
 
 /// A value and how far it can be trusted.

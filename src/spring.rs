@@ -219,7 +219,7 @@ fn node<T: Real>(
     let half_width =
         solution.intervals().iter().fold(T::zero(), |sum, on: &Interval<T>| sum + on.half_width());
     let widening =
-        rates.limits.iter().fold(T::zero(), |sum, [left, right]| sum + half * (*right - *left));
+        rates.limits.iter().fold(T::zero(), |sum, rates| sum + half * (rates.right - rates.left));
     let (peak, growth) = match solution.peak() {
         Ok(peak) => (Some(peak.pressure), rates.pressure(peak.x)? / peak.pressure),
         Err(ContactError::Singular { .. }) => (None, T::zero()),

@@ -175,7 +175,7 @@ pub fn flat_punch() -> Made {
     }
     let formula = "K = F/(pi H): next to the edge the pressure is K/sqrt(1 - (x/H)^2)";
     let strength = n(load) / (PI * n(half));
-    case.closed(STRENGTH[1], Place::Whole, strength, solution.edge_singularities()[1], formula);
+    case.closed(STRENGTH[1], Place::Whole, strength, solution.edge_singularities().right, formula);
     let t = n(depth) / n(half);
     let far = (n(1.0) + t * t).sqrt();
     let rate = compliance(STEEL) / PI * (n(2.0) * t.asinh() - t / far / (n(1.0) - n(STEEL[1])));
@@ -220,8 +220,7 @@ fn tilted(case: &mut Case, half: f64, slope: f64, load: f64) -> Result<(), Box<d
             "F/(pi H) + E* m/2: next to the edge the pressure is that over sqrt(1 - (x/H)^2)",
             "F/(pi H) - E* m/2",
         ];
-        for i in 0..2 {
-            let solved = solution.edge_singularities()[i];
+        for (i, solved) in solution.edge_singularities().into_iter().enumerate() {
             case.closed(STRENGTH[i], Place::Whole, strengths[i], solved, formulas[i]);
         }
         let moment = -(steep * h * h / n(2.0));

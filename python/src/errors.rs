@@ -3,7 +3,7 @@
 use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::SplineError;
 use linecontact::search::{Root, SearchError};
-use linecontact::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError, Real};
+use linecontact::{Body, ContactError, Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use std::fmt::Display;
@@ -58,6 +58,12 @@ impl<T: Named> Named for [T; 2] {
 impl<T: Real + Named> Named for Interval<T> {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         [self.left, self.right].named(py)
+    }
+}
+
+impl<T: Named> Named for Ends<T> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        (self.left.named(py)?, self.right.named(py)?).into_py_any(py)
     }
 }
 

@@ -3,7 +3,9 @@
 use crate::call::{self, Array, Numbers};
 use crate::scene::{ReferenceRow, references};
 use linecontact::stress::{Stress, StressPeak};
-use linecontact::{Body, ContactError, Cost, Extremum, Interval, Outcome, Peak, Pressure, Start};
+use linecontact::{
+    Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -140,8 +142,9 @@ impl Solution {
     }
 
     #[getter]
-    fn edge_singularities(&self) -> [f64; 2] {
-        self.0.edge_singularities()
+    fn edge_singularities(&self) -> (f64, f64) {
+        let Ends { left, right } = self.0.edge_singularities();
+        (left, right)
     }
 
     #[getter]
@@ -218,7 +221,7 @@ impl Solution {
     fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Region>> {
         let contacts = call::library(py, || self.0.contacts())?;
         let region = |contact: &linecontact::ContactRegion<f64>| {
-            let [left, right] = contact.edge_singularities;
+            let Ends { left, right } = contact.edge_singularities;
             let peak = contact.peak.map(|peak| (peak.x, peak.pressure));
             let centre = contact.centre_of_pressure().ok();
             (pair(&contact.interval), contact.load, (left, right), peak, contact.moment(), centre)

@@ -20,7 +20,7 @@
 mod potential;
 
 use crate::numerics::dot;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use potential::{CellPlace, Potential};
 use std::cmp::Ordering::Equal;
@@ -95,7 +95,7 @@ pub(super) struct Coarse<T> {
     /// By how much body 2 is turned counter-clockwise.
     pub tilt: T,
     /// Whether the contact reaches the left and the right end of the range.
-    pub reaches: [bool; 2],
+    pub reaches: Ends<bool>,
 }
 
 /// Why no contact is found.
@@ -708,10 +708,10 @@ impl<T: Real> ActiveSet<T> {
     fn found(&self) -> Coarse<T> {
         let (intervals, runs) = (self.intervals(), self.runs());
         let last = self.cells.len().saturating_sub(1);
-        let reaches = [
-            runs.first().is_some_and(|run| run[0] == 0),
-            runs.last().is_some_and(|run| run[1] == last),
-        ];
+        let reaches = Ends {
+            left: runs.first().is_some_and(|run| run[0] == 0),
+            right: runs.last().is_some_and(|run| run[1] == last),
+        };
         let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
         Coarse { intervals, tilt, reaches }
     }
@@ -792,6 +792,7 @@ fn edge<T: Real>(mut cells: impl Iterator<Item = [T; 3]>) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Side;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
@@ -880,7 +881,7 @@ mod tests {
             let half = (4.0 * load / PI).sqrt();
             let &[on] = found.intervals.as_slice() else { panic!("{load}: {found:?}") };
             all.push(off(on, Interval { left: c - half, right: c + half }));
-            assert!(set.cells.len() <= 130 && found.reaches == [false; 2], "{found:?}");
+            assert!(set.cells.len() <= 130 && found.reaches == Ends::both(false), "{found:?}");
             // δ = F (1/2 - ln(L/2)) for distances in units of 1, here of 4.
         }
         all.sort_by(f64::total_cmp);
@@ -961,10 +962,10 @@ mod tests {
     #[test]
     fn corners_hold_the_ends() {
         for (a, k, phase, load, n, reaches) in [
-            (0.02, 7.0, 0.4, 0.05, 3, [true, false]),
-            (0.02, 7.0, 0.0, 0.08, 3, [true, true]),
-            (0.02, 4.2, 2.9, 0.05, 2, [true, true]),
-            (0.02, 7.0, 3.5, 0.002, 1, [false, false]),
+            (0.02, 7.0, 0.4, 0.05, 3, Ends { left: true, right: false }),
+            (0.02, 7.0, 0.0, 0.08, 3, Ends::both(true)),
+            (0.02, 4.2, 2.9, 0.05, 2, Ends::both(true)),
+            (0.02, 7.0, 3.5, 0.002, 1, Ends::both(false)),
         ] {
             let h = |x: f64| -a * (k * x + phase).cos() + 0.02 * x;
             let scene = scene(load, [-1.0, 1.0]);
@@ -974,9 +975,8 @@ mod tests {
             for (&on, &fine) in found.intervals.iter().zip(&fine.intervals) {
                 assert!(off(on, fine) < 0.12, "{on:?} {fine:?}");
             }
-            for (end, at, x) in [(0, 0, -1.0), (1, n - 1, 1.0)] {
-                let on = found.intervals[at];
-                assert_eq!([on.left, on.right][end] == x, found.reaches[end]);
+            for (end, at, x) in [(Side::Left, 0, -1.0), (Side::Right, n - 1, 1.0)] {
+                assert_eq!(found.intervals[at][end] == x, found.reaches[end]);
             }
         }
     }
@@ -1047,10 +1047,10 @@ mod tests {
     fn no_scene_is_a_trap() {
         let flat = find(&scene(0.1, [-1.0, 3.0]), |_| 7.0).unwrap();
         assert_eq!(flat.intervals, [Interval { left: -1.0, right: 3.0 }]);
-        assert_eq!(flat.reaches, [true; 2]);
+        assert_eq!(flat.reaches, Ends::both(true));
         let whole = f64::MAX / 4.0;
         let flat = find(&scene(1e-300, [-whole, whole]), |_| 0.0).unwrap();
-        assert_eq!(flat.reaches, [true; 2]);
+        assert_eq!(flat.reaches, Ends::both(true));
         // Heights that overflow with this load, and a range of three numbers.
         let steep = find(&scene(1e-300, [-1.0, 1.0]), |x| 1e10 * (x - 0.2).abs()).unwrap();
         assert!(steep.intervals.len() == 1 && (steep.intervals[0].centre() - 0.2).abs() < 1e-9);

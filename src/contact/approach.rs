@@ -12,7 +12,7 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, complete};
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, References, Report, Solved};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// Loads tried before the approach is given up.
 const MOST_LOADS: usize = 100;
@@ -66,7 +66,7 @@ pub(super) fn find<T: Real>(
     // Steps that are still to be made without a look at them, once the next squares what is left.
     let mut last_steps = None;
     let mut last_error = None;
-    let [left, right] = contact.ends();
+    let Ends { left, right } = contact.ends();
     let mut best = (Interval { left, right }, wanted);
     for _ in 0..MOST_LOADS {
         match at(load) {

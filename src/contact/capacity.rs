@@ -5,13 +5,13 @@
 //! bodies alone: it is found on panels of its own, whatever was asked for and by whatever means.
 
 use super::Contact;
-use super::edges::{Conditions, Edge};
+use super::edges::Conditions;
 use super::equations::Equations;
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
 use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Shares of the bodies that are left out at their ends where the slope is no number there, or too
 /// large for one.
@@ -75,30 +75,31 @@ impl<T: Real> Capacity<T> {
     }
 }
 
-/// The balanced contact that reaches the first of two ends; `None` where there is none, as between
+/// The balanced contact that reaches one of the ends; `None` where there is none, as between
 /// bodies that do not open towards their ends.
 pub(super) fn capacity<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
-    [left, right]: [T; 2],
+    ends: Ends<T>,
     cost: &mut Cost,
 ) -> Option<Capacity<T>> {
+    let Ends { left, right } = ends;
     let mut integrator = Panels::FULL.integrator().ok()?;
-    let fixed = conditions.edges.map(|edge| edge.limit());
+    let fixed = conditions.limits();
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
     let mut pinned = Pinned { contact, equations, integrator: &mut *integrator };
     let found = LEFT_OUT.into_iter().find_map(|share| {
         let out = T::of(share) * T::epsilon() * (right - left);
-        let [left, right] = [fixed[0].unwrap_or(left + out), fixed[1].unwrap_or(right - out)];
+        let (left, right) = (fixed.left.unwrap_or(left + out), fixed.right.unwrap_or(right - out));
         pinned.largest_contact(Interval { left, right })
     });
     let capacity = found.and_then(|(on, side)| {
         let m = integrator.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;
         integrator.prepare(&contact.gap, on).ok()?;
-        let free = [conditions.edges[1].is_free(), conditions.edges[0].is_free()];
+        let free = conditions.edges.map(|edge| edge.is_free());
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
-        let peak = if fixed == [None; 2] {
+        let peak = if fixed == Ends::both(None) {
             largest_pressure(&*integrator, &contact.gap, &load_case, (0, on), &mut Cost::default())
                 .ok()?
                 .1
@@ -106,11 +107,11 @@ pub(super) fn capacity<T: Real>(
         } else {
             T::one() / T::zero()
         };
-        Some(Capacity { on, end: [left, right][side], load, peak })
+        Some(Capacity { on, end: ends[side], load, peak })
     });
     *cost += integrator.cost();
     // Without adhesion one that would have to be pulled at is none: the bodies touch beside a hollow.
-    let pulled = conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+    let pulled = conditions.edges.are_adhesive();
     let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
     capacity.filter(bears)
 }
@@ -124,34 +125,37 @@ struct Pinned<'s, T: Real> {
 
 impl<T: Real> Pinned<'_, T> {
     /// The balanced one, and which end it reaches.
-    fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, usize)> {
+    fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, Side)> {
         let Interval { left, right } = whole;
         match self.equations.limits() {
-            [Some(_), _] => return Some((whole, 1)),
-            [_, Some(_)] => return Some((whole, 0)),
-            [None, None] => {}
+            Ends { left: Some(_), .. } => return Some((whole, Side::Right)),
+            Ends { right: Some(_), .. } => return Some((whole, Side::Left)),
+            Ends { left: None, right: None } => {}
         }
         let at_whole = self.shift(whole)?;
-        let side = usize::from(at_whole > T::zero());
+        let side = if at_whole > T::zero() { Side::Right } else { Side::Left };
         if at_whole.is_zero() {
             return Some((whole, side));
         }
         // One limit stays at the end towards which all of the bodies would shift, the other moves in.
         let on = |x: T| match side {
-            0 => Interval { left, right: x },
-            _ => Interval { left: x, right },
+            Side::Left => Interval { left, right: x },
+            Side::Right => Interval { left: x, right },
         };
-        let (mut wide, mut at_wide, mut width) = ([right, left][side], at_whole, right - left);
+        let (mut wide, mut at_wide, mut width) = (whole[side.other()], at_whole, right - left);
         for _ in 0..MOST_WIDTHS {
             width /= T::of(NARROWER);
-            let narrow = [left + width, right - width][side];
+            let narrow = match side {
+                Side::Left => left + width,
+                Side::Right => right - width,
+            };
             if on(narrow).half_width() <= T::zero() {
                 return None;
             }
             let at_narrow = self.shift(on(narrow))?;
             if (at_narrow > T::zero()) != (at_wide > T::zero()) {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
-                let [lo, hi] = if side == 0 { [one, other] } else { [other, one] };
+                let [lo, hi] = if side == Side::Left { [one, other] } else { [other, one] };
                 let bracket = Bracket::new(lo.0, hi.0).values(lo.1, hi.1);
                 let shift = |x| self.shift(on(x)).ok_or(());
                 let root = try_find(&Brent::DEFAULT, shift, &bracket).ok()?;

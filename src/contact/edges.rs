@@ -1,7 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::quadrature::Moments;
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 
 /// What becomes of one edge of the contact.
 ///
@@ -50,6 +50,18 @@ impl<T: Real> Edge<T> {
     }
 }
 
+impl<T: Real> Ends<Edge<T>> {
+    /// Whether adhesion acts at either edge.
+    pub(super) fn are_adhesive(self) -> bool {
+        self.into_iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
+    }
+
+    /// Whether either limit is to be found.
+    pub(super) fn are_sought(self) -> bool {
+        self.into_iter().any(|edge| edge.limit().is_none())
+    }
+}
+
 /// What is asked of the contact as a whole.
 #[derive(Clone, Copy)]
 pub(super) enum Given<T> {
@@ -66,8 +78,7 @@ pub(super) enum Given<T> {
 #[derive(Clone, Copy)]
 pub(super) struct Conditions<T> {
     pub kappa: T,
-    /// At -b and at a.
-    pub edges: [Edge<T>; 2],
+    pub edges: Ends<Edge<T>>,
     pub given: Given<T>,
 }
 
@@ -88,9 +99,14 @@ impl<T: Real> Conditions<T> {
         }
     }
 
+    /// The limits that are given.
+    pub fn limits(&self) -> Ends<Option<T>> {
+        self.edges.map(|edge| edge.limit())
+    }
+
     /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`. By roots, so as not to
     /// underflow.
-    pub fn edge_strengths(&self, half_width: T) -> [T; 2] {
+    pub fn edge_strengths(&self, half_width: T) -> Ends<T> {
         self.edges.map(|edge| match edge {
             Edge::Adhesive(work) => self.kappa.sqrt() * work.sqrt() * half_width.sqrt(),
             _ => T::zero(),
@@ -103,11 +119,11 @@ impl<T: Real> Conditions<T> {
         let Given::Centre { load, at } = self.given else { return T::zero() };
         let half_width = on.half_width();
         let by_load = load / (self.kappa * half_width);
-        match self.edges.map(|edge| edge.limit()) {
-            [None, None] => -m.m0,
-            [Some(_), None] => by_load - m.m1 - m.m0,
-            [None, Some(_)] => m.m1 - by_load - m.m0,
-            [Some(_), Some(_)] => {
+        match self.limits() {
+            Ends { left: None, right: None } => -m.m0,
+            Ends { left: Some(_), right: None } => by_load - m.m1 - m.m0,
+            Ends { left: None, right: Some(_) } => m.m1 - by_load - m.m0,
+            Ends { left: Some(_), right: Some(_) } => {
                 let second = m.m2.unwrap_or(T::zero());
                 let away = (on.centre() - at) / half_width;
                 second - m.m0 + (by_load + by_load) * away
@@ -120,11 +136,10 @@ impl<T: Real> Conditions<T> {
     pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
         let half_width = on.half_width();
         let (mut sum, mut count) = (T::zero(), 0);
-        let signs = [-T::one(), T::one()];
-        for ((edge, pull), sign) in
-            self.edges.iter().zip(self.edge_strengths(half_width)).zip(signs)
-        {
-            if edge.limit().is_none() {
+        let (limits, pulls) = (self.limits(), self.edge_strengths(half_width));
+        for (side, sign) in [(Side::Left, -T::one()), (Side::Right, T::one())] {
+            if limits[side].is_none() {
+                let pull = pulls[side];
                 sum += self.kappa * half_width * (m.m1 + sign * m.m0) - pull - pull;
                 count += 1;
             }
@@ -135,10 +150,14 @@ impl<T: Real> Conditions<T> {
     /// The interval, with those limits that are given.
     pub fn with_given_limits(&self, on: Interval<T>) -> Interval<T> {
         let width = on.right - on.left;
-        match self.edges.map(|edge| edge.limit()) {
-            [Some(left), None] if left >= on.right => Interval { left, right: left + width },
-            [None, Some(right)] if right <= on.left => Interval { left: right - width, right },
-            [left, right] => {
+        match self.limits() {
+            Ends { left: Some(left), right: None } if left >= on.right => {
+                Interval { left, right: left + width }
+            }
+            Ends { left: None, right: Some(right) } if right <= on.left => {
+                Interval { left: right - width, right }
+            }
+            Ends { left, right } => {
                 Interval { left: left.unwrap_or(on.left), right: right.unwrap_or(on.right) }
             }
         }
@@ -156,13 +175,13 @@ impl<T: Real> Conditions<T> {
 
     /// The interval, where both limits are given, or the half-width and one of them.
     pub fn both_limits(&self) -> Option<Interval<T>> {
-        let limits = self.edges.map(|edge| edge.limit());
-        match (limits, self.given) {
-            ([Some(left), Some(right)], _) => Some(Interval { left, right }),
-            ([Some(left), None], Given::HalfWidth(half_width)) => {
+        let Ends { left, right } = self.limits();
+        match (left, right, self.given) {
+            (Some(left), Some(right), _) => Some(Interval { left, right }),
+            (Some(left), None, Given::HalfWidth(half_width)) => {
                 Some(Interval { left, right: left + half_width + half_width })
             }
-            ([None, Some(right)], Given::HalfWidth(half_width)) => {
+            (None, Some(right), Given::HalfWidth(half_width)) => {
                 Some(Interval { left: right - half_width - half_width, right })
             }
             _ => None,

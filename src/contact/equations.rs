@@ -4,7 +4,7 @@ use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Integrator, LoadCase, Moments, complete};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// The conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
@@ -92,18 +92,18 @@ pub(super) fn relative_error<T: Real>(on: Interval<T>, m: &Moments<T>, sum: T) -
 
 impl<T: Real> Equations<T> {
     /// The limits -b and a, where they are given.
-    pub fn limits(&self) -> [Option<T>; 2] {
+    pub fn limits(&self) -> Ends<Option<T>> {
         match *self {
-            Self::Strength { conditions, .. } => conditions.edges.map(|edge| edge.limit()),
-            Self::Pressure { .. } => [None; 2],
+            Self::Strength { conditions, .. } => conditions.limits(),
+            Self::Pressure { .. } => Ends::both(None),
         }
     }
 
     /// Whether adhesion pulls at one edge more than at the other.
     pub fn is_lopsided(&self) -> bool {
         let Self::Strength { conditions, .. } = self else { return false };
-        let [at_b, at_a] = conditions.edge_strengths(T::one());
-        at_b != at_a
+        let pulls = conditions.edge_strengths(T::one());
+        pulls.left != pulls.right
     }
 
     /// Whether the conditions can be looked at on bodies that cover this range of x.
@@ -149,17 +149,18 @@ impl<T: Real> Equations<T> {
                 let both = m.m1.abs() + m.m0.abs();
                 // Only the free edges count.
                 let (at_a, at_b, needed, borne, sum) = match self.limits() {
-                    [Some(_), None] => {
-                        let (needed, borne) = (load + pull[1], carried + balance);
+                    Ends { left: Some(_), right: None } => {
+                        let (needed, borne) = (load + pull.right, carried + balance);
                         (needed - borne, needed - borne, needed, borne, both)
                     }
-                    [None, Some(_)] => {
-                        let (needed, borne) = (load + pull[0], carried - balance);
+                    Ends { left: None, right: Some(_) } => {
+                        let (needed, borne) = (load + pull.left, carried - balance);
                         (needed - borne, needed - borne, needed, borne, both)
                     }
                     _ => {
-                        let (at_a, at_b) = (load + pull[1] - carried, load + pull[0] - carried);
-                        let needed = load + half * (pull[0] + pull[1]);
+                        let (at_a, at_b) =
+                            (load + pull.right - carried, load + pull.left - carried);
+                        let needed = load + half * (pull.left + pull.right);
                         (at_a - balance, at_b + balance, needed, carried, m.m1.abs())
                     }
                 };
@@ -198,7 +199,7 @@ impl<T: Real> Equations<T> {
                 }
                 integrator.prepare(gap, on)?;
                 complete(integrator, gap, on, cost)?;
-                let load_case = LoadCase { kappa, load, free: [false; 2] };
+                let load_case = LoadCase { kappa, load, free: Ends::both(false) };
                 let mut error = T::zero();
                 let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
                     let estimate = integrator.estimate(gap, &load_case, x, cost)?;

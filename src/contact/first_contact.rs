@@ -1,9 +1,9 @@
 //! Where the bodies touch first: the point at which the slope of the gap passes from negative to
 //! positive. Every single contact of a gap whose slope rises contains it.
 
-use crate::gap::{Gap, Sampler, Side};
+use crate::gap::{Gap, Sampler};
 use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real, Side};
 
 /// Two abscissae and the slope of the gap there.
 struct Signs<T> {

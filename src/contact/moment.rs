@@ -5,7 +5,7 @@
 //! of the tilt samples nothing.
 
 use super::Contact;
-use super::edges::{Conditions, Edge, Given};
+use super::edges::{Conditions, Given};
 use super::topology::{self, Sought, Workspace};
 use crate::gap::Cost;
 use crate::quadrature::Integrator;
@@ -57,7 +57,7 @@ pub(super) fn find<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     let edges = contact.checked_edges()?;
     let refuse = |why| Err(ContactError::TiltNotSupported { why });
-    if edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_))) {
+    if edges.are_adhesive() {
         return refuse("an edge is Adhesive");
     }
     if contact.search.is_some() {
@@ -68,11 +68,12 @@ pub(super) fn find<T: Real>(
     }
     let LineOfLoad { load, at, rounding } = line;
     let conditions = Conditions { kappa: contact.kappa, edges, given: Given::Centre { load, at } };
-    let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
+    let given = !edges.are_sought();
     let ends = contact.ends();
     // All that presses lies on one side of it then.
-    if !(given || at > ends[0] && at < ends[1]) {
-        return Err(ContactError::OutsideBodies { x: at, range: ends });
+    if !(given || at > ends.left && at < ends.right) {
+        let range = [ends.left, ends.right];
+        return Err(ContactError::OutsideBodies { x: at, range });
     }
     let sought = Sought::By(conditions);
     let mut found = match topology::find(contact, sought, integrator, workspace, cost) {
@@ -112,7 +113,7 @@ fn nearest<T: Real>(
         topology::find(contact, sought, integrator, workspace, cost)
     };
     let half = T::of(0.5);
-    let (mut reached, mut beyond) = (half * ends[0] + half * ends[1], at);
+    let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);
     let Ok(mut found) = find(Given::Centre { load, at: reached }) else {
         return find(Given::Load(load)).err();
     };
@@ -124,7 +125,7 @@ fn nearest<T: Real>(
         }
     }
     let ContactState { tilt, interval: Interval { left, right }, .. } = found;
-    let room = (left - ends[0]).min(ends[1] - right);
-    let is_at_end = room <= T::of(AT_END) * (ends[1] - ends[0]);
+    let room = (left - ends.left).min(ends.right - right);
+    let is_at_end = room <= T::of(AT_END) * (ends.right - ends.left);
     is_at_end.then_some(ContactError::TiltNotFound { load, at, reached, tilt, ends })
 }

@@ -30,7 +30,7 @@ use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Integrator;
 use crate::search::{Bracket, LimitSearch, try_find};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 use centre::Centred;
 use derivatives::differentiate;
 
@@ -68,8 +68,8 @@ pub(super) fn find<T: Real>(
     }
     equations.check(range)?;
     let origin = match equations.limits() {
-        [Some(given), _] | [_, Some(given)] => given,
-        [None, None] => {
+        Ends { left: Some(given), .. } | Ends { right: Some(given), .. } => given,
+        Ends { left: None, right: None } => {
             let mut sampler = Sampler::default();
             let first = first_contact(&mut sampler, gap, start);
             *cost += sampler.cost;
@@ -78,8 +78,8 @@ pub(super) fn find<T: Real>(
     };
     let half_width = match (start, equations.limits()) {
         (Some(start), _) => start.half_width(),
-        (None, [Some(_), _]) => T::of(0.125) * (range[1] - origin),
-        (None, [_, Some(_)]) => T::of(0.125) * (origin - range[0]),
+        (None, Ends { left: Some(_), .. }) => T::of(0.125) * (range[1] - origin),
+        (None, Ends { right: Some(_), .. }) => T::of(0.125) * (origin - range[0]),
         (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
     };
     let mut search = NestedSearch::new(contact, equations, integrator, origin, cost);

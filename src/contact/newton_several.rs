@@ -10,7 +10,7 @@ use crate::gap::Gap;
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use std::cmp::Ordering;
 
 /// Steps before the search is given up.
@@ -34,8 +34,8 @@ pub(super) enum SeveralOutcome {
     Closed(usize),
     /// This contact vanishes.
     Lost(usize),
-    /// A limit reaches beyond the left (0) or the right (1) end of the bodies.
-    Beyond(usize),
+    /// A limit reaches beyond an end of the bodies.
+    Beyond(Side),
     Failed,
 }
 
@@ -44,8 +44,8 @@ pub(super) enum SeveralOutcome {
 pub(super) enum Besides<T> {
     /// The tilt under which the load acts at this place.
     Tilt(T),
-    /// The load under which the outermost limit is at the left (0) or the right (1) end of the bodies.
-    Load(usize),
+    /// The load under which the outermost limit is at an end of the bodies.
+    Load(Side),
 }
 
 /// A gap of so many units of rounding of x is nothing.
@@ -94,8 +94,8 @@ impl<T: Real> NewtonSeveral<T> {
         several: &mut Several<T>,
         gap: &Gap<'_, T>,
         load: T,
-        corners: [bool; 2],
-        ends: [T; 2],
+        corners: Ends<bool>,
+        ends: Ends<T>,
         besides: Option<Besides<T>>,
     ) -> Result<SeveralOutcome, ContactError<T>> {
         self.errors.clear();
@@ -123,7 +123,7 @@ impl<T: Real> NewtonSeveral<T> {
             several.system(self.load, &mut self.system);
             match besides {
                 Some(Besides::Tilt(at)) => several.turning(load, at, &mut self.system),
-                Some(Besides::Load(side)) => several.by_load(side == 1, &mut self.system),
+                Some(Besides::Load(side)) => several.by_load(side, &mut self.system),
                 None => {}
             }
             if let Some(i) = self.system.lost {
@@ -164,20 +164,20 @@ impl<T: Real> NewtonSeveral<T> {
             // Where one load reaches both ends, one of them is passed by rounding.
             if let Some(Besides::Load(_)) = besides {
                 let nothing = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
-                if self.on[0].left >= ends[0] - nothing {
-                    self.on[0].left = self.on[0].left.max(ends[0]);
+                if self.on[0].left >= ends.left - nothing {
+                    self.on[0].left = self.on[0].left.max(ends.left);
                 }
-                if self.on[last].right <= ends[1] + nothing {
-                    self.on[last].right = self.on[last].right.min(ends[1]);
+                if self.on[last].right <= ends.right + nothing {
+                    self.on[last].right = self.on[last].right.min(ends.right);
                 }
             }
             let next = Interval { left: self.on[0].left, right: self.on[last].right };
-            let (beyond_left, beyond_right) = (next.left < ends[0], next.right > ends[1]);
+            let (beyond_left, beyond_right) = (next.left < ends.left, next.right > ends.right);
             if beyond_left {
-                self.on[0].left = half * hull.left + half * ends[0];
+                self.on[0].left = half * hull.left + half * ends.left;
             }
             if beyond_right {
-                self.on[last].right = half * hull.right + half * ends[1];
+                self.on[last].right = half * hull.right + half * ends.right;
             }
             // A contact may have left the bodies as a whole.
             let ordered = |pair: [T; 2]| pair[0] < pair[1];
@@ -192,8 +192,8 @@ impl<T: Real> NewtonSeveral<T> {
                 cut = Some((place, times));
                 if times > MOST_CUT {
                     return Ok(match place {
-                        usize::MAX => SeveralOutcome::Beyond(1),
-                        place if place == usize::MAX - 1 => SeveralOutcome::Beyond(0),
+                        usize::MAX => SeveralOutcome::Beyond(Side::Right),
+                        place if place == usize::MAX - 1 => SeveralOutcome::Beyond(Side::Left),
                         place if place % 2 == 0 => SeveralOutcome::Lost(place / 2),
                         place => SeveralOutcome::Closed(place / 2),
                     });
@@ -240,8 +240,8 @@ impl<T: Real> NewtonSeveral<T> {
         several: &Several<T>,
         kappa: T,
         load: T,
-        corners: [bool; 2],
-        ends: [T; 2],
+        corners: Ends<bool>,
+        ends: Ends<T>,
     ) -> ContactState<T> {
         let on = &self.on;
         // The load goes about with the square of a width.
@@ -254,9 +254,9 @@ impl<T: Real> NewtonSeveral<T> {
         ContactState {
             interval: Interval { left: on[0].left, right: on[on.len() - 1].right },
             load,
-            strengths: [false, true].map(|right| kappa * several.strength(right)),
+            strengths: Ends::from_fn(|side| kappa * several.strength(side)),
             free: corners.map(|corner| !corner),
-            adhesive: [false; 2],
+            adhesive: Ends::both(false),
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             error_by_load: Some(sum / all),
             force: None,
@@ -267,18 +267,18 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// The free limits, by the number of their contact and whether they are right ones.
-    fn free(&self, corners: [bool; 2]) -> impl Iterator<Item = (usize, bool)> + use<T> {
+    fn free(&self, corners: Ends<bool>) -> impl Iterator<Item = (usize, bool)> + use<T> {
         let last = self.on.len() - 1;
         let both = (0..=last).flat_map(|i| [(i, false), (i, true)]);
         both.filter(move |&(i, right)| {
-            !(i == 0 && !right && corners[0] || i == last && right && corners[1])
+            !(i == 0 && !right && corners.left || i == last && right && corners.right)
         })
     }
 
     /// The width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
     /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
     /// left open.
-    fn too_far(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
+    fn too_far(&mut self, corners: Ends<bool>, cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
         let mut worst: Option<(T, CutWidth)> = None;
         for i in 0..self.moves.len() - 1 {
             let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
@@ -294,7 +294,7 @@ impl<T: Real> NewtonSeveral<T> {
             self.unit.resize(self.step.len(), T::zero());
             self.unit[row] = T::one();
             self.linear.solve(&self.unit, &mut self.open);
-            let left = place - usize::from(corners[0]);
+            let left = place - usize::from(corners.left);
             let narrows = |step: &[T]| step[left + 1] - step[left];
             // To nothing, of which the least is left.
             let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
@@ -325,7 +325,7 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// What the step moves each limit by.
-    fn set_moves(&mut self, corners: [bool; 2]) {
+    fn set_moves(&mut self, corners: Ends<bool>) {
         self.moves.clear();
         self.moves.resize(2 * self.on.len(), T::zero());
         let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
@@ -341,7 +341,7 @@ impl<T: Real> NewtonSeveral<T> {
 
     /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
     /// the load of a round body goes with it, and so does what is left of a gap that closes.
-    fn advance(&mut self, corners: [bool; 2], cut: Option<(CutWidth, i32)>) {
+    fn advance(&mut self, corners: Ends<bool>, cut: Option<(CutWidth, i32)>) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
         let count = self.moves.len();
         let mut order = std::mem::take(&mut self.order);
@@ -365,8 +365,8 @@ impl<T: Real> NewtonSeveral<T> {
                 None if corner => zero,
                 None => width,
             };
-            let left = room(i.checked_sub(1), corners[0]);
-            let right = room((i + 2 < count).then_some(i + 1), corners[1]);
+            let left = room(i.checked_sub(1), corners.left);
+            let right = room((i + 2 < count).then_some(i + 1), corners.right);
             let share = right / (left + right);
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
@@ -400,7 +400,7 @@ impl<T: Real> NewtonSeveral<T> {
 
     /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
     /// the pressure tells how narrow the gap is.
-    fn size(&self, corners: [bool; 2]) -> T {
+    fn size(&self, corners: Ends<bool>) -> T {
         let share = |((i, right), &step): ((usize, bool), &T)| {
             let gap = if right { Some(i) } else { i.checked_sub(1) };
             let gap =
@@ -434,7 +434,7 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// What the equations leave open of the limits, and rounding.
-    fn estimate(&mut self, corners: [bool; 2]) {
+    fn estimate(&mut self, corners: Ends<bool>) {
         let n = self.step.len();
         self.open.clear();
         self.open.resize(n, T::zero());
@@ -470,7 +470,7 @@ mod tests {
         body: &dyn crate::ParametricProfile<f64>,
         load: f64,
         start: &[[f64; 2]],
-        corners: [bool; 2],
+        corners: Ends<bool>,
     ) -> (Vec<Interval<f64>>, Vec<f64>, Several<f64>) {
         let inversion = Inversion::default();
         let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(body), &inversion).unwrap();
@@ -478,7 +478,7 @@ mod tests {
         let mut newton = NewtonSeveral::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
         let outcome =
-            newton.converge(&mut several, &gap, load, corners, gap.range(), None).unwrap();
+            newton.converge(&mut several, &gap, load, corners, gap.range().into(), None).unwrap();
         assert_eq!(outcome, SeveralOutcome::Found, "{:?}", newton.on);
         (newton.on, newton.errors, several)
     }
@@ -496,7 +496,7 @@ mod tests {
             let off = 0.1 * (be - al);
             let start = [[-be + off, -al - off], [al + off, be - off]];
             let (on, errors, several) =
-                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, [false; 2]);
+                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, Ends::both(false));
             let width = be - al;
             let limits = on.iter().flat_map(|on| [on.left, on.right]);
             for ((x, due), error) in limits.zip([-be, -al, al, be]).zip(errors) {
@@ -541,7 +541,7 @@ mod tests {
             let [al, be] = [((1.0 - a) / 2.0).sqrt(), ((1.0 + a) / 2.0).sqrt()];
             let off = 0.05 * (be - al);
             let start = [[-be - off, -al + off], [al + off, be + off]];
-            let (on, _, several) = solve(&body, load, &start, [false; 2]);
+            let (on, _, several) = solve(&body, load, &start, Ends::both(false));
             for (x, due) in
                 [(on[0].left, -be), (on[0].right, -al), (on[1].left, al), (on[1].right, be)]
             {

@@ -41,10 +41,10 @@
 //! little, and a wider one less, as under adhesion, it is widened until it grows with its load. A step that would
 //! leave the bodies goes half the way to their end.
 
-use super::edges::{Conditions, Edge, Given};
+use super::edges::{Conditions, Given};
 use super::single_contact::MOST_DOUBT;
 use crate::quadrature::{Integrator, Moments};
-use crate::{ContactError, Gap, Interval, Real};
+use crate::{ContactError, Ends, Gap, Interval, Real, Side};
 use nalgebra::{Matrix2, Vector2};
 
 /// Trials before the search is given up, in an initial guess and in full. An initial guess that takes long has no contact.
@@ -315,8 +315,8 @@ fn moved<T: Real>(
         let square = (one + asked + asked).max(T::of(1e-3));
         ((square - one) / (one + square.sqrt())).min(T::of(3.0))
     };
-    match conditions.edges.map(|edge| edge.limit()) {
-        [None, None] => {
+    match conditions.limits() {
+        Ends { left: None, right: None } => {
             let along = match conditions.given {
                 // Where the bodies turn the balance is another.
                 Given::Centre { .. } => along.max(-one).min(one),
@@ -337,7 +337,7 @@ fn moved<T: Real>(
                 _ => on,
             }
         }
-        [left, right] => Interval {
+        Ends { left, right } => Interval {
             left: left.unwrap_or(on.left - (wider + wider) * half_width),
             right: right.unwrap_or(on.right + (wider + wider) * half_width),
         },
@@ -357,7 +357,7 @@ fn before_ends<T: Real>(
     }
     let half = T::of(0.5);
     let ends = [half * (from.left + range[0]), half * (from.right + range[1])];
-    let [left, right] = conditions.edges.map(|edge| edge.limit());
+    let Ends { left, right } = conditions.limits();
     let back = (to.right - ends[1]).max(T::zero());
     let on = (ends[0] - to.left).max(T::zero());
     Interval {
@@ -368,7 +368,7 @@ fn before_ends<T: Real>(
 
 /// Whether adhesion acts, under which the bodies need not open at the other edge either.
 fn is_pulled<T: Real>(conditions: &Conditions<T>) -> bool {
-    conditions.edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
+    conditions.edges.are_adhesive()
 }
 
 /// Whether the bodies, turned by so much, open at those edges of a contact that are free.
@@ -380,7 +380,7 @@ fn opens<T: Real>(
 ) -> bool {
     let opens =
         |x: T, sign: T| integrator.slope(x).is_none_or(|slope| (slope + tilt) * sign >= T::zero());
-    let [left, right] = &conditions.edges;
+    let Ends { left, right } = conditions.edges;
     is_pulled(conditions)
         || (!left.is_free() || opens(on.left, -T::one()))
             && (!right.is_free() || opens(on.right, T::one()))
@@ -459,8 +459,8 @@ impl<T: Real> Linearised<T> {
         let trend = m.derivatives?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
-        let [pull_b, pull_a] = conditions.edge_strengths(half_width);
-        let scale = load.abs() + stiffness * m.l1_norm + pull_a + pull_b;
+        let pulls = conditions.edge_strengths(half_width);
+        let scale = load.abs() + stiffness * m.l1_norm + pulls.right + pulls.left;
         if !(scale > zero && scale.is_finite()) {
             return None;
         }
@@ -472,14 +472,16 @@ impl<T: Real> Linearised<T> {
             Given::Centre { at, .. } => Some(Turning::new(conditions, at, on, m)?),
             _ => None,
         };
-        let row = |sign: T, edge: &Edge<T>, pull: T, x: T| match (edge.limit(), &turning) {
-            (Some(limit), _) => ((x - limit) * by_width, [zero, one], zero),
+        let limits = conditions.limits();
+        let row = |sign: T, side: Side| match (limits[side], &turning) {
+            (Some(limit), _) => ((on[side] - limit) * by_width, [zero, one], zero),
             (None, Some(turning)) => {
                 let [residual, centre, width] = turning.row(sign).map(|x| x * by_scale);
                 let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
                 (residual, [away, own], one)
             }
             (None, None) => {
+                let pull = pulls[side];
                 let carried = m.m1 + sign * m.m0;
                 let residual = (load + pull + pull) * by_scale - weight * carried;
                 let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
@@ -489,11 +491,10 @@ impl<T: Real> Linearised<T> {
                 (residual, [away, own], one)
             }
         };
-        let (at_b, [ba, bb], force_b) = row(-one, &conditions.edges[0], pull_b, on.left);
-        let (at_a, [ab, aa], force_a) = row(one, &conditions.edges[1], pull_a, on.right);
+        let (at_b, [ba, bb], force_b) = row(-one, Side::Left);
+        let (at_a, [ab, aa], force_a) = row(one, Side::Right);
         // The difference of the rows without their factor L: the change of that is taken off their derivatives.
-        let is_balance =
-            turning.is_none() && conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let is_balance = turning.is_none() && limits == Ends::both(None);
         let lean = if is_balance { T::of(0.25) * (at_a - at_b) } else { zero };
         let (jacobian, residual) = ([[bb - lean, ba + lean], [ab + lean, aa - lean]], [at_b, at_a]);
         let [[bb, ba], [ab, aa]] = jacobian;
@@ -553,11 +554,12 @@ impl<T: Real> Linearised<T> {
     /// Whether the contact grows with its load: where it does not, another does.
     fn is_stable(&self, conditions: &Conditions<T>) -> bool {
         let [[bb, ba], [ab, aa]] = self.jacobian;
-        match (conditions.given, conditions.edges.map(|edge| edge.limit())) {
-            (Given::HalfWidth(_), _) | (_, [Some(_), Some(_)]) => true,
-            (_, [None, None]) => aa * bb < ab * ba,
-            (_, [Some(_), None]) => aa < T::zero(),
-            (_, [None, Some(_)]) => bb > T::zero(),
+        let Ends { left, right } = conditions.limits();
+        match (conditions.given, left, right) {
+            (Given::HalfWidth(_), ..) | (_, Some(_), Some(_)) => true,
+            (_, None, None) => aa * bb < ab * ba,
+            (_, Some(_), None) => aa < T::zero(),
+            (_, None, Some(_)) => bb > T::zero(),
         }
     }
 
@@ -601,7 +603,7 @@ impl<T: Real> Turning<T> {
         let carried =
             [stiffness * m.m1, by_width * trend.by_1, stiffness * m.m1 + by_width * trend.by_2];
         let left = load - carried[0];
-        let both_free = conditions.edges.iter().all(|edge| edge.limit().is_none());
+        let both_free = conditions.limits() == Ends::both(None);
         let (acting, load) = if both_free {
             (carried, [left, -carried[1], -carried[2]])
         } else {

@@ -13,7 +13,7 @@ use crate::quadrature::{Estimate, Integrator, LoadCase, complete};
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::solution::ContactState;
 use crate::solution::largest_pressure;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// Loads tried before the pressure is given up.
 const MOST_LOADS: usize = 200;
@@ -36,7 +36,7 @@ type PeakTrial<T> = (ContactState<T>, T, T);
 
 impl<T: Real> Trials<'_, T> {
     fn conditions(&self, given: Given<T>) -> Conditions<T> {
-        Conditions { kappa: self.contact.kappa, edges: [Edge::Free; 2], given }
+        Conditions { kappa: self.contact.kappa, edges: Ends::both(Edge::Free), given }
     }
 
     fn at(&mut self, given: Given<T>) -> Result<PeakTrial<T>, ContactError<T>> {
@@ -46,7 +46,7 @@ impl<T: Real> Trials<'_, T> {
         let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
         let found = single.find(self.last);
         // A corner may end them before they end themselves.
-        if contact.ends() == contact.gap.range() {
+        if contact.ends() == contact.gap.range().into() {
             self.bears = single.bears;
         }
         let found = found?;
@@ -72,7 +72,7 @@ impl<T: Real> Trials<'_, T> {
 /// A corner on the bodies may end them; at any other edge but a free one the pressure is infinite.
 fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
     let edges = contact.checked_edges()?;
-    if let [Edge::Fixed(left), Edge::Fixed(right)] = edges {
+    if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
         return Err(ContactError::BothLimitsGiven { interval: Interval { left, right } });
     }
     let range = contact.gap.range();

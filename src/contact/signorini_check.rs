@@ -9,7 +9,7 @@ use crate::gap::{Cost, Gap, LowPoint, Sampler};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use std::cmp::Ordering;
 
 /// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.
@@ -124,7 +124,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         TensionSpans { spans: tension_spans, seen }: &mut TensionSpans<T>,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
-        let adhesive = self.found.adhesive != [false; 2];
+        let adhesive = self.found.adhesive != Ends::both(false);
         if adhesive || panels::rises(self.integrator, self.found.nothing()) == Some(true) {
             return Ok(None);
         }
@@ -220,8 +220,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             worst.get_or_insert([x, pressure]);
             tension_spans.push(Interval {
-                left: self.presses_from(x, false)?,
-                right: self.presses_from(x, true)?,
+                left: self.presses_from(x, Side::Left)?,
+                right: self.presses_from(x, Side::Right)?,
             });
         }
         Ok(worst)
@@ -229,9 +229,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// The place nearest to one without pressure, of some that lie twice as far away each, where there is some;
     /// or else the end of the contact.
-    fn presses_from(&self, x: T, right: bool) -> Result<T, ContactError<T>> {
+    fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
         let on = self.contacts().iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
-        let end = if right { on.right } else { on.left };
+        let end = on[side];
         let mut places = [x; HALVES];
         let mut away = end - x;
         for place in places.iter_mut().rev() {
@@ -318,15 +318,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if next <= last && contacts[next].left <= x {
                 continue;
             }
-            let (edge, contact, right) = match next.checked_sub(1) {
-                None => (contacts[0].left, 0, false),
-                Some(before) => (contacts[before].right, before, true),
+            let (contact, side) = match next.checked_sub(1) {
+                None => (0, Side::Left),
+                Some(before) => (before, Side::Right),
             };
             let (_, at_edge, taken) = match from.filter(|&(at, ..)| at == next) {
                 Some(known) => known,
                 None => {
+                    let edge = contacts[contact][side];
                     let height = match panels::several(self.integrator) {
-                        Some(several) => several.height(contact, right),
+                        Some(several) => several.height(contact, side),
                         None => sampler.height(self.gap, self.gap.nearest(edge))?,
                     };
                     *from.insert((next, height, total(edge)))

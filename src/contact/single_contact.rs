@@ -18,7 +18,7 @@ use super::newton_single::{self, Converged, Effort, Outcome, load_of};
 use crate::gap::{CoarseHeights, Cost, Sampler};
 use crate::quadrature::{Integrator, panels};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, ProfileError, Real};
+use crate::{ContactError, Ends, Interval, ProfileError, Real, Side};
 
 /// More doubt than this, as a share of the half-width, is no contact found.
 pub(super) const MOST_DOUBT: f64 = 0.03;
@@ -53,6 +53,14 @@ pub(super) struct Single<'s, 'b, T: Real> {
     pub bears: Option<Option<Capacity<T>>>,
 }
 
+/// How far a limit lies beyond a corner on its side.
+fn beyond<T: Real>(on: Interval<T>, side: Side, corner: T) -> T {
+    match side {
+        Side::Left => corner - on.left,
+        Side::Right => on.right - corner,
+    }
+}
+
 impl<T: Real> Single<'_, '_, T> {
     /// Finds the contact, first around the last one.
     pub fn find(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
@@ -62,12 +70,13 @@ impl<T: Real> Single<'_, '_, T> {
         let range = self.contact.gap.range();
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         let mut one_held = false;
-        for (i, edge) in self.conditions.edges.iter_mut().enumerate() {
+        for side in Side::BOTH {
+            let edge = &mut self.conditions.edges[side];
             if let Edge::FreeUntil(x) = *edge {
                 if !(x >= range[0] && x <= range[1]) {
                     return Err(ContactError::OutsideBodies { x, range });
                 }
-                let touched = last.map(|on| [on.left, on.right][i] == x);
+                let touched = last.map(|on| on[side] == x);
                 let held = touched.unwrap_or(by_load) && (by_load || !one_held);
                 one_held |= held;
                 *edge = if held { Edge::Fixed(x) } else { Edge::Free };
@@ -76,11 +85,9 @@ impl<T: Real> Single<'_, '_, T> {
         let mut found = match self.between_edges(last) {
             Err(error) if self.conditions.edges != corners => {
                 // A corner that is far off may not be held at all.
-                for (edge, corner) in self.conditions.edges.iter_mut().zip(&corners) {
-                    if let Edge::FreeUntil(_) = corner {
-                        *edge = Edge::Free;
-                    }
-                }
+                let let_go =
+                    |edge| if matches!(edge, Edge::FreeUntil(_)) { Edge::Free } else { edge };
+                self.conditions.edges = corners.map(let_go);
                 self.between_edges(last).map_err(|_| error)?
             }
             found => found?,
@@ -88,13 +95,12 @@ impl<T: Real> Single<'_, '_, T> {
         for _ in 0..4 {
             let on = found.interval;
             let mut changed = false;
-            for (i, corner) in corners.iter().enumerate() {
-                let Edge::FreeUntil(x) = *corner else { continue };
-                let beyond = if i == 0 { on.left < x } else { on.right > x };
-                let edge = &mut self.conditions.edges[i];
-                if edge.is_free() && beyond {
+            for side in Side::BOTH {
+                let Edge::FreeUntil(x) = corners[side] else { continue };
+                let edge = &mut self.conditions.edges[side];
+                if edge.is_free() && beyond(on, side, x) > T::zero() {
                     (*edge, changed) = (Edge::Fixed(x), true);
-                } else if !edge.is_free() && found.strengths[i] < T::zero() {
+                } else if !edge.is_free() && found.strengths[side] < T::zero() {
                     (*edge, changed) = (Edge::Free, true);
                 }
             }
@@ -104,11 +110,10 @@ impl<T: Real> Single<'_, '_, T> {
             found = self.between_edges(Some(on))?;
         }
         let on = found.interval;
-        for (i, corner) in corners.iter().enumerate() {
-            let Edge::FreeUntil(x) = *corner else { continue };
-            let beyond = if i == 0 { x - on.left } else { on.right - x };
+        for side in Side::BOTH {
+            let Edge::FreeUntil(x) = corners[side] else { continue };
             // Neither held by the corner nor within it.
-            if beyond > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
+            if beyond(on, side, x) > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
                 return Err(ContactError::NoEquilibrium { half_width: on.half_width(), near: x });
             }
         }
@@ -124,12 +129,8 @@ impl<T: Real> Single<'_, '_, T> {
     ) -> Result<ContactState<T>, ContactError<T>> {
         let Conditions { edges, given, .. } = self.conditions;
         let pulled = matches!(given, Given::Load(load) if load <= T::zero());
-        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
-        if pulled && adhesive && edges.iter().any(|edge| edge.limit().is_none()) {
-            self.pull(last)
-        } else {
-            self.press(last)
-        }
+        let adhesive = edges.are_adhesive();
+        if pulled && adhesive && edges.are_sought() { self.pull(last) } else { self.press(last) }
     }
 
     /// The same for a load that presses.
@@ -138,7 +139,7 @@ impl<T: Real> Single<'_, '_, T> {
         if let Some(on) = self.conditions.both_limits() {
             return self.given(on);
         }
-        let limits = self.conditions.edges.map(|edge| edge.limit());
+        let limits = self.conditions.limits();
         for x in limits.into_iter().flatten() {
             if !(x >= range[0] && x <= range[1]) {
                 return Err(ContactError::OutsideBodies { x, range });
@@ -303,14 +304,14 @@ impl<T: Real> Single<'_, '_, T> {
         let (gap, range, conditions) =
             (&self.contact.gap, self.contact.gap.range(), &self.conditions);
         super::check(on)?;
-        let sought = conditions.edges.iter().any(|edge| edge.limit().is_none());
+        let sought = conditions.edges.are_sought();
         if !sought && matches!(conditions.given, Given::HalfWidth(_)) {
             return Err(ContactError::BothLimitsGiven { interval: on });
         }
         let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
-        super::check_within(on, range, if sought { rounding } else { T::zero() })?;
+        super::check_within(on, range.into(), if sought { rounding } else { T::zero() })?;
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
-        self.integrator.prescribe_limits(gap, conditions.edges.map(|edge| edge.limit()));
+        self.integrator.prescribe_limits(gap, conditions.limits());
         // What was sampled for the last load serves for the next.
         let serves = |covered: Interval<T>| {
             let within = covered.left <= on.left && covered.right >= on.right;
@@ -458,7 +459,7 @@ impl<T: Real> Single<'_, '_, T> {
     fn start_if_known(&self) -> Option<Interval<T>> {
         let Conditions { edges, given, kappa } = self.conditions;
         // Beside what adhesion adds a load tells nothing.
-        let adhesive = edges.iter().any(|edge| matches!(edge, Edge::Adhesive(_)));
+        let adhesive = edges.are_adhesive();
         let load = match given {
             Given::Load(load) if !adhesive => Some(load / kappa),
             _ => None,
@@ -513,7 +514,7 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// A span need not go beyond a fixed edge.
     fn up_to_corners(&self, on: Interval<T>) -> Interval<T> {
-        let [left, right] = self.conditions.edges.map(|edge| edge.limit());
+        let Ends { left, right } = self.conditions.limits();
         Interval { left: left.unwrap_or(on.left), right: right.unwrap_or(on.right) }.plain()
     }
 
@@ -553,8 +554,8 @@ impl<T: Real> Single<'_, '_, T> {
         };
         // Narrower contacts bear less than this. Where a step leads astray, half of it may not; what is
         // left of the pull in the end is less than a thousandth of it.
-        let [pull_b, pull_a] = self.conditions.edge_strengths(last.half_width());
-        let least_of_all = T::of(-2.0) * (pull_a + pull_b);
+        let pulls = self.conditions.edge_strengths(last.half_width());
+        let least_of_all = T::of(-2.0) * (pulls.right + pulls.left);
         let mut step = (load - least).max(least_of_all - least.max(T::zero()));
         for _ in 0..MOST_PULLS {
             let next = (least + step).max(load);
@@ -587,7 +588,8 @@ impl<T: Real> Single<'_, '_, T> {
             return Ok(());
         }
         let range = contact.gap.range();
-        let bears = self.bears.get_or_insert_with(|| capacity(contact, conditions, range, cost));
+        let bears =
+            self.bears.get_or_insert_with(|| capacity(contact, conditions, range.into(), cost));
         let room = T::one() + T::of(8.0) * T::epsilon();
         match (conditions.given, bears) {
             (Given::Load(load), Some(bears)) if load > bears.load => Err(bears.too_short(load)),

@@ -19,7 +19,7 @@ use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
@@ -107,7 +107,7 @@ pub(super) fn find<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     let gap = &contact.gap;
     let edges = contact.checked_edges()?;
-    let given = edges.iter().all(|edge| matches!(edge, Edge::Fixed(_)));
+    let given = !edges.are_sought();
     let convex = gap.is_convex();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
@@ -130,7 +130,7 @@ pub(super) fn find<T: Real>(
         let found = found?;
         // Between two given limits a load leaves nothing to be sought: that is the equation's solution, whatever it
         // is. Bodies that turn have a contact.
-        let fault = found.lifts_off(&edges).filter(|_| turns && !contact.single_interval);
+        let fault = found.lifts_off(edges).filter(|_| turns && !contact.single_interval);
         return fault.map_or(Ok(found), Err);
     }
     let mut fault = None;
@@ -181,9 +181,9 @@ struct Search<'s, 'b, T: Real> {
     /// Where gaps have closed.
     closed: Vec<Interval<T>>,
     /// The end of the bodies that contacts reach, where no corner holds them.
-    runs_out: Option<usize>,
+    runs_out: Option<Side>,
     /// The end of the bodies that the contacts are to reach, where the load is sought under which they do.
-    end: Option<usize>,
+    end: Option<Side>,
     /// Whether cells have done so before.
     has_run_out: bool,
 }
@@ -225,7 +225,7 @@ impl<T: Real> Search<'_, '_, T> {
         found: &ContactState<T>,
         convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        if let Some(error) = found.lifts_off(&self.contact.edges) {
+        if let Some(error) = found.lifts_off(self.contact.edges) {
             return Err(error);
         }
         if convex {
@@ -259,7 +259,7 @@ impl<T: Real> Search<'_, '_, T> {
             if fields.is_empty() {
                 check.fields(fields)?;
             }
-            let [left, right] = self.contact.ends();
+            let Ends { left, right } = self.contact.ends();
             let within = |low: &LowPoint<T>| low.x >= left && low.x <= right;
             let turned =
                 |low: LowPoint<T>| LowPoint { height: gap.turned(low.x, low.height), ..low };
@@ -297,14 +297,13 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
-        let adhesive = |edge: &Edge<T>| matches!(edge, Edge::Adhesive(_));
         // Integrators of the user's, and the paper's, know but one contact; so do the searches.
         let by_load = matches!(
             self.sought,
             Sought::By(Conditions { given: Given::Load(_) | Given::Centre { .. }, .. })
         );
         by_load
-            && !self.contact.edges.iter().any(adhesive)
+            && !self.contact.edges.are_adhesive()
             && self.contact.search.is_none()
             && panels::is_panels(self.integrator)
     }
@@ -355,10 +354,10 @@ impl<T: Real> Search<'_, '_, T> {
             let Workspace { newton: NewtonSeveral { on, .. }, before, .. } = &mut *self.workspace;
             before.clone_from(on);
             let last = on.len() - 1;
-            let corners = [
-                fixed[0] || at_corner[0] && on[0].left <= ends[0],
-                fixed[1] || at_corner[1] && on[last].right >= ends[1],
-            ];
+            let corners = Ends {
+                left: fixed.left || at_corner.left && on[0].left <= ends.left,
+                right: fixed.right || at_corner.right && on[last].right >= ends.right,
+            };
             let found = match self.converge(&conditions, corners, ends) {
                 Ok(found) => found,
                 Err(error) if error.may_be_several() => {
@@ -407,12 +406,11 @@ impl<T: Real> Search<'_, '_, T> {
                     on.remove(i);
                     Outcome::Lost
                 }
-                SeveralOutcome::Beyond(0) if at_corner[0] => {
-                    on[0].left = ends[0];
-                    Outcome::ReachedCorner
-                }
-                SeveralOutcome::Beyond(1) if at_corner[1] => {
-                    on[last].right = ends[1];
+                SeveralOutcome::Beyond(side) if at_corner[side] => {
+                    match side {
+                        Side::Left => on[0].left = ends.left,
+                        Side::Right => on[last].right = ends.right,
+                    }
                     Outcome::ReachedCorner
                 }
                 // This end is reached under less.
@@ -453,8 +451,8 @@ impl<T: Real> Search<'_, '_, T> {
     fn converge(
         &mut self,
         conditions: &Conditions<T>,
-        corners: [bool; 2],
-        ends: [T; 2],
+        corners: Ends<bool>,
+        ends: Ends<T>,
     ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
         let contact = self.contact;
         let newton = &mut self.workspace.newton;
@@ -465,7 +463,8 @@ impl<T: Real> Search<'_, '_, T> {
             if self.end.is_some() {
                 let mut widest = capacity(contact, &conditions, ends, cost);
                 // At a corner more is borne, up to the other end.
-                for (edge, end) in conditions.edges.iter_mut().zip(ends) {
+                for side in Side::BOTH {
+                    let (edge, end) = (&mut conditions.edges[side], ends[side]);
                     if matches!(edge, Edge::FreeUntil(_)) && widest.is_some_and(|at| at.end == end)
                     {
                         *edge = Edge::Fixed(end);
@@ -482,13 +481,13 @@ impl<T: Real> Search<'_, '_, T> {
             (newton.on[0], newton.tilt) = (found.interval, found.tilt);
             return Ok(Ok(found));
         }
-        for (side, corner) in corners.into_iter().enumerate() {
+        for side in Side::BOTH {
             let last = newton.on.len() - 1;
-            let is_there = corner || self.end == Some(side);
-            match side {
-                0 if is_there => newton.on[0].left = ends[0],
-                1 if is_there => newton.on[last].right = ends[1],
-                _ => {}
+            if corners[side] || self.end == Some(side) {
+                match side {
+                    Side::Left => newton.on[0].left = ends.left,
+                    Side::Right => newton.on[last].right = ends.right,
+                }
             }
         }
         let Some(several) = panels::several_mut(self.integrator) else {
@@ -506,19 +505,20 @@ impl<T: Real> Search<'_, '_, T> {
         };
         let found = newton.found(several, conditions.kappa, load, corners, ends);
         // A corner that pulls does not hold the contact.
-        for (side, edge) in conditions.edges.iter().enumerate() {
+        for side in Side::BOTH {
             if corners[side]
                 && found.strengths[side] < T::zero()
-                && matches!(edge, Edge::FreeUntil(_))
+                && matches!(conditions.edges[side], Edge::FreeUntil(_))
             {
                 let last = newton.on.len() - 1;
-                let inward =
-                    T::of(CLOSER) * newton.on[if side == 0 { 0 } else { last }].half_width();
+                let outermost = &mut newton.on[if side == Side::Left { 0 } else { last }];
+                let inward = T::of(CLOSER) * outermost.half_width();
                 match side {
-                    0 => newton.on[0].left += inward,
-                    _ => newton.on[last].right -= inward,
+                    Side::Left => outermost.left += inward,
+                    Side::Right => outermost.right -= inward,
                 }
-                let corners = if side == 0 { [false, corners[1]] } else { [corners[0], false] };
+                let mut corners = corners;
+                corners[side] = false;
                 return self.converge(conditions, corners, ends);
             }
         }
@@ -540,10 +540,10 @@ impl<T: Real> Search<'_, '_, T> {
         }
         if let ContactError::Overlap { x, .. } = *fault {
             let (half, ends) = (T::of(0.5), self.contact.ends());
-            let aside = T::of(CLOSER * CLOSER) * (ends[1] - ends[0]);
+            let aside = T::of(CLOSER * CLOSER) * (ends.right - ends.left);
             let at = on.partition_point(|on| on.right < x);
-            let left = if at == 0 { ends[0] } else { on[at - 1].right };
-            let right = on.get(at).map_or(ends[1], |next| next.left);
+            let left = if at == 0 { ends.left } else { on[at - 1].right };
+            let right = on.get(at).map_or(ends.right, |next| next.left);
             let seed = Interval {
                 left: (x - aside).max(half * (x + left)),
                 right: (x + aside).min(half * (x + right)),
@@ -572,12 +572,13 @@ impl<T: Real> Search<'_, '_, T> {
         conditions: &Conditions<T>,
         cells: usize,
     ) -> Result<Coarse<T>, ContactError<T>> {
-        let (gap, range) = (&self.contact.gap, self.contact.ends());
+        let (gap, ends) = (&self.contact.gap, self.contact.ends());
         self.workspace.look(gap, self.cost)?;
         let Workspace { look, newton, .. } = &*self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);
         let (known, start) = (&turned[..], &newton.on[..]);
+        let range = [ends.left, ends.right];
         let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
         let mut sampler = Sampler::default();
         let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
@@ -585,22 +586,22 @@ impl<T: Real> Search<'_, '_, T> {
         coarse.map_err(|error| match error {
             NotFound::Height(error) => error,
             _ => ContactError::NoEquilibrium {
-                half_width: T::of(0.5) * (range[1] - range[0]),
+                half_width: T::of(0.5) * (ends.right - ends.left),
                 near: look.lowest(),
             },
         })
     }
 
     /// The end of the bodies that contacts reach, where no corner holds them.
-    fn end_reached(&self, coarse: &Coarse<T>) -> Option<usize> {
+    fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
         let is_corner =
-            |side: usize| matches!(self.contact.edges[side], Edge::Fixed(_) | Edge::FreeUntil(_));
-        (0..2).find(|&side| coarse.reaches[side] && !is_corner(side))
+            |side: Side| matches!(self.contact.edges[side], Edge::Fixed(_) | Edge::FreeUntil(_));
+        Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !is_corner(side))
     }
 
     /// What the bodies bear, where that is less than a load under which cells reach an end of them: the load
     /// grows with the contacts, so there is one under which the outermost limit is at an end.
-    fn bears(&mut self, conditions: &Conditions<T>, end: usize) -> Option<Capacity<T>> {
+    fn bears(&mut self, conditions: &Conditions<T>, end: Side) -> Option<Capacity<T>> {
         let (load, end) = self.end_reached_by(conditions, end)?;
         let sought = Sought::By(Conditions { given: Given::Load(load), ..*conditions });
         let mut search = Search {
@@ -617,8 +618,8 @@ impl<T: Real> Search<'_, '_, T> {
         };
         let ContactState { interval: on, load, free, .. } = search.several(None).ok()?;
         let ends = self.contact.ends();
-        let room = [on.left - ends[0], ends[1] - on.right];
-        let side = usize::from(room[1] < room[0]);
+        let room = Ends { left: on.left - ends.left, right: ends.right - on.right };
+        let side = if room.right < room.left { Side::Right } else { Side::Left };
         // A single contact as wide as the widest in balance may be another one.
         if room[side] > T::epsilon().sqrt() * on.half_width() {
             return None;
@@ -627,7 +628,7 @@ impl<T: Real> Search<'_, '_, T> {
         let one = [on];
         let contacts = panels::several(integrator).map_or(&one[..], |several| several.contacts());
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
-        let mut highest = if free == [true; 2] { T::zero() } else { T::one() / T::zero() };
+        let mut highest = if free == Ends::both(true) { T::zero() } else { T::one() / T::zero() };
         for contact in contacts.iter().copied().enumerate() {
             highest = highest.max(
                 largest_pressure(integrator, gap, &load_case, contact, self.cost).ok()?.1.value,
@@ -637,7 +638,7 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// A load, and the end of the bodies that cells reach under it: not much less does not.
-    fn end_reached_by(&mut self, conditions: &Conditions<T>, end: usize) -> Option<(T, usize)> {
+    fn end_reached_by(&mut self, conditions: &Conditions<T>, end: Side) -> Option<(T, Side)> {
         let mut end_reached = |load: T| {
             let given = Given::Load(load);
             let coarse = self.coarse(&Conditions { given, ..*conditions }, FIRST_CELLS).ok()?;

@@ -355,8 +355,8 @@ impl<T: Real> Samples<'_, T> {
         if surface.joined.is_none() {
             return self.add(&surface.piece(0), OF_A_BODY, cost);
         }
-        let first = surface.index_at(range[0], super::Side::Left);
-        let last = surface.index_at(range[1], super::Side::Right);
+        let first = surface.index_at(range[0], crate::Side::Left);
+        let last = surface.index_at(range[1], crate::Side::Right);
         let stride = 1 + (last.max(first) - first) / MOST_PIECES;
         let count_here = last.max(first) - first + 1;
         // Of a body in a few pieces as many as of a smooth one.

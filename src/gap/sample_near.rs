@@ -15,11 +15,11 @@ mod inverse_hermite;
 
 pub(crate) use curve_samples::CurveSample;
 
-use super::{Cost, Gap, Side};
+use super::{Cost, Gap};
 use crate::profile::{Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 

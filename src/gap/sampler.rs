@@ -4,10 +4,10 @@
 //! the curve's own last point, moved on by Newton's rule, so that neighbouring abscissae cost
 //! two or three evaluations each.
 
-use super::{Cost, Gap, Side};
+use super::{Cost, Gap};
 use crate::profile::{Convexity, Piece};
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, ProfileError, Real};
+use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 
 /// Takes values of the gap's slope, and keeps count.
 ///

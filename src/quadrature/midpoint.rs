@@ -29,8 +29,8 @@ mod level;
 mod moments;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature, UNKEPT};
-use crate::gap::{Cost, Gap, Sampler, Side};
-use crate::{ContactError, Interval, Real};
+use crate::gap::{Cost, Gap, Sampler};
+use crate::{ContactError, Interval, Real, Side};
 use level::{Level, Pole};
 use moments::moments;
 use std::any::Any;

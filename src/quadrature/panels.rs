@@ -27,7 +27,7 @@ mod treecode;
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MOST, SIZES};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
@@ -360,10 +360,11 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.interval().filter(|_| self.fall.is_none())
     }
 
-    fn prescribe_limits(&mut self, gap: &Gap<'_, T>, limits: [Option<T>; 2]) {
-        for (i, limit) in limits.into_iter().enumerate() {
-            if self.panel_set.held[i].map(|held| held.limit) != limit {
-                self.panel_set.held[i] = limit.and_then(|x| self.panel_set.look_at(gap, i, x));
+    fn prescribe_limits(&mut self, gap: &Gap<'_, T>, limits: Ends<Option<T>>) {
+        for end in Side::BOTH {
+            if self.panel_set.held[end].map(|held| held.limit) != limits[end] {
+                self.panel_set.held[end] =
+                    limits[end].and_then(|x| self.panel_set.look_at(gap, end, x));
             }
         }
     }
@@ -407,25 +408,26 @@ impl<T: Real> PanelIntegrator<T> {
         std::array::from_fn(|i| {
             let (left, right) = (edges.left[i], edges.right[i]);
             let by_root = half / edges.root[i];
-            let pressure = scale * regular[i] + (bound[1] * left + bound[0] * right) * by_root;
+            let pressure = scale * regular[i] + (bound.right * left + bound.left * right) * by_root;
             // What rounding has left of a strength that should be zero stands for the load
             // that the rounded limits have too much or too little. Close to the edge it is the
             // limit that counts.
-            let left_over = (free[1] * left + free[0] * right) * by_root;
+            let left_over = (free.right * left + free.left * right) * by_root;
             let counts = left_over.abs() < least * pressure.abs();
             pressure + if counts { left_over } else { T::zero() }
         })
     }
 
     /// K_b and K_a: what is left of them at free edges, and what they are at the others.
-    fn strengths(&self, load_case: &LoadCase<T>) -> [[T; 2]; 2] {
+    fn strengths(&self, load_case: &LoadCase<T>) -> [Ends<T>; 2] {
         let zero = T::zero();
-        let Some((_, m)) = self.moments else { return [[zero; 2]; 2] };
+        let Some((_, m)) = self.moments else { return [Ends::both(zero); 2] };
         let mean_pressure = load_case.load / self.conjugate.on.half_width();
         let strength = |sum: T| (mean_pressure - load_case.kappa * sum) / T::pi();
-        let both = [strength(m.m1 - m.m0), strength(m.m1 + m.m0)];
-        let pick =
-            |free: bool| [0, 1].map(|i| if load_case.free[i] == free { both[i] } else { zero });
+        let both = Ends { left: strength(m.m1 - m.m0), right: strength(m.m1 + m.m0) };
+        let pick = |free: bool| {
+            both.zip(load_case.free).map(|(k, is_free)| if is_free == free { k } else { zero })
+        };
         [pick(true), pick(false)]
     }
 }

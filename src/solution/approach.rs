@@ -39,7 +39,7 @@ use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::material::Elasticity;
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, Interval, Real, Side, Solution};
 
 /// The point of a body that its surface comes nearer to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,10 +209,10 @@ impl<'s, T: Real> Approaching<'s, T> {
         let (solved, x) = (self.solved, Some(self.references.x));
         let mut first = First { contact: 0, heights: UndeformedGap::new(solved, 0, x)? };
         if let Some(several) = solved.several() {
-            let mut least = several.height(0, false) + first.heights.least;
+            let mut least = several.height(0, Side::Left) + first.heights.least;
             for contact in 1..solved.contacts().len() {
                 let heights = UndeformedGap::new(solved, contact, x)?;
-                let lowest = several.height(contact, false) + heights.least;
+                let lowest = several.height(contact, Side::Left) + heights.least;
                 if lowest < least {
                     (least, first) = (lowest, First { contact, heights });
                 }

@@ -20,7 +20,7 @@ use super::ContactState;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Panel, PanelSet};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
-use crate::{ContactError, Interval, Panels, Real};
+use crate::{ContactError, Ends, Interval, Panels, Real, Side};
 use inside::Inside;
 use missed::Cells;
 use opening_integral::OpeningIntegral;
@@ -107,28 +107,29 @@ pub(crate) fn certify<T: Real>(
     let view = OpeningIntegral::new(&panel_set.panels, on);
 
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
-    let at_end = [on.left <= ends[0], on.right >= ends[1]];
-    let at_corner = [0, 1].map(|i| !free[i] && !adhesive[i] && at_end[i]);
+    let at_end = Ends { left: on.left <= ends.left, right: on.right >= ends.right };
+    let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
     // With adhesion there may be no load.
-    let pressed = strengths.iter().fold(mean, |max, strength| max.max(strength.abs()));
+    let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
     // Where both edges are at fault it is the right one that is named.
-    for (i, x) in [on.left, on.right].into_iter().enumerate().rev() {
-        let lifts = at_corner[i] && strengths[i] < -share * pressed;
+    for side in [Side::Right, Side::Left] {
+        let lifts = at_corner[side] && strengths[side] < -share * pressed;
         if lifts {
+            let x = on[side];
             let (interval, load) = (on, found.load);
             let pressure = -T::one() / T::zero();
             return Err(ContactError::Tension { x, pressure, interval, load });
         }
     }
     let ends = followed(ends, on);
-    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let spacing = (ends.right - ends.left) * T::of(SHARE);
     let mut more = Cost::default();
     panel_set.heights(gap, [sampled.left, sampled.centre(), sampled.right], &mut more)?;
     let cells = missed::compare(gap, [&panel_set, &solver], sampled, spacing, view.steepest())?;
     more += cells.cost;
     balanced(kappa, found, &cells)?;
     let pressure =
-        if adhesive != [false; 2] || rises(&panel_set.panels, on, share * view.steepest()) {
+        if adhesive != Ends::both(false) || rises(&panel_set.panels, on, share * view.steepest()) {
             None
         } else {
             let mut integrator = Panels::FULL.integrator()?;
@@ -141,23 +142,21 @@ pub(crate) fn certify<T: Real>(
             Some(Extremum { x, value: value / mean })
         };
 
-    let bearing = |i: usize| {
-        let counts = adhesive[i] || at_corner[i];
-        if free[i] || !counts { T::zero() } else { strengths[i] * T::pi() / kappa }
-    };
-    let both = [bearing(0), bearing(1)];
+    let both = Ends::from_fn(|side| {
+        let counts = adhesive[side] || at_corner[side];
+        if free[side] || !counts { T::zero() } else { strengths[side] * T::pi() / kappa }
+    });
     let allowed = share * view.steepest() * on.half_width();
     let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
-    for right in [false, true] {
-        let i = usize::from(right);
-        if at_corner[i] {
+    for side in Side::BOTH {
+        if at_corner[side] {
             continue;
         }
-        let mut side = OutsideOf::new(&view, right, both, allowed);
-        side.follow(gap, ends[i], spacing, &mut panel_set, MOST_EVALUATIONS)?;
-        side.part_again();
-        worst = nearer(worst, side.worst);
-        closest = nearer(closest, side.closest);
+        let mut outside = OutsideOf::new(&view, side, both, allowed);
+        outside.follow(gap, ends[side], spacing, &mut panel_set, MOST_EVALUATIONS)?;
+        outside.part_again();
+        worst = nearer(worst, outside.worst);
+        closest = nearer(closest, outside.closest);
     }
     if let Some(Extremum { x, value: gap }) = worst {
         let (interval, load) = (on, found.load);
@@ -167,10 +166,10 @@ pub(crate) fn certify<T: Real>(
 }
 
 /// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.
-fn followed<T: Real>(ends: [T; 2], on: Interval<T>) -> [T; 2] {
+fn followed<T: Real>(ends: Ends<T>, on: Interval<T>) -> Ends<T> {
     let reach = T::of(1e6) * on.half_width();
     let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
-    [finite(ends[0], on.left - reach), finite(ends[1], on.right + reach)]
+    Ends { left: finite(ends.left, on.left - reach), right: finite(ends.right, on.right + reach) }
 }
 
 /// The lower one.
@@ -199,8 +198,7 @@ fn balanced<T: Real>(
     let allowed = T::of(10.0) * said + stiffness * open + rounding;
     let by_force = T::frac_1_pi() / on.half_width();
     // Where both are at fault it is the right one that is named.
-    let edges = [(on.left, -T::one()), (on.right, T::one())];
-    for ((x, sign), free) in edges.into_iter().zip(free).rev() {
+    for (x, sign, free) in [(on.right, T::one(), free.right), (on.left, -T::one(), free.left)] {
         let missed = load - stiffness * (m.m1 + sign * m.m0);
         let met = missed.abs() <= allowed;
         if free && !met {

@@ -1,19 +1,19 @@
 //! What a search has found: all that a solution is asked for follows from it.
 
 use crate::quadrature::MomentDerivatives;
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real};
 
 /// A contact that was found.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactState<T> {
     pub interval: Interval<T>,
     pub load: T,
-    /// K_b and K_a: here as everywhere, left before right.
-    pub strengths: [T; 2],
-    /// Whether they vanish at -b and at a, being what the limits were sought by.
-    pub free: [bool; 2],
+    /// K_b and K_a.
+    pub strengths: Ends<T>,
+    /// Whether they vanish, being what the limits were sought by.
+    pub free: Ends<bool>,
     /// Whether the bodies may pull at each other.
-    pub adhesive: [bool; 2],
+    pub adhesive: Ends<bool>,
     /// Estimated error of the limits relative to the half-width, where they were sought.
     pub error: Option<T>,
     /// Of several contacts, that error by about the share of the load that each bears: a narrow one whose limits are
@@ -26,7 +26,7 @@ pub(crate) struct ContactState<T> {
     /// By how much body 2 was turned counter-clockwise.
     pub tilt: T,
     /// Where the bodies end: at corners, or with their common range.
-    pub ends: [T; 2],
+    pub ends: Ends<T>,
 }
 
 impl<T: Real> ContactState<T> {

@@ -2,7 +2,7 @@
 
 use super::stress::Stress;
 use super::{Certificate, Extremum, Peak, Solution};
-use crate::{ContactError, Estimate, Interval, Real};
+use crate::{ContactError, Estimate, Interval, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
 /// Digits shown unless a precision says how many.
@@ -69,10 +69,11 @@ impl<T: Real> Display for Solution<'_, T> {
             None => f.write_str("\nlimits given, ")?,
         }
         f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })?;
-        let limits =
-            [self.hull().left, self.hull().right].into_iter().zip(self.edge_singularities());
-        for ((x, strength), adhesive) in limits.zip(self.found().adhesive) {
-            if !adhesive && strength < -T::epsilon().sqrt() * self.mean_pressure().abs() {
+        for side in Side::BOTH {
+            let (x, strength) = (self.hull()[side], self.edge_singularities()[side]);
+            if !self.found().adhesive[side]
+                && strength < -T::epsilon().sqrt() * self.mean_pressure().abs()
+            {
                 write!(
                     f,
                     "\nthe bodies would have to pull at each other at x = {}",

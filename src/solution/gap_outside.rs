@@ -68,15 +68,15 @@ impl<T: Real> Solution<'_, T> {
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let [free_left, free_right] = self.found().free;
+        let free = self.found().free;
         let before = next.checked_sub(1).map(|i| contacts[i].right);
         let after = contacts.get(next).map(|on| on.left);
         Ok(match (before, after) {
             (Some(before), Some(after)) => {
                 (if x - before <= after - x { before } else { after }, true)
             }
-            (Some(before), None) => (before, free_right),
-            (None, after) => (after.unwrap_or(left), free_left),
+            (Some(before), None) => (before, free.right),
+            (None, after) => (after.unwrap_or(left), free.left),
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::pressure_integral::Density;
 use super::solved::Solved;
 use crate::quadrature::panels::LoadResponse;
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, Ends, Interval, Real, Solution};
 
 /// The exact derivatives of a contact by its load per unit length F, all else being the same.
 ///
@@ -44,8 +44,8 @@ pub struct LoadRates<T> {
     pub a: T,
     /// db/dF.
     pub b: T,
-    /// The same of all limits: how fast the left and the right one of each contact move in x.
-    pub limits: Vec<[T; 2]>,
+    /// dx/dF of both limits of each contact, from left to right.
+    pub limits: Vec<Ends<T>>,
     #[cfg_attr(feature = "serde", serde(skip))]
     punch: Touching<T>,
 }
@@ -68,8 +68,9 @@ impl<T: Real> Density<T> for &LoadRates<T> {
 
 impl<T: Real> LoadRates<T> {
     /// Of one contact.
-    fn of_one([left, right]: [T; 2], on: Interval<T>) -> Self {
-        Self { a: right, b: -left, limits: vec![[left, right]], punch: Touching::One(on) }
+    fn of_one(limits: Ends<T>, on: Interval<T>) -> Self {
+        let Ends { left, right } = limits;
+        Self { a: right, b: -left, limits: vec![limits], punch: Touching::One(on) }
     }
 
     /// ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
@@ -115,20 +116,20 @@ impl<T: Real> LoadRates<T> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
         let refuse = |why| Err(ContactError::NoLoadDerivative { why });
-        if found.adhesive != [false; 2] {
+        if found.adhesive != Ends::both(false) {
             return refuse("an adhesive edge moves with a singular pressure");
         }
         if let Some(several) = solved.several() {
             let Some((mut limits, punch)) = several.rates(found.load / kappa) else {
                 return refuse("two contacts are about to merge, or one is about to vanish");
             };
-            limits.iter_mut().flatten().for_each(|rate| *rate /= kappa);
-            let [b, a] = [-limits[0][0], limits[limits.len() - 1][1]];
+            limits.iter_mut().for_each(|rates| *rates = rates.map(|rate| rate / kappa));
+            let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
             return Ok(Self { a, b, limits, punch: Touching::Several(punch) });
         }
-        if found.free == [false; 2] {
+        if found.free == Ends::both(false) {
             return if found.error.is_none() {
-                Ok(Self::of_one([T::zero(); 2], on))
+                Ok(Self::of_one(Ends::both(T::zero()), on))
             } else {
                 refuse("the limits were sought by Eq. (6), not by free edges")
             };
@@ -137,18 +138,18 @@ impl<T: Real> LoadRates<T> {
             return refuse("the quadrature has no derivatives of its integrals; use Panels");
         };
         let half_width = on.half_width();
-        let mean = if found.free == [true; 2] {
+        let mean = if found.free == Ends::both(true) {
             T::zero()
         } else {
-            let [at_b, at_a] = found.strengths;
-            T::frac_pi_2() * (at_b - at_a) / kappa
+            T::frac_pi_2() * (found.strengths.left - found.strengths.right) / kappa
         };
         let rate = |free: bool, sign: T| {
             let slope = half_width * (trend.by_0 + sign * trend.by_1);
             let stiffness = kappa * (T::of(0.5) * sign * mean + slope);
             if free { T::one() / stiffness } else { T::zero() }
         };
-        let [free_b, free_a] = found.free;
-        Ok(Self::of_one([-rate(free_b, -T::one()), rate(free_a, T::one())], on))
+        let Ends { left, right } = found.free;
+        let limits = Ends { left: -rate(left, -T::one()), right: rate(right, T::one()) };
+        Ok(Self::of_one(limits, on))
     }
 }

@@ -3,7 +3,7 @@
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real, Side};
 
 /// Points at which a largest pressure is first looked for.
 const POINTS: usize = 64;
@@ -81,9 +81,9 @@ impl<T: Real> Solution<'_, T> {
         let ContactState { strengths, free, .. } = self.found;
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // Where both edges are at fault it is the right one that is named.
-        for (i, outermost, x) in [(1, contact == last, on.right), (0, contact == 0, on.left)] {
-            if outermost && !free[i] && strengths[i] > rounding {
-                return Err(ContactError::Singular { x });
+        for (side, outermost) in [(Side::Right, contact == last), (Side::Left, contact == 0)] {
+            if outermost && !free[side] && strengths[side] > rounding {
+                return Err(ContactError::Singular { x: on[side] });
             }
         }
         Ok(Peak { x, pressure })

@@ -5,7 +5,7 @@ use super::solved::Solved;
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The most points of a contact that [`Pressure::sample`] takes.
 const MOST_POINTS: usize = 1 << 20;
@@ -47,7 +47,7 @@ pub struct Pressure<'p, T: Real> {
     /// The load that stands for the error of the limits.
     force: T,
     /// That error times the strengths of the edges at -b and a, with adhesion.
-    held: [T; 2],
+    held: Ends<T>,
     cost: Cost,
 }
 
@@ -60,8 +60,9 @@ impl<'p, T: Real> Pressure<'p, T> {
             *found;
         let error = error.unwrap_or(T::zero());
         let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
-        let held = |i: usize| if adhesive[i] { strengths[i].abs() * error } else { T::zero() };
-        let held = [held(0), held(1)];
+        let held =
+            |(glued, strength): (bool, T)| if glued { strength.abs() * error } else { T::zero() };
+        let held = adhesive.zip(strengths).map(held);
         let load_case = LoadCase { kappa, load, free };
         let contacts = solved.contacts();
         Ok(Self { gap, integrator, load_case, on, contacts, force, held, cost })
@@ -80,7 +81,7 @@ impl<T: Real> Pressure<'_, T> {
         let estimate = self.estimate(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
-        let free = self.load_case.free == [true; 2];
+        let free = self.load_case.free == Ends::both(true);
         if free && !estimate.is_resolved() && self.on.contains(x) {
             Err(ContactError::Unresolved { x, pressure, error })
         } else {
@@ -144,8 +145,8 @@ impl<T: Real> Pressure<'_, T> {
         let (count, last) = (count.clamp(2, MOST_POINTS), self.contacts.len() - 1);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
-            let free = [i > 0 || self.load_case.free[0], i < last || self.load_case.free[1]];
-            if free[0] {
+            let free = self.load_case.free.of_contact(i, last);
+            if free.left {
                 points.push([on.left, T::zero()]);
             }
             let angle = |j: usize| T::pi() * T::count(j) / T::count(count - 1);
@@ -154,7 +155,7 @@ impl<T: Real> Pressure<'_, T> {
             self.values(&x, &mut pressures)?;
             let inside = x.into_iter().zip(pressures).map(|(x, pressure)| [x, pressure]);
             points.extend(inside.filter(|[_, pressure]| pressure.is_finite()));
-            if free[1] {
+            if free.right {
                 points.push([on.right, T::zero()]);
             }
         }
@@ -174,10 +175,10 @@ impl<T: Real> Pressure<'_, T> {
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let [free_b, free_a] = self.load_case.free;
         let first = self.contacts.partition_point(|on| on.right <= x);
         let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
-            let singular = (x == self.on.left && !free_b) || (x == self.on.right && !free_a);
+            let singular =
+                Side::BOTH.into_iter().any(|side| x == self.on[side] && !self.load_case.free[side]);
             return if singular {
                 Err(ContactError::Singular { x })
             } else {
@@ -195,8 +196,9 @@ impl<T: Real> Pressure<'_, T> {
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.
-        let [held_b, held_a] = self.held;
-        for (held, distance) in [(held_a, self.on.right - x), (held_b, x - self.on.left)] {
+        for (held, distance) in
+            [(self.held.right, self.on.right - x), (self.held.left, x - self.on.left)]
+        {
             let share = self.on.half_width() / distance;
             estimate.error += T::of(0.5) * held * share * share.sqrt();
         }

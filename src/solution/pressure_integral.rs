@@ -20,7 +20,7 @@ mod graded_rule;
 
 use super::solved::Solved;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::{ContactError, Interval, Pressure, Real};
+use crate::{ContactError, Ends, Interval, Pressure, Real};
 use graded_rule::GradedRule;
 use std::sync::OnceLock;
 
@@ -49,7 +49,7 @@ struct One<T> {
     /// The breakpoints inside, rising.
     breakpoints: Vec<T>,
     /// Whether `P w` vanishes at the left and at the right limit.
-    free: [bool; 2],
+    free: Ends<bool>,
     /// `P w` on the panels between the breakpoints, from the right one on.
     kept: OnceLock<Vec<Kept<T>>>,
 }
@@ -65,8 +65,7 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
         let free = solved.found.free;
         let one = |(i, &on): (usize, &Interval<T>)| {
             let breakpoints = solved.gap.breakpoints(on).collect();
-            // Between two contacts all limits are free.
-            let free = [i > 0 || free[0], i < last || free[1]];
+            let free = free.of_contact(i, last);
             One { on, breakpoints, free, kept: OnceLock::new() }
         };
         let contacts = contacts.iter().enumerate().map(one).collect();
@@ -80,7 +79,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         let one = |&on: &Interval<T>| One {
             on,
             breakpoints: Vec::new(),
-            free: [false; 2],
+            free: Ends::both(false),
             kept: OnceLock::new(),
         };
         Self { density, contacts: contacts.iter().map(one).collect() }

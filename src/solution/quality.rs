@@ -2,7 +2,7 @@
 
 use super::{Certificate, Report, Solution, certify};
 use crate::gap::Cost;
-use crate::{ContactError, Real};
+use crate::{ContactError, Ends, Real};
 
 impl<T: Real> Solution<'_, T> {
     /// Estimated error of the limits, relative to the half-width, where they were sought: what
@@ -15,11 +15,11 @@ impl<T: Real> Solution<'_, T> {
         self.found.error
     }
 
-    /// `[K_b, K_a]`, the strengths of the singularities at -b and at a, pressures: near `a`,
+    /// K_b and K_a, the strengths of the singularities at -b and at a, pressures: near `a`,
     /// `P ≈ K_a/sin θ` with `x = c + L cos θ`. Zero to rounding for free edges; at a fixed edge
     /// a negative strength means that the body lifts off there. Of several contacts these are the
     /// outermost limits, c and L those of the contact there.
-    pub fn edge_singularities(&self) -> [T; 2] {
+    pub fn edge_singularities(&self) -> Ends<T> {
         self.found.strengths
     }
 

@@ -2,7 +2,7 @@
 
 use super::pressure_integral::Integrals;
 use super::{Peak, Solution};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// One of the intervals in which the bodies touch, and what acts there.
 ///
@@ -28,7 +28,7 @@ pub struct ContactRegion<T> {
     /// The strengths of the singularities at the left and at the right limit, pressures: near the right one
     /// `P ≈ K/sin θ` with `x = c + L cos θ`, c and L being those of this contact. Zero, or zero to
     /// rounding, at a free limit.
-    pub edge_singularities: [T; 2],
+    pub edge_singularities: Ends<T>,
     /// The largest pressure; `None` where the pressure is infinite, at a corner or where the slope of the gap
     /// jumps up.
     pub peak: Option<Peak<T>>,
@@ -104,13 +104,13 @@ impl<T: Real> Solution<'_, T> {
                 Err(ContactError::Singular { .. }) => None,
                 Err(error) => return Err(error),
             };
-            let outermost = [i == 0, i == last];
-            let strength = |side: usize| if outermost[side] { strengths[side] } else { T::zero() };
+            let outermost = Ends { left: i == 0, right: i == last };
+            let strength = |(outermost, strength)| if outermost { strength } else { T::zero() };
             Ok(ContactRegion {
                 interval,
                 // Of a single one it is known.
                 load: if last == 0 { self.load() } else { load },
-                edge_singularities: [strength(0), strength(1)],
+                edge_singularities: outermost.zip(strengths).map(strength),
                 peak,
                 turning,
             })

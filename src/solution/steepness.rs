@@ -1,8 +1,8 @@
 //! How steep the surfaces are, on which the half-planes of the equations depend.
 
 use super::Solution;
-use crate::gap::{Sampler, Side};
-use crate::{Body, ContactError, Real};
+use crate::gap::Sampler;
+use crate::{Body, ContactError, Real, Side};
 
 /// The slope of a surface above which a body is no longer much like a half-plane. What the half-plane leaves out
 /// is of the order of the square of the slope, a tenth at this one (Johnson, *Contact Mechanics*, 1985, §4.1, asks

@@ -230,8 +230,8 @@ impl<T: Real> Subsurface<'_, T> {
         if self.solution.contact_with(x).is_some() {
             self.integrals.density.values(&[x], &mut pressure)?;
         }
-        let [free_b, free_a] = self.solution.found().free;
-        let infinite = (x == left && !free_b) || (x == right && !free_a);
+        let free = self.solution.found().free;
+        let infinite = (x == left && !free.left) || (x == right && !free.right);
         let [pressure] = pressure;
         if infinite || !pressure.is_finite() {
             return Err(ContactError::Singular { x });

@@ -2,7 +2,7 @@
 
 use super::{Peak, Report, Solution};
 use crate::gap::Cost;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// What a solution comes to, in numbers that it owns: a row of a table, or with the feature `serde` of
 /// a file. [`Solution::summary`] makes it.
@@ -38,8 +38,8 @@ pub struct Summary<T> {
     pub peak: Option<Peak<T>>,
     /// Centre of pressure x̄, a length; `None` where the load is zero, as it may be with adhesion.
     pub centre_of_pressure: Option<T>,
-    /// `[K_b, K_a]`, the strengths of the edge singularities at the first and at the last limit: pressures.
-    pub edge_singularities: [T; 2],
+    /// K_b and K_a, the strengths of the edge singularities at the first and at the last limit: pressures.
+    pub edge_singularities: Ends<T>,
     /// Estimated error of the limits as a share of the half-width L, no unit; `None` where both were given.
     pub limits_error: Option<T>,
     /// Whether it was checked to be the contact of the bodies ([`Report::is_checked`]).

@@ -6,7 +6,7 @@ use crate::forms::KAPPA;
 use linecontact::autodiff::num_dual::{Dual64, HyperDual64};
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
 use linecontact::{
-    Contact, Control, Cost, Curve, CurvePoint, Edge, Flat, ParametricProfile, Real, Solution,
+    Contact, Control, Cost, Curve, CurvePoint, Edge, Ends, Flat, ParametricProfile, Real, Solution,
     Solver,
 };
 use std::f64::consts::PI;
@@ -56,7 +56,7 @@ fn limits_by_the_load() {
                 assert!(error < 1e-12 * near, "F = {load}: {} for {want}", got.eps);
             }
             let known = solution.load_rates().unwrap();
-            for ([left, right], on) in known.limits.iter().zip(solution.intervals()) {
+            for (Ends { left, right }, on) in known.limits.iter().zip(solution.intervals()) {
                 assert!((left.re / on.left.eps - 1.0).abs() < 1e-10 * near, "F = {load}");
                 assert!((right.re / on.right.eps - 1.0).abs() < 1e-10 * near, "F = {load}");
             }
@@ -176,7 +176,7 @@ fn by_the_height_of_a_wave() {
         for x in if corner { [-0.9, -0.1, 0.8] } else { [-0.15, -0.1, 0.1] } {
             numbers.push(pressure.at(T::of(x)).unwrap());
         }
-        numbers.push(solution.edge_singularities()[0]);
+        numbers.push(solution.edge_singularities().left);
         numbers
     }
     let derivatives =

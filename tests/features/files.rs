@@ -240,7 +240,7 @@ fn results_are_kept() {
     let rates = solution.load_rates().unwrap();
     let written = serde_json::to_value(&rates).unwrap();
     assert_eq!(written["a"], rates.a);
-    assert_eq!(written["limits"][1][0], rates.limits[1][0]);
+    assert_eq!(written["limits"][1]["left"], rates.limits[1].left);
 }
 
 #[test]
@@ -299,6 +299,6 @@ fn a_summary_is_the_solution() {
     assert_eq!(row.intervals, [Interval { left: -1.0, right: 1.0 }]);
     // P = F/(π sqrt(1 - x²))
     let strength = 0.5 / std::f64::consts::PI;
-    assert!(row.edge_singularities.iter().all(|k| (k / strength - 1.0).abs() < 1e-15));
+    assert!(row.edge_singularities.into_iter().all(|k| (k / strength - 1.0).abs() < 1e-15));
     is_kept(row);
 }

@@ -83,7 +83,7 @@ fn bodies_that_would_have_to_pull_are_told_of_unless_they_adhere() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let contact = contact.edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
     let solution = contact.solve(Control::Load(0.02)).unwrap();
-    assert!(solution.edge_singularities().iter().all(|&strength| strength < 0.0));
+    assert!(solution.edge_singularities().into_iter().all(|strength| strength < 0.0));
     let text = solution.to_string();
     assert!(!text.contains(pull), "{text}");
 }

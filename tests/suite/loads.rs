@@ -33,7 +33,7 @@ fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
         assert_relative_eq!(solution.b(), b, epsilon = 0.0, max_relative = tolerance);
         assert_close(solution.load(), c / PI, 10.0 * tolerance);
         let strengths = solution.edge_singularities().map(|k| (k * half_width * PI / c).abs());
-        assert!(strengths.iter().all(|&k| k < 10.0 * tolerance), "{load:?}: {strengths:?}");
+        assert!(strengths.into_iter().all(|k| k < 10.0 * tolerance), "{load:?}: {strengths:?}");
     }
 }
 

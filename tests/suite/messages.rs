@@ -3,7 +3,9 @@
 
 use linecontact::profile::SplineError;
 use linecontact::search::{Root, SearchError};
-use linecontact::{Body, ContactError, Edge, ErrorKind, Interval, PiecewiseError, ProfileError};
+use linecontact::{
+    Body, ContactError, Edge, Ends, ErrorKind, Interval, PiecewiseError, ProfileError,
+};
 
 use ContactError as E;
 use ErrorKind::{Evaluation, Input, Solve};
@@ -100,7 +102,13 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         (E::InvalidMoment { value: f64::INFINITY }, &["inf", "finite"], Input),
         (E::TiltNotSupported { why: "so it is" }, &["so it is", "Panels"], Input),
         (
-            E::TiltNotFound { load, at: 1.5, reached: 2.5, tilt: 3.5, ends: [4.5, 5.5] },
+            E::TiltNotFound {
+                load,
+                at: 1.5,
+                reached: 2.5,
+                tilt: 3.5,
+                ends: Ends { left: 4.5, right: 5.5 },
+            },
             &["act at x = 1.5", "nearest is x = 2.5", "tilt 3.5", "extend the domain"],
             Solve,
         ),

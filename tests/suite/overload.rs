@@ -4,7 +4,7 @@
 use crate::common;
 use common::{Counting, Profile, graph};
 use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -240,6 +240,40 @@ fn a_flat_has_the_contact_of_its_peak() {
             assert!((found.a() / under.a() - 1.0).abs() < 1e-11, "{found:?} {under:?}");
             assert!((found.load() / under.load() - 1.0).abs() < 1e-9, "{found:?} {under:?}");
             println!("{flat} {radius} {ratio}: {}", found.cost().samples);
+        }
+    }
+}
+
+/// Parabola x²/2 on [-1, 1], κ = 1, work of adhesion w at one edge: `P = (L sin θ)/π + (K/2) tan(θ/2)` with θ
+/// from the other edge and `K = -2 sqrt(w/L)/π`. The adhesive limit is at the end where `L + sqrt(w/L) = 1`.
+#[test]
+fn the_peak_of_the_widest_contact_with_one_adhesive_edge() {
+    let work: f64 = 0.01;
+    let (mut low, mut high) = (0.5f64, 1.0f64);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if middle + (work / middle).sqrt() < 1.0 { low = middle } else { high = middle }
+    }
+    let (half_width, strength) = (low, -2.0 * (work / low).sqrt() / PI);
+    let load = half_width * half_width / 2.0 - (work * half_width).sqrt();
+    let pressure = |i: i32| {
+        let theta = PI * f64::from(i) / 1e5;
+        half_width * theta.sin() / PI + strength / 2.0 * (theta / 2.0).tan()
+    };
+    let highest = (1..100_000).map(pressure).fold(0.0, f64::max);
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    for glued in Side::BOTH {
+        let edge = |side| if side == glued { Edge::Adhesive(work) } else { Edge::Free };
+        let contact =
+            Contact::new(&Flat, &body).unwrap().edges(edge(Side::Left), edge(Side::Right));
+        let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
+        let ContactError::DomainTooShort { carried, half_width: widest, peak, .. } = error else {
+            panic!("{glued:?}: {error}")
+        };
+        for (got, due, error) in
+            [(carried, load, 1e-12), (widest, half_width, 1e-12), (peak, highest, 1e-9)]
+        {
+            assert!((got / due - 1.0).abs() < error, "{glued:?}: {got} for {due}");
         }
     }
 }

@@ -7,8 +7,8 @@ use linecontact::gap::Sampler;
 use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::reference::{ClosedForm, Exponential, body};
 use linecontact::{
-    Contact, ContactError, Control, Cost, Edge, Estimate, Flat, Gap, Interval, Midpoint, Panels,
-    Solver,
+    Contact, ContactError, Control, Cost, Edge, Ends, Estimate, Flat, Gap, Interval, Midpoint,
+    Panels, Solver,
 };
 use std::any::Any;
 use std::f64::consts::PI;
@@ -103,7 +103,7 @@ impl Integrator<f64> for Sums {
             assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
         }
         // An integrator that was not prepared knows nothing.
-        let load_case = LoadCase { kappa: 1.0, load: 1.0, free: [true; 2] };
+        let load_case = LoadCase { kappa: 1.0, load: 1.0, free: Ends::both(true) };
         let unprepared = Midpoint::DEFAULT.integrator()?;
         let estimate = unprepared.estimate(gap, &load_case, on.centre(), &mut Cost::default())?;
         assert_eq!(estimate.error, f64::INFINITY);

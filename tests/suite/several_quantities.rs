@@ -8,8 +8,8 @@ use crate::forms::KAPPA;
 
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
 use linecontact::{
-    Contact, ContactError, ContactRegion, Control, Cost, Edge, Flat, Interval, Real, Solution,
-    Solver,
+    Contact, ContactError, ContactRegion, Control, Cost, Edge, Ends, Flat, Interval, Real,
+    Solution, Solver,
 };
 use std::f64::consts::PI;
 
@@ -204,9 +204,10 @@ fn the_singularity_of_a_corner() {
     let solution = scene.solve(scene.load);
     let contacts = solution.contacts().unwrap();
     let first = contacts[0];
-    let [strength, none] = solution.edge_singularities();
-    assert_eq!((first.edge_singularities, none), ([strength, 0.0], 0.0));
-    assert!(contacts[1..].iter().all(|one| one.edge_singularities == [0.0; 2]));
+    let strengths = solution.edge_singularities();
+    let strength = strengths.left;
+    assert_eq!((first.edge_singularities, strengths.right), (strengths, 0.0));
+    assert!(contacts[1..].iter().all(|one| one.edge_singularities == Ends::both(0.0)));
     let (on, pressure) = (first.interval, solution.pressure().unwrap());
     let at = |share: f64| {
         let x = on.left + share * on.half_width();
@@ -284,9 +285,12 @@ fn rates_of_all_limits() {
         let rates = solution.load_rates().unwrap();
         let contacts = solution.intervals();
         assert_eq!(rates.limits.len(), contacts.len(), "{name}");
-        assert_eq!([rates.b, rates.a], [-rates.limits[0][0], rates.limits[contacts.len() - 1][1]]);
+        assert_eq!(
+            [rates.b, rates.a],
+            [-rates.limits[0].left, rates.limits[contacts.len() - 1].right]
+        );
         let mut worst = [0.0f64; 3];
-        for (i, [left, right]) in rates.limits.iter().enumerate() {
+        for (i, Ends { left, right }) in rates.limits.iter().enumerate() {
             let want = [
                 difference(|load| scene.solve(load).intervals()[i].left, load),
                 difference(|load| scene.solve(load).intervals()[i].right, load),
@@ -340,8 +344,10 @@ fn rates_in_closed_form() {
         let [inner, outer] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
         // α² = 1 - d/2, and d' = d/(2F).
         let want = [inner, outer].map(|limit| d / (8.0 * load * limit));
-        let [[_, first], [second, third]] = rates.limits[..] else { panic!("{rates:?}") };
-        for (got, want) in [(first, want[0]), (second, -want[0]), (third, want[1])] {
+        let [first, second] = rates.limits[..] else { panic!("{rates:?}") };
+        for (got, want) in
+            [(first.right, want[0]), (second.left, -want[0]), (second.right, want[1])]
+        {
             assert!((got / want - 1.0).abs() < 1e-11, "F = {load}: {got}, {want}");
         }
         for i in 1..20 {
@@ -614,6 +620,6 @@ fn in_single_precision_estimates_are_honest() {
             }
         }
         let rates = solution.load_rates().unwrap();
-        assert!(rates.limits.iter().all(|&[left, right]| left < 0.0 && right > 0.0));
+        assert!(rates.limits.iter().all(|rates| rates.left < 0.0 && rates.right > 0.0));
     }
 }

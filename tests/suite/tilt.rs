@@ -7,7 +7,7 @@ use approx::assert_relative_eq;
 use linecontact::profile::{Parabola, wedge};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Interval, Midpoint, Solution, Solver,
+    Contact, ContactError, Control, Edge, Ends, Flat, Interval, Midpoint, Solution, Solver,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -179,7 +179,7 @@ fn corners_hold_as_the_load_moves() {
             let on = solution.hull();
             assert!(on.left >= -0.5 - 1e-15 && on.right <= 0.3 + 1e-15);
             held[usize::from(on.left == -0.5) + 2 * usize::from(on.right == 0.3)] += 1;
-            let [k_b, k_a] = solution.edge_singularities();
+            let Ends { left: k_b, right: k_a } = solution.edge_singularities();
             assert!(k_b > -1e-14 && k_a > -1e-14, "{load} {at}");
             near(solution.centre_of_pressure().unwrap(), at, 1.0, "centre of pressure");
             let slope = solution.tilt();
@@ -351,7 +351,7 @@ fn what_cannot_be() {
     for (load, at) in [(0.1, 0.9), (0.02, -0.95), (0.4, 0.5)] {
         match error(&contact, given(load, at)) {
             ContactError::TiltNotFound { load: asked, at: place, reached, tilt, ends } => {
-                assert_eq!((asked, place, ends), (load, at, [-1.0, 1.0]));
+                assert_eq!((asked, place, ends), (load, at, Ends { left: -1.0, right: 1.0 }));
                 // The contact of half-width L = sqrt(2 F) can be moved up to the end.
                 let most = 1.0 - (2.0 * load).sqrt();
                 assert_relative_eq!(reached.abs(), most, epsilon = 0.0, max_relative = 1e-3);

@@ -97,7 +97,7 @@ fn corners_that_the_load_does_not_reach() {
     // Between two limits that are given it is the solution of the equation, and said not to be checked.
     let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
     let solution = given.solve(Control::Load(0.01)).unwrap();
-    assert!(!solution.report().is_checked() && solution.edge_singularities()[0] < 0.0);
+    assert!(!solution.report().is_checked() && solution.edge_singularities().left < 0.0);
     let up_to = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
     let solution = up_to.solve(Control::Load(0.01)).unwrap();
     assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);

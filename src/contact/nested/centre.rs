@@ -4,7 +4,7 @@ use super::width::ulps;
 use super::{NestedSearch, TrialContact, nearer};
 use crate::contact::equations::Equations;
 use crate::search::Bracket;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// What became of a contact of given width.
 pub(super) enum Centred<T> {
@@ -24,19 +24,19 @@ impl<T: Real> NestedSearch<'_, T> {
         let room = self.room();
         let [room_left, room_right] = room;
         match self.equations.limits() {
-            [Some(left), _] if width >= room_right => {
+            Ends { left: Some(left), .. } if width >= room_right => {
                 return self.attempt(Interval { left, right: self.range[1] }).map(Centred::At);
             }
-            [Some(left), _] => {
+            Ends { left: Some(left), .. } => {
                 return self.attempt(Interval { left, right: left + width }).map(Centred::At);
             }
-            [_, Some(right)] if width >= room_left => {
+            Ends { right: Some(right), .. } if width >= room_left => {
                 return self.attempt(Interval { left: self.range[0], right }).map(Centred::At);
             }
-            [_, Some(right)] => {
+            Ends { right: Some(right), .. } => {
                 return self.attempt(Interval { left: right - width, right }).map(Centred::At);
             }
-            [None, None] => {}
+            Ends { left: None, right: None } => {}
         }
         let (near, far) = (self.near, 1 - self.near);
         let (lo, hi) = ((width - room[far]).max(zero), width.min(room[near]));

@@ -7,7 +7,7 @@
 use crate::contact::equations::Equations;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Integrator;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// Steps taken; each gains three to five digits.
 const STEPS: usize = 6;
@@ -29,7 +29,7 @@ pub(super) fn differentiate<T: Real>(
     }
     let (zero, half) = (T::zero(), T::of(0.5));
     let size = found.half_width().component(0);
-    let [left_given, right_given] = equations.limits();
+    let Ends { left: left_given, right: right_given } = equations.limits();
     let start = found.plain();
     let start = match half_width {
         Some(half_width) => {

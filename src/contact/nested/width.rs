@@ -4,7 +4,7 @@ use super::centre::Centred;
 use super::{NestedSearch, TrialContact, nearer};
 use crate::contact::equations::{Equations, Residual};
 use crate::search::Bracket;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
 /// largest number to the smallest.
@@ -34,7 +34,7 @@ impl<T: Real> NestedSearch<'_, T> {
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
     fn enclose(&mut self, guess: T) -> Result<[TrialContact<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        let given = self.equations.limits().iter().any(Option::is_some);
+        let given = self.equations.limits() != Ends::both(None);
         // Closer to a given limit the other is the same number.
         let resolution = if given { self.resolution() } else { zero };
         let least = (half * self.equations.least_width()).max(resolution);
@@ -80,8 +80,10 @@ impl<T: Real> NestedSearch<'_, T> {
                 return Ok([trial, trial]);
             }
             if given && spread > zero {
-                for (end, x) in [trial.on.left, trial.on.right].into_iter().enumerate() {
-                    if self.equations.limits()[end].is_none() && x == self.range[end] {
+                let ends = Ends::from(self.range);
+                for end in Side::BOTH {
+                    let is_free = self.equations.limits()[end].is_none();
+                    if is_free && trial.on[end] == ends[end] {
                         return Err(self.too_short(trial.on));
                     }
                 }

@@ -7,10 +7,10 @@ mod sampling;
 pub(crate) use derivative_check::compare;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, SampleCache, Sampler, Side};
+use crate::gap::{Cost, Gap, SampleCache, Sampler};
 use crate::numerics::chebyshev::{MOST, Row, size_for, value_at};
 use crate::real::same;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
 use sampling::SampledBody;
 
@@ -59,8 +59,8 @@ pub(crate) struct PanelSet<T> {
     pub coarse: bool,
     pub tolerance: T,
     pub cost: Cost,
-    /// Looked at beforehand: at the left and at the right end.
-    pub held: [Option<EndProbe<T>>; 2],
+    /// Looked at beforehand, at given limits.
+    pub held: Ends<Option<EndProbe<T>>>,
     /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
     /// first.
     derivatives: Vec<SampledBody<T>>,
@@ -84,7 +84,7 @@ impl<T: Real> PanelSet<T> {
             coarse: false,
             tolerance,
             cost: Cost::default(),
-            held: [None; 2],
+            held: Ends::both(None),
             derivatives: Vec::new(),
             slopes: [[T::zero(); MOST]; 2],
             derivative_sizes: Vec::new(),
@@ -100,7 +100,7 @@ impl<T: Real> PanelSet<T> {
         self.derivative_sizes.clear();
         if !same_bodies {
             self.traces.iter_mut().for_each(SampleCache::clear);
-            self.held = [None; 2];
+            self.held = Ends::both(None);
         }
     }
 
@@ -110,7 +110,7 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// Looks at a limit that is given, unless it is at the end of a piece, of which more is known.
-    pub fn look_at(&mut self, gap: &Gap<'_, T>, end: usize, limit: T) -> Option<EndProbe<T>> {
+    pub fn look_at(&mut self, gap: &Gap<'_, T>, end: Side, limit: T) -> Option<EndProbe<T>> {
         let [from, to] = gap.range();
         if !(limit > from && limit < to) || gap.is_breakpoint(limit) {
             return None;
@@ -118,7 +118,10 @@ impl<T: Real> PanelSet<T> {
         // At the limit itself a formula may be that of what is beyond.
         let fine = T::of(4.0) * T::epsilon();
         let inward = fine * limit.abs().max((to - from).min(T::one() / fine));
-        let x = if end == 0 { limit + inward } else { limit - inward };
+        let x = match end {
+            Side::Left => limit + inward,
+            Side::Right => limit - inward,
+        };
         let mut sampler = Sampler::default();
         let slope = sampler.slope_untilted(gap, x, Side::Left);
         self.cost += sampler.cost;
@@ -127,9 +130,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Looks at both ends of an interval: beyond its last node a panel does not see.
     pub fn look_at_ends(&mut self, gap: &Gap<'_, T>, on: Interval<T>) {
-        for (end, limit) in [on.left, on.right].into_iter().enumerate() {
-            self.held[end] = self.look_at(gap, end, limit);
-        }
+        self.held = Ends::from_fn(|end| self.look_at(gap, end, on[end]));
     }
 
     /// What is covered.

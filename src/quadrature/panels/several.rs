@@ -42,7 +42,7 @@ mod weight;
 use super::hilbert_transform::LANES;
 use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use distant_contacts::DistantContacts;
 pub(crate) use load_response::LoadResponse;
 use one_of_several::{OneOfSeveral, gauss};
@@ -145,8 +145,8 @@ impl<T: Real> Several<T> {
         &mut self,
         gap: &Gap<'_, T>,
         on: &[Interval<T>],
-        corners: [bool; 2],
-        ends: [T; 2],
+        corners: Ends<bool>,
+        ends: Ends<T>,
     ) -> Result<(), ContactError<T>> {
         self.weight.set(on, corners);
         if on.len() != self.count {
@@ -159,8 +159,8 @@ impl<T: Real> Several<T> {
         let half = T::of(0.5);
         for (i, part) in self.parts[..self.count].iter_mut().enumerate() {
             // No contact is sampled beyond the middle of a gap.
-            let from = if i == 0 { ends[0] } else { half * on[i - 1].right + half * on[i].left };
-            let to = on.get(i + 1).map_or(ends[1], |next| half * on[i].right + half * next.left);
+            let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
+            let to = on.get(i + 1).map_or(ends.right, |next| half * on[i].right + half * next.left);
             part.sample(gap, on[i], [from, to])?;
             let (near, weight) = (self.weight.next_to(i), &self.weight);
             let far = |x| weight.far(i, near.clone(), x);
@@ -187,7 +187,7 @@ impl<T: Real> Several<T> {
 
     fn is_free(&self, i: usize) -> bool {
         let corners = self.weight.corners();
-        !(i == 0 && corners[0] || i + 1 == 2 * self.count && corners[1])
+        !(i == 0 && corners.left || i + 1 == 2 * self.count && corners.right)
     }
 
     fn parts(&self) -> &[OneOfSeveral<T>] {
@@ -240,8 +240,9 @@ impl<T: Real> Several<T> {
         at_ends.clear();
         at_zeros.clear();
         for (i, part) in self.parts().iter().enumerate() {
-            for (x, right) in [(part.on.left, false), (part.on.right, true)] {
-                at_ends.push(part.at_end(right) + self.outside(self.others(i), x, None));
+            for side in Side::BOTH {
+                let x = part.on[side];
+                at_ends.push(part.at_end(side) + self.outside(self.others(i), x, None));
             }
         }
         let at_zero = |&x: &T| self.outside(0..n, x, None);
@@ -266,9 +267,9 @@ impl<T: Real> Several<T> {
             };
             row(value, error(&away), &mut |i| half * (at_ends[i] - value) / (end(i) - x));
         }
-        *load_row = at_zeros.len() + usize::from(corners == [false; 2]);
+        *load_row = at_zeros.len() + usize::from(corners == Ends::both(false));
         let total = T::pi() * self.parts().iter().fold(zero, |sum, part| sum + part.moments.m0);
-        if corners == [false; 2] {
+        if corners == Ends::both(false) {
             row(total, error(&|_| one), &mut |i| half * at_ends[i]);
             let borne = self.parts().iter().fold(zero, |sum, OneOfSeveral { on, moments, .. }| {
                 sum + (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
@@ -414,16 +415,16 @@ impl<T: Real> Several<T> {
     }
 
     /// Whether the outermost limits are corners.
-    pub fn corners(&self) -> [bool; 2] {
+    pub fn corners(&self) -> Ends<bool> {
         self.weight.corners()
     }
 
     /// The load as an unknown in place of the first or the last free limit, which stays where it is: its column
     /// is the last.
-    pub fn by_load(&self, right: bool, system: &mut System<T>) {
+    pub fn by_load(&self, side: Side, system: &mut System<T>) {
         let columns = system.residual.len();
         for (i, row) in system.jacobian.chunks_mut(columns).enumerate() {
-            if !right {
+            if side == Side::Left {
                 row.rotate_left(1);
             }
             row[columns - 1] = if i == system.load_row { -T::one() } else { T::zero() };
@@ -441,7 +442,7 @@ impl<T: Real> Several<T> {
     pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
         let (zero, half) = (T::zero(), T::of(0.5));
         let corners = self.corners();
-        let none = corners == [false; 2];
+        let none = corners == Ends::both(false);
         let n = self.count;
         let hull = Interval { left: self.parts[0].on.left, right: self.parts[n - 1].on.right };
         let System { residual, open, jacobian, at_ends, over_last, .. } = system;
@@ -474,7 +475,7 @@ impl<T: Real> Several<T> {
         open.push(error * power);
         let limits = self.contacts().iter().flat_map(|on| [on.left, on.right]);
         for (i, (x, &value)) in limits.zip(&*at_ends).enumerate() {
-            if i == 0 && corners[0] || i + 1 == 2 * n && corners[1] {
+            if i == 0 && corners.left || i + 1 == 2 * n && corners.right {
                 continue;
             }
             let away = x - at;
@@ -490,9 +491,9 @@ impl<T: Real> Several<T> {
     }
 
     /// The height of the gap between the unloaded bodies at a limit of a contact.
-    pub fn height(&self, contact: usize, right: bool) -> T {
+    pub fn height(&self, contact: usize, side: Side) -> T {
         let part = &self.parts[contact];
-        part.height(if right { part.on.right } else { part.on.left })
+        part.height(part.on[side])
     }
 
     /// The number of the contact in which a place lies.
@@ -549,15 +550,16 @@ impl<T: Real> Several<T> {
     }
 
     /// The strength `K/κ` of the singularity at a corner, `P ≈ K/sin θ`; zero at a free limit.
-    pub fn strength(&self, right: bool) -> T {
-        if !self.weight.corners()[usize::from(right)] {
+    pub fn strength(&self, side: Side) -> T {
+        if !self.weight.corners()[side] {
             return T::zero();
         }
-        let i = if right { self.count - 1 } else { 0 };
-        let on = self.parts[i].on;
-        let corner = if right { on.right } else { on.left };
-        let value = self.parts[i].at_end(right) + self.outside(self.others(i), corner, None);
-        let sign = if right { -T::of(2.0) } else { T::of(2.0) };
-        sign * value / (T::pi() * T::pi() * self.weight.beside_corner(right))
+        let (i, sign) = match side {
+            Side::Left => (0, T::of(2.0)),
+            Side::Right => (self.count - 1, -T::of(2.0)),
+        };
+        let (part, corner) = (&self.parts[i], self.parts[i].on[side]);
+        let value = part.at_end(side) + self.outside(self.others(i), corner, None);
+        sign * value / (T::pi() * T::pi() * self.weight.beside_corner(side))
     }
 }

@@ -142,13 +142,13 @@ impl<T: Real> Inside<'_, T> {
 
     /// What makes the pressure smooth at the edges.
     fn factor(&self, x: T) -> T {
-        let [free_b, free_a] = self.load_case.free;
+        let free = self.load_case.free;
         let by_half_width = T::one() / self.on.half_width();
         let part = |distance: T, free: bool| {
             let root = (distance * by_half_width).sqrt();
             if free { T::one() / root } else { root }
         };
-        part(self.on.right - x, free_a) * part(x - self.on.left, free_b)
+        part(self.on.right - x, free.right) * part(x - self.on.left, free.left)
     }
 
     /// The least pressure itself on a cell that has some below zero, by shrinking a grid.

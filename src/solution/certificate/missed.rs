@@ -9,7 +9,7 @@ use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::quadrature::panels::{Panel, PanelSet, edge_integrals};
 use crate::quadrature::{Integrator, Moments};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The share of the largest slope by which the two may differ, besides the noise.
 const ALLOWED: f64 = 1e-6;
@@ -76,7 +76,7 @@ pub(super) fn compare<T: Real>(
     let mut left = on.left;
     let mut before: Option<(Interval<T>, usize)> = None;
     // Beyond its last node a cell does not see: the ends are looked at.
-    let looks = [cells.look_at(gap, 0, on.left), cells.look_at(gap, 1, on.right)];
+    let looks = Ends::from_fn(|end| cells.look_at(gap, end, on[end]));
     while left < on.right {
         let next = left + spacing;
         let right = if next > left { next.min(on.right) } else { on.right };
@@ -89,11 +89,11 @@ pub(super) fn compare<T: Real>(
         };
         if let (Some((last, first)), true) = (before, panels.last().is_some_and(apart)) {
             // So it is where two of them do not meet, and both are sampled again.
-            cells.held[1] = cells.look_at(gap, 1, left);
+            cells.held.right = cells.look_at(gap, Side::Right, left);
             cells.sample_anew(gap, last)?;
             panels.truncate(first);
             panels.extend_from_slice(&cells.panels);
-            cells.held = [cells.look_at(gap, 0, left), looks[1]];
+            cells.held = Ends { left: cells.look_at(gap, Side::Left, left), ..looks };
             cells.sample_anew(gap, cell)?;
         }
         before = Some((cell, panels.len()));

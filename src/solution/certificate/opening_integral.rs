@@ -6,7 +6,7 @@ use super::outside::OpeningRate;
 use super::series_bounds::{above, below};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::Panel;
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 
 /// Halvings of the half-turn towards each edge.
 const GRADES: usize = 26;
@@ -14,7 +14,7 @@ const GRADES: usize = 26;
 /// A point of the contact in the integral.
 struct Node<T> {
     /// Its distances from -b and a.
-    from: [T; 2],
+    from: Ends<T>,
     g: T,
     weight: T,
 }
@@ -66,13 +66,12 @@ impl<T: Real> OpeningIntegral<T> {
     }
 
     /// The sum over the contact at a distance outside, of g(t) and of 1, and the root w.
-    fn sums(&self, distance: T, right: bool) -> [T; 3] {
+    fn sums(&self, distance: T, side: Side) -> [T; 3] {
         let half_width = self.on.half_width();
         let nodes = if distance < half_width { &self.near } else { &self.far };
         let [mut with, mut without] = [T::zero(); 2];
-        let i = usize::from(right);
         for node in nodes {
-            let term = node.weight / (distance + node.from[i]);
+            let term = node.weight / (distance + node.from[side]);
             with += term * node.g;
             without += term;
         }
@@ -94,13 +93,13 @@ impl<T: Real> OpeningRate<T> for OpeningIntegral<T> {
         self.slopes[0].abs().max(self.slopes[1].abs())
     }
 
-    fn pull(&self, distance: T, right: bool) -> T {
-        let [with, _, root] = self.sums(distance, right);
+    fn pull(&self, distance: T, side: Side) -> T {
+        let [with, _, root] = self.sums(distance, side);
         with * root * T::frac_1_pi()
     }
 
-    fn left_of(&self, g: T, distance: T, right: bool) -> T {
-        let [with, without, root] = self.sums(distance, right);
+    fn left_of(&self, g: T, distance: T, side: Side) -> T {
+        let [with, without, root] = self.sums(distance, side);
         (g * without - with) * root * T::frac_1_pi()
     }
 }
@@ -134,9 +133,9 @@ fn arc<T: Real>(
         let (sin, cos) = (half * angle).sin_cos();
         let (here, there) = (width * sin * sin, width * cos * cos);
         let (x, from) = if edge == 0 {
-            (on.left + here, [here, there])
+            (on.left + here, Ends { left: here, right: there })
         } else {
-            (on.right - here, [there, here])
+            (on.right - here, Ends { left: there, right: here })
         };
         let weight = half * (end - start) * T::of(rule.weights[i]);
         // Rounding of x is more than the length of a panel beside a jump that was not declared.

@@ -17,7 +17,7 @@ use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, PanelSet, compare};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Nodes of a cell.
 const NODES: usize = 24;
@@ -38,20 +38,20 @@ pub(super) trait OpeningRate<T: Real> {
     fn steepest(&self) -> T;
 
     /// What the pressure takes off the slope of the gap at a distance from an edge.
-    fn pull(&self, distance: T, right: bool) -> T;
+    fn pull(&self, distance: T, side: Side) -> T;
 
     /// What it leaves of a slope g there.
-    fn left_of(&self, g: T, distance: T, right: bool) -> T {
-        g - self.pull(distance, right)
+    fn left_of(&self, g: T, distance: T, side: Side) -> T {
+        g - self.pull(distance, side)
     }
 }
 
 /// One side of the contact.
 pub(super) struct OutsideOf<'o, T: Real> {
     pub view: &'o dyn OpeningRate<T>,
-    pub right: bool,
+    side: Side,
     /// π/κ times the strength of this edge, and of the other.
-    pub strengths: [T; 2],
+    strengths: [T; 2],
     /// Overlaps up to this are none.
     pub allowed: T,
     /// By how much the gap between the bodies, before they are loaded, rises towards larger x over what was followed.
@@ -71,21 +71,19 @@ pub(super) struct OutsideOf<'o, T: Real> {
 }
 
 impl<'o, T: Real> OutsideOf<'o, T> {
-    /// With π/κ times the strengths at -b and at a.
-    pub fn new(
-        view: &'o dyn OpeningRate<T>,
-        right: bool,
-        [at_b, at_a]: [T; 2],
-        allowed: T,
-    ) -> Self {
-        let strengths = if right { [at_a, at_b] } else { [at_b, at_a] };
+    /// With π/κ times the strengths of both edges.
+    pub fn new(view: &'o dyn OpeningRate<T>, side: Side, strengths: Ends<T>, allowed: T) -> Self {
+        let strengths = match side {
+            Side::Left => [strengths.left, strengths.right],
+            Side::Right => [strengths.right, strengths.left],
+        };
         let zero = T::zero();
         let (risen, height, y, pending) = (zero, zero, zero, zero);
         let (open, cells) = (false, 0);
         let (worst, closest, falling) = (None, None, None);
         Self {
             view,
-            right,
+            side,
             strengths,
             allowed,
             risen,
@@ -101,11 +99,14 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     }
 
     fn sign(&self) -> T {
-        if self.right { T::one() } else { -T::one() }
+        match self.side {
+            Side::Left => -T::one(),
+            Side::Right => T::one(),
+        }
     }
 
     fn edge(&self) -> T {
-        if self.right { self.view.on().right } else { self.view.on().left }
+        self.view.on()[self.side]
     }
 
     fn distance(&self, x: T) -> T {
@@ -151,7 +152,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         let mut waiting: Vec<Panel<T>> = Vec::new();
         for [left, right] in cells {
             panel_set.sample_anew(gap, Interval { left, right })?;
-            let breakpoint = if self.right { left } else { right };
+            let breakpoint = if self.side == Side::Right { left } else { right };
             if let Some(before) = self.edge_of(&waiting, breakpoint) {
                 // What happens between the last node and the end of a cell shows at its neighbour.
                 let after = self.edge_of(&panel_set.panels, breakpoint).unwrap_or(before);
@@ -173,13 +174,13 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 self.take(&panel, &mut left_out, panel_set.cost)?;
             }
             waiting.extend_from_slice(&panel_set.panels);
-            if !self.right {
+            if self.side == Side::Left {
                 waiting.reverse();
             }
         }
         // Short of the last cell: at the end of a body the slope may be infinite.
         if let Some(panel) = waiting.first() {
-            let place = panel.x[usize::from(!self.right)];
+            let place = panel.x[usize::from(self.side == Side::Left)];
             let mut sampler = Sampler::default();
             let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
             let [at_edge, at_place] = heights;
@@ -214,7 +215,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         let [own, other] = self.strengths;
         // A straight flank is as steep as in the contact.
         let slack = rounding * self.view.steepest();
-        let growing = if self.right {
+        let growing = if self.side == Side::Right {
             below(series) >= self.view.slopes()[1] - slack
         } else {
             above(series) <= self.view.slopes()[0] + slack
@@ -251,7 +252,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             for i in 0..rule.n {
                 let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
                 let distance = y * y;
-                let pull = (y + y) * self.sign() * self.view.pull(distance, self.right);
+                let pull = (y + y) * self.sign() * self.view.pull(distance, self.side);
                 let weight = half * (top - bottom) * T::of(rule.weights[i]);
                 sum += weight * (pull - self.singular(distance));
             }
@@ -289,7 +290,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let x = self.edge() + sign * distance;
                 // Rounding of x is more than the length of a panel that ends beside a breakpoint.
                 let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
-                let opens = sign * self.view.left_of(g, distance, self.right);
+                let opens = sign * self.view.left_of(g, distance, self.side);
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);
                 *value = ((y + y) * opens + self.singular(distance)) * reach;

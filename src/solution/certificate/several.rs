@@ -16,7 +16,7 @@ use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{self, PanelSet, Several, System};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Panels, Real};
+use crate::{ContactError, Ends, Interval, Panels, Real, Side};
 
 /// Points at which the pressure of a contact is summed up, at first and at most.
 const POINTS: [usize; 2] = [32, 2048];
@@ -45,8 +45,8 @@ impl<T: Real> OpeningRate<T> for Limit<'_, T> {
         self.steepest
     }
 
-    fn pull(&self, distance: T, right: bool) -> T {
-        self.several.pull(self.system, self.contact, right, distance)
+    fn pull(&self, distance: T, side: Side) -> T {
+        self.several.pull(self.system, self.contact, side, distance)
     }
 }
 
@@ -62,10 +62,11 @@ pub(super) fn certify<T: Real>(
     let (last, range, share) = (contacts.len() - 1, gap.range(), found.nothing());
     let half = T::of(0.5);
     // Where both edges are at fault it is the right one that is named.
-    let pressed =
-        strengths.iter().fold(half * load.abs() / hull.half_width(), |max, k| max.max(k.abs()));
-    for (i, x) in [hull.left, hull.right].into_iter().enumerate().rev() {
-        if !free[i] && strengths[i] < -share * pressed {
+    let mean = half * load.abs() / hull.half_width();
+    let pressed = strengths.into_iter().fold(mean, |max, k| max.max(k.abs()));
+    for side in [Side::Right, Side::Left] {
+        if !free[side] && strengths[side] < -share * pressed {
+            let x = hull[side];
             let (interval, pressure) = (hull, -T::one() / T::zero());
             return Err(ContactError::Tension { x, pressure, interval, load });
         }
@@ -82,7 +83,7 @@ pub(super) fn certify<T: Real>(
     own.press();
     let mut cost = own.cost();
     let ends = followed(ends, hull);
-    let spacing = (ends[1] - ends[0]) * T::of(SHARE);
+    let spacing = (ends.right - ends.left) * T::of(SHARE);
     let (mut cells, mut doubt, mut steepest) = (Vec::new(), T::zero(), T::zero());
     for (i, &on) in contacts.iter().enumerate() {
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
@@ -103,7 +104,7 @@ pub(super) fn certify<T: Real>(
 
     let mut pressure: Option<Extremum<T>> = None;
     for (i, &on) in contacts.iter().enumerate() {
-        let free = [i > 0 || free[0], i < last || free[1]];
+        let free = free.of_contact(i, last);
         let load_case = LoadCase { kappa, load, free };
         let mean = half * borne(&*integrator, gap, &load_case, on)?.abs() / on.half_width();
         let allowed = share * mean;
@@ -119,31 +120,30 @@ pub(super) fn certify<T: Real>(
     // Where the bodies come closer up to the middle of a gap, from its left.
     let mut falling: Option<Extremum<T>> = None;
     for (i, &on) in contacts.iter().enumerate() {
-        for right in [false, true] {
-            let outer = if right { i == last } else { i == 0 };
-            let side = usize::from(right);
+        for side in Side::BOTH {
+            let outer = i == if side == Side::Right { last } else { 0 };
             if outer && corners[side] {
                 continue;
             }
-            let end = match (outer, right) {
-                (true, _) => ends[side],
-                (false, true) => half * on.right + half * contacts[i + 1].left,
-                (false, false) => half * contacts[i - 1].right + half * on.left,
+            let end = match side {
+                _ if outer => ends[side],
+                Side::Right => half * on.right + half * contacts[i + 1].left,
+                Side::Left => half * contacts[i - 1].right + half * on.left,
             };
-            let slope = own.panel_set(i).slope(if right { on.right } else { on.left });
+            let slope = own.panel_set(i).slope(on[side]);
             let slope = slope.unwrap_or(T::zero());
             let limit =
                 Limit { several: own, system: &own_system, contact: i, on, slope, steepest };
-            let mut side = OutsideOf::new(&limit, right, [T::zero(); 2], allowed);
-            side.follow(gap, end, spacing, &mut panel_set, MOST_EVALUATIONS)?;
+            let mut outside = OutsideOf::new(&limit, side, Ends::both(T::zero()), allowed);
+            outside.follow(gap, end, spacing, &mut panel_set, MOST_EVALUATIONS)?;
             if outer {
-                side.part_again();
-            } else if right {
-                falling = side.falling;
-            } else if falling.is_some() && side.falling.is_some() {
-                side.part_again();
+                outside.part_again();
+            } else if side == Side::Right {
+                falling = outside.falling;
+            } else if falling.is_some() && outside.falling.is_some() {
+                outside.part_again();
             }
-            (worst, closest) = (nearer(worst, side.worst), nearer(closest, side.closest));
+            (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
         }
     }
     if let Some(Extremum { x, value: gap }) = worst {
@@ -204,17 +204,15 @@ fn balanced<T: Real>(
         steps.resize(n, T::one() / T::zero());
     }
     let contacts = cells.contacts();
-    let limits = (0..contacts.len()).flat_map(|i| [(i, false), (i, true)]);
-    let is_free = |&(i, right): &(usize, bool)| {
-        if right { i + 1 < contacts.len() || found.free[1] } else { i > 0 || found.free[0] }
-    };
+    let limits = (0..contacts.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
+    let is_free = |&(i, side): &(usize, Side)| found.free.of_contact(i, contacts.len() - 1)[side];
     let mut fault = Ok(());
-    for (((i, right), step), open) in limits.filter(is_free).zip(steps).zip(open) {
+    for (((i, side), step), open) in limits.filter(is_free).zip(steps).zip(open) {
         let on = contacts[i];
-        let x = if right { on.right } else { on.left };
+        let x = on[side];
         let rounding = T::of(64.0) * T::epsilon() * (x.abs() + on.half_width());
         let said = T::of(10.0) * found.error.unwrap_or(T::zero()) * on.half_width();
-        let by_limit = kappa * cells.strength_by_limit(system, i, right);
+        let by_limit = kappa * cells.strength_by_limit(system, i, side);
         let strength = by_limit * step.abs();
         // An estimate may be off by as much; a tolerance is kept.
         let allowed = by_limit * (said + T::of(16.0) * open + rounding) + kappa * doubt;
@@ -247,7 +245,7 @@ mod tests {
         });
         let inversion = Inversion::default();
         let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
-        let (kappa, ends, corners) = (FRAC_PI_2, gap.range(), [false; 2]);
+        let (kappa, ends, corners) = (FRAC_PI_2, Ends::from(gap.range()), Ends::both(false));
         let mut several = Several::new(16.0 * f64::EPSILON);
         let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
         let d = (LOAD / PI).sqrt();
@@ -268,9 +266,9 @@ mod tests {
         let found = ContactState {
             interval: Interval { left: limits[0], right: limits[3] },
             load: LOAD,
-            strengths: [0.0; 2],
-            free: [true; 2],
-            adhesive: [false; 2],
+            strengths: Ends::both(0.0),
+            free: Ends::both(true),
+            adhesive: Ends::both(false),
             error: Some(1e-14),
             error_by_load: None,
             force: None,

@@ -1,7 +1,7 @@
 //! A contact as seen from a point.
 
 use super::{Kept, NODES};
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real};
 
 /// The contact as seen from x: angles are counted from the point nearest to x, away from the edge
 /// nearest to x.
@@ -94,7 +94,7 @@ impl<T: Real> GradedRule<T> {
 
     /// A point s strictly inside the contact, and by how much the distance of s from the nearer edge,
     /// if free, was rounded: `P w` goes with it there.
-    pub fn place(&self, turn: T, free: [bool; 2]) -> (T, T) {
+    pub fn place(&self, turn: T, free: Ends<bool>) -> (T, T) {
         let half = T::of(0.5);
         let Interval { left, right } = self.on;
         let width = right - left;
@@ -113,9 +113,9 @@ impl<T: Real> GradedRule<T> {
             left + inward
         };
         let s = s.max(left + rounding).min(right - rounding);
-        let share = match (at_right, free) {
-            (true, [_, true]) => inward / (right - s),
-            (false, [true, _]) => inward / (s - left),
+        let share = match at_right {
+            true if free.right => inward / (right - s),
+            false if free.left => inward / (s - left),
             _ => T::one(),
         };
         (s, share)

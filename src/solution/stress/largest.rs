@@ -2,7 +2,7 @@
 
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real, Side};
 
 /// Abscissae and depths of the first look.
 const COLUMNS: usize = 33;
@@ -51,12 +51,12 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses edges at which all stress is infinite.
     fn check_edges(&self) -> Result<(), ContactError<T>> {
-        let (found, Interval { left, right }) = (self.solution.found(), self.hull());
+        let (found, hull) = (self.solution.found(), self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
         // Where both are it is the right one that is named.
-        for (i, x) in [left, right].into_iter().enumerate().rev() {
-            if !found.free[i] && found.strengths[i].abs() > least {
-                return Err(ContactError::Singular { x });
+        for side in [Side::Right, Side::Left] {
+            if !found.free[side] && found.strengths[side].abs() > least {
+                return Err(ContactError::Singular { x: hull[side] });
             }
         }
         Ok(())

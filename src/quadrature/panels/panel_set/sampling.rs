@@ -128,11 +128,11 @@ impl<T: Real> PanelSet<T> {
     /// By how much it misses the slope at a limit that is given, if that is more than rounding.
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
         let rounding = T::epsilon().sqrt() * self.size;
-        let at_end = |(held, end): (&Option<EndProbe<T>>, T)| {
+        let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
             Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
         };
-        self.held.iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
+        self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
 
     /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they

@@ -3,8 +3,8 @@
 
 use super::one_of_several::OneOfSeveral;
 use super::{Several, System};
-use crate::Real;
 use crate::quadrature::panels::Panel;
+use crate::{Real, Side};
 
 impl<T: Real> Several<T> {
     /// As many contacts on panels that others have sampled, over all of each of them.
@@ -21,23 +21,28 @@ impl<T: Real> Several<T> {
 
     /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
     /// no further than in the next gap, given the conditions on these contacts.
-    pub fn pull(&self, system: &System<T>, contact: usize, right: bool, distance: T) -> T {
+    pub fn pull(&self, system: &System<T>, contact: usize, side: Side, distance: T) -> T {
         let on = self.parts[contact].on;
-        let place = |distance: T| if right { on.right + distance } else { on.left - distance };
+        let place = |distance: T| match side {
+            Side::Left => on.left - distance,
+            Side::Right => on.right + distance,
+        };
         let x = place(distance);
         let value =
             |distance| self.outside(0..self.count, place(distance), Some((contact, distance)));
-        let in_gap = if right {
-            Some(contact).filter(|k| k + 1 < self.count)
-        } else {
-            contact.checked_sub(1)
+        let in_gap = match side {
+            Side::Left => contact.checked_sub(1),
+            Side::Right => Some(contact).filter(|k| k + 1 < self.count),
         };
         let Some(k) = in_gap else {
-            return -self.weight.beyond(right, x, distance) * value(distance) / T::pi();
+            return -self.weight.beyond(side, x, distance) * value(distance) / T::pi();
         };
         let width = self.parts[k + 1].on.left - self.parts[k].on.right;
         let rest = width - distance;
-        let distances = if right { [distance, rest] } else { [rest, distance] };
+        let distances = match side {
+            Side::Left => [rest, distance],
+            Side::Right => [distance, rest],
+        };
         let without = match self.weight.zeros().get(k) {
             Some(&zero) => {
                 // At the zero itself that is a derivative: by a place aside from it.
@@ -52,10 +57,9 @@ impl<T: Real> Several<T> {
 
     /// The strength `K/κ` that a limit would have if it were off by a length, by that length, given the
     /// conditions on these contacts.
-    pub fn strength_by_limit(&self, system: &System<T>, contact: usize, right: bool) -> T {
-        let on = self.parts[contact].on;
-        let limit = if right { on.right } else { on.left };
-        let value = system.at_ends[2 * contact + usize::from(right)];
+    pub fn strength_by_limit(&self, system: &System<T>, contact: usize, side: Side) -> T {
+        let limit = self.parts[contact].on[side];
+        let value = system.at_ends[2 * contact + usize::from(side == Side::Right)];
         (value / (T::pi() * T::pi() * self.weight.on_contact(contact, limit))).abs()
     }
 }

@@ -13,7 +13,7 @@
 use super::weight::Weight;
 use super::{Several, System};
 use crate::numerics::LinearSystem;
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 
 /// The pressure of a flat punch on several contacts.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(crate) struct LoadResponse<T> {
 impl<T: Real> Several<T> {
     /// The derivatives of all limits by F/κ, left and right of each contact, and that of the pressure by F.
     /// `None` where the limits do not follow the load.
-    pub fn rates(&self, load: T) -> Option<(Vec<[T; 2]>, LoadResponse<T>)> {
+    pub fn rates(&self, load: T) -> Option<(Vec<Ends<T>>, LoadResponse<T>)> {
         let (mut system, mut linear) = (System::new(), LinearSystem::new());
         self.system(load, &mut system);
         let n = system.residual.len();
@@ -36,14 +36,14 @@ impl<T: Real> Several<T> {
         let (mut unit, mut step) = (vec![T::zero(); n], Vec::new());
         unit[system.load_row] = T::one();
         linear.solve(&unit, &mut step);
-        let mut rates = vec![[T::zero(); 2]; self.count];
+        let mut rates = vec![Ends::both(T::zero()); self.count];
         let mut terms = Vec::with_capacity(n);
         let free = (0..2 * self.count).filter(|&i| self.is_free(i));
         for (i, rate) in free.zip(step) {
             if !rate.is_finite() {
                 return None;
             }
-            rates[i / 2][i % 2] = rate;
+            rates[i / 2][Side::BOTH[i % 2]] = rate;
             let share = -T::of(0.5) * system.at_ends[i] * rate / (T::pi() * T::pi());
             terms.push([self.limit(i), share]);
         }

@@ -10,7 +10,7 @@ use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MOST, SIZES, Table, by_size, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real, Side};
 
 /// How often a panel is halved to resolve the weight: beside a gap, which may be as narrow as rounding
 /// lets it be.
@@ -214,9 +214,13 @@ impl<T: Real> OneOfSeveral<T> {
     }
 
     /// V at one end of the contact, without what is infinite there.
-    pub fn at_end(&self, right: bool) -> T {
+    pub fn at_end(&self, side: Side) -> T {
         let Some(trend) = self.moments.derivatives else { return T::zero() };
-        T::pi() * if right { trend.by_0 + trend.by_1 } else { trend.by_0 - trend.by_1 }
+        T::pi()
+            * match side {
+                Side::Left => trend.by_0 - trend.by_1,
+                Side::Right => trend.by_0 + trend.by_1,
+            }
     }
 
     /// `sqrt((x - α)(β - x)) V(x)` at so many points of the contact, and that root.

@@ -11,27 +11,27 @@
 //! does not: to each factor of R there is one of p close by, and `w p` keeps its sign over a contact. With two
 //! corners the degree of p is one less, and the last gap has no zero.
 
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
-    /// Whether the outermost limits are corners, from left to right.
-    corners: [bool; 2],
+    /// Whether the outermost limits are corners.
+    corners: Ends<bool>,
     zeros: Vec<T>,
 }
 
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
-        Self { on: Vec::new(), corners: [false; 2], zeros: Vec::new() }
+        Self { on: Vec::new(), corners: Ends::both(false), zeros: Vec::new() }
     }
 
-    pub fn set(&mut self, on: &[Interval<T>], corners: [bool; 2]) {
+    pub fn set(&mut self, on: &[Interval<T>], corners: Ends<bool>) {
         self.on.clear();
         self.on.extend_from_slice(on);
         self.corners = corners;
-        let last = usize::from(corners == [true; 2]);
+        let last = usize::from(corners == Ends::both(true));
         let half = T::of(0.5);
         self.zeros.clear();
         let gaps = on.windows(2).map(|pair| half * pair[0].right + half * pair[1].left);
@@ -42,7 +42,7 @@ impl<T: Real> Weight<T> {
         &self.on
     }
 
-    pub fn corners(&self) -> [bool; 2] {
+    pub fn corners(&self) -> Ends<bool> {
         self.corners
     }
 
@@ -54,7 +54,7 @@ impl<T: Real> Weight<T> {
     /// `Π (x - z)` over the corners.
     fn corner_factor(&self, x: T) -> T {
         let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
-        let [left, right] = self.corners;
+        let Ends { left, right } = self.corners;
         (if left { x - first } else { T::one() }) * (if right { x - last } else { T::one() })
     }
 
@@ -102,10 +102,13 @@ impl<T: Real> Weight<T> {
     }
 
     /// The same at the left or the right corner, without the factor that vanishes there.
-    pub fn beside_corner(&self, right: bool) -> T {
+    pub fn beside_corner(&self, side: Side) -> T {
         let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
-        let (i, x, other) = if right { (self.on.len() - 1, last, first) } else { (0, first, last) };
-        let other = if self.corners[usize::from(!right)] { x - other } else { T::one() };
+        let (i, x, other, has_other) = match side {
+            Side::Left => (0, first, last, self.corners.right),
+            Side::Right => (self.on.len() - 1, last, first, self.corners.left),
+        };
+        let other = if has_other { x - other } else { T::one() };
         self.smooth(i, 0..self.on.len(), x) * other
     }
 
@@ -129,8 +132,11 @@ impl<T: Real> Weight<T> {
     }
 
     /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
-    pub fn beyond(&self, right: bool, x: T, distance: T) -> T {
-        let own = if right { self.on.len() - 1 } else { 0 };
+    pub fn beyond(&self, side: Side, x: T, distance: T) -> T {
+        let (own, flips) = match side {
+            Side::Left => (0, self.on.len() + self.zeros.len()),
+            Side::Right => (self.on.len() - 1, 0),
+        };
         let mut size = T::one();
         for (k, on) in self.on.iter().enumerate() {
             let [near, far] = if k == own {
@@ -143,7 +149,6 @@ impl<T: Real> Weight<T> {
                 size /= (x - zero).abs();
             }
         }
-        let flips = if right { 0 } else { self.on.len() + self.zeros.len() };
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
         sign * size / self.corner_factor(x)
     }
