@@ -323,7 +323,7 @@ impl LoadRates {
 
     #[getter]
     fn limits(&self) -> Vec<Pair> {
-        self.0.limits.iter().map(|&[left, right]| (left, right)).collect()
+        self.0.limits.iter().map(|rates| (rates.left, rates.right)).collect()
     }
 
     fn pressure(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
