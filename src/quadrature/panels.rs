@@ -46,20 +46,29 @@ pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option
     })
 }
 
+/// The panels that one contact lies on, and the contact; `None` for other integrators.
+fn held_by<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+) -> Option<(&[Panel<T>], Interval<T>)> {
+    let integrator: &dyn Any = integrator;
+    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
+    let (panel_set, on) = if integrator.is_several {
+        (integrator.several.panel_set(contact), integrator.several.contacts()[contact])
+    } else {
+        (&integrator.panel_set, integrator.conjugate.on)
+    };
+    Some((panel::within(&panel_set.panels, on), on))
+}
+
 /// Shows the nodes of the panels of one contact, if it is held by panels.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
     show: &mut dyn FnMut(T) -> Result<(), ContactError<T>>,
 ) -> Result<(), ContactError<T>> {
-    let integrator: &dyn Any = integrator;
-    let Some(integrator) = integrator.downcast_ref::<PanelIntegrator<T>>() else { return Ok(()) };
-    let (panel_set, on) = if integrator.is_several {
-        (integrator.several.panel_set(contact), integrator.several.contacts()[contact])
-    } else {
-        (&integrator.panel_set, integrator.conjugate.on)
-    };
-    for panel in panel::within(&panel_set.panels, on) {
+    let Some((panels, on)) = held_by(integrator, contact) else { return Ok(()) };
+    for panel in panels {
         for &z in &crate::numerics::chebyshev::Table::of(panel.n).z[..panel.n] {
             let x = panel.x[0] + panel.half() * T::of(1.0 + z);
             if on.contains(x) {
@@ -68,6 +77,21 @@ pub(crate) fn nodes<T: Real>(
         }
     }
     Ok(())
+}
+
+/// Lists the parts of one contact that lie on one panel each, and the nodes of that; none without panels.
+pub(crate) fn spans<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+) -> Vec<(Interval<T>, usize)> {
+    let Some((panels, on)) = held_by(integrator, contact) else { return Vec::new() };
+    let last = panels.len() - 1;
+    let span = |(i, panel): (usize, &Panel<T>)| {
+        let left = if i == 0 { on.left } else { panel.x[0] };
+        let right = if i == last { on.right } else { panel.x[1] };
+        (Interval { left, right }, panel.n)
+    };
+    panels.iter().enumerate().map(span).collect()
 }
 
 /// The default quadrature: panels.

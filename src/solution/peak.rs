@@ -4,12 +4,19 @@ use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
 use crate::{ContactError, Interval, Real, Side};
+use std::cmp::Ordering;
 
-/// Points at which a largest pressure is first looked for.
+/// The least number of points at which a largest pressure is first looked for.
 const POINTS: usize = 64;
 
-/// The most of them.
+/// The most of them, unless there are more than half as many panels.
 const MOST_POINTS: usize = 1 << 14;
+
+/// The most breakpoints where the pressure is known to be finite that are looked at.
+const MOST_BREAKPOINTS: usize = 256;
+
+/// Parts that a bracket of a top is divided into: with one point less than their number it is as dear as with one point.
+const PARTS: usize = 17;
 
 /// A largest pressure.
 ///
@@ -34,14 +41,14 @@ pub struct Peak<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The largest pressure (a pressure) and its place: the largest on a grid in each contact, of 64 points or twice
-    /// as many as it took samples, and at the breakpoints, refined. The pressure is flat there: its value has all digits, its place half of them.
+    /// Finds the largest pressure (a pressure) and its place. The pressure is flat there: its value has all digits, its
+    /// place half of them.
     ///
     /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
     /// inside.
     ///
-    /// It takes about a hundred pressures for each contact, which cost evaluations with [`Midpoint`](crate::Midpoint)
-    /// only; they are not in [`cost`](Self::cost).
+    /// It takes some two hundred pressures for each contact, more where the contact took many samples: they cost
+    /// evaluations with [`Midpoint`](crate::Midpoint) only, which are not in [`cost`](Self::cost).
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
@@ -90,7 +97,12 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
-/// Where the pressure of a prepared contact is largest, and how large, adding to `cost` what it takes.
+/// Finds the place and the value of the largest pressure in a prepared contact, adding to `cost` the price of the
+/// search.
+///
+/// A grid crowds at the ends of all panels, and so at the limits and breakpoints. Between the neighbours of a place
+/// on it that is higher than both there is a top, and each top is refined that might be the largest: a
+/// pressure rises above the grid by less than it has risen from the lower neighbour.
 pub(crate) fn largest_pressure<T: Real>(
     integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
@@ -98,81 +110,162 @@ pub(crate) fn largest_pressure<T: Real>(
     (contact, on): (usize, Interval<T>),
     cost: &mut Cost,
 ) -> Result<(T, Estimate<T>), ContactError<T>> {
-    // Waves that took many samples have many maxima.
-    let mut samples = 0;
-    panels::nodes(integrator, contact, &mut |_| {
-        samples += 1;
-        Ok(())
-    })?;
-    let points = (2 * samples).clamp(POINTS, MOST_POINTS).next_multiple_of(POINTS);
-    let place = |i: usize| on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(points));
-    let (mut best, mut largest) = (0, None);
-    for first in (0..points).step_by(POINTS) {
-        let x: [T; POINTS] = std::array::from_fn(|i| place(first + i));
-        let mut pressures = [T::zero(); POINTS];
-        integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
-        for (i, pressure) in pressures.into_iter().enumerate() {
-            if largest.is_none_or(|largest| pressure > largest) {
-                (best, largest) = (first + i, Some(pressure));
-            }
+    let x = places(integrator, gap, contact, on);
+    let mut pressures = vec![T::zero(); x.len()];
+    integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
+    let mut grid: Vec<[T; 2]> = x.into_iter().zip(pressures).map(|(x, p)| [x, p]).collect();
+    let higher = |top: [T; 2], next: [T; 2]| if next[1] > top[1] { next } else { top };
+    let highest = grid.iter().copied().reduce(higher).map_or(on.centre(), |[x, _]| x);
+    let top = (highest, integrator.estimate(gap, load_case, highest, cost)?);
+    let mut search = Search { integrator, gap, load_case, cost, top };
+    for breakpoint in gap.telling_breakpoints(on, T::one(), MOST_BREAKPOINTS) {
+        let there = search.meet(breakpoint)?.value;
+        if !there.is_finite() && there > T::zero() {
+            return Ok((breakpoint, Estimate { value: there, error: T::zero() }));
         }
     }
-    let mut top = (place(best), integrator.estimate(gap, load_case, place(best), cost)?);
-    if top.1.value.is_finite() && !top.1.is_resolved() {
+    if !search.top.1.is_resolved() {
         // Next to an edge a rule of few segments has no digit, and any value.
-        for i in 0..points {
-            let there = integrator.estimate(gap, load_case, place(i), cost)?;
-            let larger = there.value > top.1.value || !top.1.is_resolved();
-            if there.is_resolved() && larger {
-                (best, top) = (i, (place(i), there));
+        search.keep_resolved(&mut grid)?;
+    }
+    for Rise { bracket, bound, .. } in rises(&grid) {
+        let (_, Estimate { value, error }) = search.top;
+        if bound <= value + error {
+            break;
+        }
+        search.climb(bracket)?;
+    }
+    search.polished(on)
+}
+
+/// Places that rise over a contact and crowd at the ends of its panels, twice as many as have nodes; without panels at
+/// the limits and breakpoints.
+pub(super) fn places<T: Real>(
+    integrator: &dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    contact: usize,
+    on: Interval<T>,
+) -> Vec<T> {
+    let mut spans = panels::spans(integrator, contact);
+    if spans.is_empty() {
+        let mut left = on.left;
+        let breakpoints = gap.telling_breakpoints(on, T::one(), MOST_BREAKPOINTS);
+        for right in breakpoints.chain([on.right]) {
+            spans.push((Interval { left, right }, POINTS));
+            left = right;
+        }
+    }
+    let [least, most] = [POINTS, MOST_POINTS].map(|points| points / spans.len());
+    let mut places = Vec::new();
+    for (span, nodes) in spans {
+        let count = (2 * nodes).max(least).min(most.max(2));
+        let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
+        places.extend((0..count).rev().map(|i| span.at_angle(angle(i))));
+    }
+    // The ends of a narrow span may be all there is of it.
+    places.retain(|&x| on.contains(x));
+    places.dedup();
+    places
+}
+
+/// A place of the grid with less pressure on either side, and a bound of the pressure between its neighbours.
+pub(super) struct Rise<T> {
+    bracket: [T; 2],
+    pub highest: T,
+    bound: T,
+}
+
+/// Lists the places of a grid `[x, P]` with less pressure on either side, the highest bound first.
+pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
+    let rise = |i: usize| {
+        let ([highest, here], last) = (grid[i], grid.len() - 1);
+        let beside = [grid[i.saturating_sub(1)], grid[last.min(i + 1)]];
+        let falls = beside.map(|[_, pressure]| here - pressure);
+        let is_top = here.is_finite() && falls.iter().all(|&fall| fall >= T::zero());
+        let bound = here + falls[0].max(falls[1]);
+        is_top.then_some(Rise { bracket: beside.map(|[x, _]| x), highest, bound })
+    };
+    let mut rises: Vec<_> = (0..grid.len()).filter_map(rise).collect();
+    rises.sort_by(|one, other| other.bound.partial_cmp(&one.bound).unwrap_or(Ordering::Equal));
+    rises
+}
+
+/// A search for the largest pressure.
+struct Search<'s, 'g, T: Real> {
+    integrator: &'s dyn Integrator<T>,
+    gap: &'s Gap<'g, T>,
+    load_case: &'s LoadCase<T>,
+    cost: &'s mut Cost,
+    /// The largest so far, of those that have a digit if any has one.
+    top: (T, Estimate<T>),
+}
+
+impl<T: Real> Search<'_, '_, T> {
+    /// Takes the pressure at `x` into account, and returns it.
+    fn meet(&mut self, x: T) -> Result<Estimate<T>, ContactError<T>> {
+        let found = self.integrator.estimate(self.gap, self.load_case, x, self.cost)?;
+        let top = self.top.1;
+        let is_higher = match (found.is_resolved(), top.is_resolved()) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => found.value > top.value,
+        };
+        if is_higher {
+            self.top = (x, found);
+        }
+        Ok(found)
+    }
+
+    /// Leaves out the places of a grid where the pressure has no digit, if it has one anywhere.
+    fn keep_resolved(&mut self, grid: &mut Vec<[T; 2]>) -> Result<(), ContactError<T>> {
+        let mut resolved = Vec::new();
+        for &place in &*grid {
+            if self.meet(place[0])?.is_resolved() {
+                resolved.push(place);
             }
         }
-    }
-    let mut lo = if best + 1 < points { place(best + 1) } else { on.left };
-    let mut hi = if best == 0 { on.right } else { place(best - 1) };
-    let mut at = |x: T| -> Result<T, ContactError<T>> {
-        let pressure = integrator.estimate(gap, load_case, x, cost)?;
-        if pressure.value > top.1.value && (pressure.is_resolved() || !top.1.is_resolved()) {
-            top = (x, pressure);
+        if !resolved.is_empty() {
+            *grid = resolved;
         }
-        Ok(pressure.value)
-    };
-    // Breakpoints are where a pressure is not smooth, and may be infinite.
-    for breakpoint in gap.telling_breakpoints(on, T::one(), 4 * POINTS) {
-        let pressure = at(breakpoint)?;
-        if !pressure.is_finite() && pressure > T::zero() {
-            return Ok((breakpoint, Estimate { value: pressure, error: T::zero() }));
-        }
+        Ok(())
     }
-    // Golden section: the pressure is flat at its peak, so half the digits of x are enough.
-    let golden = T::of(0.618_033_988_749_894_9);
-    let (mut left, mut right) = (hi - golden * (hi - lo), lo + golden * (hi - lo));
-    let (mut p_left, mut p_right) = (at(left)?, at(right)?);
-    let resolution = T::epsilon().sqrt() * (hi - lo);
-    while hi - lo > resolution && left < right {
-        if p_left < p_right {
-            (lo, left, p_left) = (left, right, p_right);
-            right = lo + golden * (hi - lo);
-            p_right = at(right)?;
-        } else {
-            (hi, right, p_right) = (right, left, p_left);
-            left = hi - golden * (hi - lo);
-            p_left = at(left)?;
+
+    /// Narrows a bracket to half the digits of x, which are enough as the pressure is flat at a top.
+    fn climb(&mut self, [mut lo, mut hi]: [T; 2]) -> Result<(), ContactError<T>> {
+        let mut highest = T::of(0.5) * (lo + hi);
+        let resolution = T::epsilon().sqrt() * (hi - lo);
+        while hi - lo > resolution {
+            let step = (hi - lo) / T::count(PARTS);
+            let x: [T; PARTS - 1] = std::array::from_fn(|i| lo + step * T::count(i + 1));
+            let mut pressures = [T::zero(); PARTS - 1];
+            self.integrator.pressures(self.gap, self.load_case, &x, &mut pressures, self.cost)?;
+            let higher =
+                |best: usize, i: usize| if pressures[i] > pressures[best] { i } else { best };
+            highest = x[(0..x.len()).fold(0, higher)];
+            (lo, hi) = (highest - step, highest + step);
         }
+        self.meet(highest)?;
+        Ok(())
     }
-    // Half of them are not enough for derivatives: a step of Newton's rule takes the place where it goes.
-    for _ in 0..T::DERIVATIVE_ORDER {
-        let (x, here) = top;
-        let beside = |from: T, breakpoint: T| from.min((x - breakpoint).abs());
-        let room = gap.breakpoints(on).fold((x - on.left).min(on.right - x), beside);
-        let step = T::epsilon().sqrt().sqrt() * room;
-        let mut pressure = |x: T| integrator.estimate(gap, load_case, x, cost);
-        let [before, after] = [pressure(x - step)?.value, pressure(x + step)?.value];
-        let move_on =
-            T::of(0.5) * step * (after - before) / (here.value + here.value - before - after);
-        if move_on.abs() < step {
-            top = (x + move_on, pressure(x + move_on)?);
+
+    /// Takes the place of the top to as many digits as derivatives by parameters ask for.
+    fn polished(self, on: Interval<T>) -> Result<(T, Estimate<T>), ContactError<T>> {
+        let mut top = self.top;
+        // Half of them are not enough for derivatives: a step of Newton's rule takes the place where it goes.
+        for _ in 0..T::DERIVATIVE_ORDER {
+            let (x, here) = top;
+            let beside = |from: T, breakpoint: T| from.min((x - breakpoint).abs());
+            let room = self.gap.breakpoints(on).fold((x - on.left).min(on.right - x), beside);
+            let step = T::epsilon().sqrt().sqrt() * room;
+            let mut pressure =
+                |x: T| self.integrator.estimate(self.gap, self.load_case, x, self.cost);
+            let [before, after] = [pressure(x - step)?.value, pressure(x + step)?.value];
+            let move_on =
+                T::of(0.5) * step * (after - before) / (here.value + here.value - before - after);
+            if move_on.abs() < step {
+                top = (x + move_on, pressure(x + move_on)?);
+            }
         }
+        Ok(top)
     }
-    Ok(top)
 }

@@ -1,8 +1,10 @@
 //! Where the stress is largest.
 
+use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
 use crate::{ContactError, Interval, Real, Side};
+use std::cmp::Ordering;
 
 /// Abscissae and depths of the first look.
 const COLUMNS: usize = 33;
@@ -12,16 +14,25 @@ const ROWS: usize = 32;
 const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
 
+/// Tops of the pressure, and of the stress at the surface, that stress is looked for below.
+const MOST_TOPS: usize = 8;
+
+/// The share of the largest stress of the first look from which a place may be the foot of a higher top: from one depth
+/// to the next, a factor of 1.6, stress changes by a few hundredths.
+const FOOT: f64 = 0.9;
+
 impl<T: Real> Subsurface<'_, T> {
-    /// The largest shear stress in the plane, as far as a grid of 33 abscissae, from half a half-width
-    /// beyond either edge, and 32 depths from the surface to four half-widths shows which maximum is
-    /// the largest. Its value has nearly all digits, its place half of them.
+    /// Finds the largest shear stress in the plane. Its value has nearly all digits, its place half of them.
+    ///
+    /// It is looked for on a grid of 33 abscissae, from half a half-width beyond either edge, and 32 depths from the
+    /// surface to four half-widths; all over the surface; and below the limits of each contact and the highest tops of
+    /// its pressure, ever closer to them.
     ///
     /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
     /// the depth goes to zero: then the depth is next to nothing.
     ///
-    /// It takes some thousand stresses, each of them time for each piece of the bodies in the contact,
-    /// but pressures only next to its place: three seconds for a thousand pieces.
+    /// It takes some two thousand stresses, each of them time for each piece of the bodies in the contact,
+    /// but pressures only next to its place: some seconds for a thousand pieces.
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and
@@ -85,8 +96,9 @@ impl<T: Real> Subsurface<'_, T> {
         value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
     ) -> Result<StressPeak<T>, ContactError<T>> {
         let mut best: Option<StressPeak<T>> = None;
-        for &on in self.solution.intervals() {
-            let peak = self.largest_below(on, &value)?;
+        for (contact, &on) in self.solution.intervals().iter().enumerate() {
+            let hill = Hill { below: self, on, value: &value };
+            let peak = hill.top(&self.features(contact, on)?)?;
             if best.is_none_or(|best| peak.value > best.value) {
                 best = Some(peak);
             }
@@ -95,65 +107,157 @@ impl<T: Real> Subsurface<'_, T> {
         best.ok_or(ContactError::InvalidLoad { quantity: "load", value })
     }
 
-    /// Below one contact.
-    fn largest_below(
-        &self,
-        on: Interval<T>,
-        value: &impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
-    ) -> Result<StressPeak<T>, ContactError<T>> {
-        let (centre, half_width) = (on.centre(), on.half_width());
-        // By places in half-widths, the depth by its logarithm: where places are not told apart any more is the surface.
-        let [shallowest, deepest] = [SHALLOWEST, DEEPEST].map(|depth| T::of(depth.ln()));
-        let surface = T::epsilon().ln();
-        let peak = |[along, down]: [T; 2]| {
-            let depth = if down > surface { half_width * down.exp() } else { T::zero() };
-            let x = centre + half_width * along;
-            self.solution.gap().check_watch(self.solution.cost(), on)?;
-            match self.at(x, depth) {
-                Ok(stress) => Ok(StressPeak { x, depth, value: value(stress)? }),
-                // Shear that is bounded, or an edge whose strength is nothing but rounding.
-                Err(ContactError::Singular { .. }) => Ok(StressPeak { x, depth, value: -T::one() }),
-                Err(error) => Err(error),
-            }
+    /// Lists places on the surface of a contact: its grid of pressures, and those that stress crowds at.
+    fn features(&self, contact: usize, on: Interval<T>) -> Result<Features<T>, ContactError<T>> {
+        let grid = places(&**self.solution.integrator, self.solution.gap(), contact, on);
+        let mut pressures = vec![T::zero(); grid.len()];
+        self.integrals.density.values(&grid, &mut pressures)?;
+        let pressures: Vec<_> = grid.iter().zip(pressures).map(|(&x, p)| [x, p]).collect();
+        let tops = rises(&pressures).into_iter().take(MOST_TOPS).map(|top| top.highest);
+        let tips = self.tips()?.into_iter().filter(|&x| on.contains(x)).collect();
+        Ok(Features { grid, steep: [on.left, on.right].into_iter().chain(tops).collect(), tips })
+    }
+}
+
+/// Places on the surface of a contact.
+struct Features<T> {
+    /// A grid that crowds at the limits and breakpoints.
+    grid: Vec<T>,
+    /// The limits and the highest tops of the pressure.
+    steep: Vec<T>,
+    /// The breakpoints where the pressure is infinite.
+    tips: Vec<T>,
+}
+
+/// A stress below one contact by its place: along the surface from the centre, in half-widths, and the logarithm of the
+/// depth in half-widths.
+struct Hill<'s, T: Real, V> {
+    below: &'s Subsurface<'s, T>,
+    on: Interval<T>,
+    value: &'s V,
+}
+
+/// A place and the stress there.
+type Found<T> = ([T; 2], StressPeak<T>);
+
+impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
+    /// The logarithm of the depth, in half-widths, from which on places are not told apart from the surface.
+    fn surface() -> T {
+        T::epsilon().ln()
+    }
+
+    /// The steps of the first look.
+    fn steps() -> [T; 2] {
+        let down = (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64;
+        [3.0 / (COLUMNS - 1) as f64, down].map(T::of)
+    }
+
+    fn at(&self, place: [T; 2]) -> Result<Found<T>, ContactError<T>> {
+        let (on, solution) = (self.on, self.below.solution);
+        let is_below = place[1] > Self::surface();
+        let depth = if is_below { on.half_width() * place[1].exp() } else { T::zero() };
+        let along = place[0];
+        let x = if along.abs().is_one() {
+            // The limits as they are: a stress may fall from there like a square root.
+            if along > T::zero() { on.right } else { on.left }
+        } else {
+            on.centre() + on.half_width() * along
         };
-        let grid = [3.0 / (COLUMNS - 1) as f64, (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64];
-        let grid = grid.map(T::of);
-        let mut place = [T::zero(); 2];
-        let mut best = StressPeak { x: centre, depth: half_width, value: -T::one() };
-        for column in 0..COLUMNS {
-            for row in 0..ROWS {
-                let along = T::of(-1.5) + grid[0] * T::count(column);
-                let down = if row == 0 { surface } else { shallowest + grid[1] * T::count(row) };
-                let here = [along, down];
-                let found = peak(here)?;
-                if found.value > best.value {
-                    (place, best) = (here, found);
-                }
+        solution.gap().check_watch(solution.cost(), on)?;
+        match self.below.at(x, depth) {
+            Ok(stress) => Ok((place, StressPeak { x, depth, value: (self.value)(stress)? })),
+            // Shear that is bounded, or an edge whose strength is nothing but rounding.
+            Err(ContactError::Singular { .. }) => {
+                Ok((place, StressPeak { x, depth, value: -T::one() }))
             }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The place of an abscissa.
+    fn along(&self, x: T) -> T {
+        (x - self.on.centre()) / self.on.half_width()
+    }
+
+    /// Finds the largest stress: climbs from the highest place of each part of the first look, unless it is too low to
+    /// be the foot of the highest top.
+    fn top(&self, features: &Features<T>) -> Result<StressPeak<T>, ContactError<T>> {
+        let mut feet = self.first_look(features)?;
+        feet.sort_by(|(_, one), (_, other)| {
+            other.value.partial_cmp(&one.value).unwrap_or(Ordering::Equal)
+        });
+        let least = T::of(FOOT) * feet[0].1.value;
+        let mut best = feet[0].1;
+        for foot in feet.into_iter().take_while(|(_, foot)| foot.value >= least) {
+            let top = self.climb(foot)?;
+            if top.value > best.value {
+                best = top;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The highest place of the grid, of the neighbourhood of each feature, and of each top along the surface.
+    fn first_look(&self, features: &Features<T>) -> Result<Vec<Found<T>>, ContactError<T>> {
+        let [step, down] = Self::steps();
+        let rows = || (0..ROWS).map(|row| T::of(SHALLOWEST.ln()) + down * T::count(row));
+        let columns = (0..COLUMNS).map(|column| T::of(-1.5) + step * T::count(column));
+        let mut feet = vec![self.highest(columns.flat_map(|x| rows().map(move |y| [x, y])))?];
+        let neighbourhood = |x: T| {
+            let x = self.along(x);
+            let near = rows()
+                .flat_map(|row| [-0.5, 0.0, 0.5].map(|share| [x + T::of(share) * row.exp(), row]));
+            self.highest(near)
+        };
+        for &x in &features.steep {
+            feet.push(neighbourhood(x)?);
+        }
+        let mut surface = Vec::with_capacity(features.grid.len());
+        for &x in &features.grid {
+            surface.push([x, self.at([self.along(x), Self::surface()])?.1.value]);
+        }
+        for top in rises(&surface).into_iter().take(MOST_TOPS) {
+            feet.push(self.at([self.along(top.highest), Self::surface()])?);
+            feet.push(neighbourhood(top.highest)?);
+        }
+        for limit in [-T::one(), T::one()] {
+            feet.push(self.at([limit, Self::surface()])?);
         }
         // The way up to a corner or a tip is a ridge that narrows with the depth, and bends. Below a tip it is too narrow
         // in the end, but there it is known where it ends.
-        for x in self.tips()?.into_iter().filter(|&x| on.contains(x)) {
-            let here = [(x - centre) / half_width, T::of(0.5) * surface];
-            let found = peak(here)?;
-            if found.value > best.value {
-                (place, best) = (here, found);
+        for &x in &features.tips {
+            feet.push(self.at([self.along(x), T::of(0.5) * Self::surface()])?);
+        }
+        Ok(feet)
+    }
+
+    fn highest(&self, places: impl Iterator<Item = [T; 2]>) -> Result<Found<T>, ContactError<T>> {
+        let mut best = self.at([T::zero(); 2])?;
+        for place in places {
+            let found = self.at(place)?;
+            if found.1.value > best.1.value {
+                best = found;
             }
         }
+        Ok(best)
+    }
+
+    /// Goes uphill by Rosenbrock's method, until rounding hides the top. Steps are tried along two axes: one that gains
+    /// is made longer, one that does not shorter and turned round. Once both have gained and then not, the first axis is
+    /// laid along the way that was made.
+    fn climb(&self, (mut place, mut best): Found<T>) -> Result<StressPeak<T>, ContactError<T>> {
+        let deepest = T::of(DEEPEST.ln());
         let (least, rounding) = (T::of(0.1) * T::epsilon().sqrt(), T::of(4.0) * T::epsilon());
-        // Uphill by Rosenbrock's method, until rounding hides the top. Steps are tried along two axes: one that gains is
-        // made longer, one that does not shorter and turned round. Once both have gained and then not, the first axis
-        // is laid along the way that was made.
         let mut axes = [[T::one(), T::zero()], [T::zero(), T::one()]];
-        let mut steps = grid;
+        let mut steps = Self::steps();
         loop {
             let start = place;
             let (mut has_gained, mut has_failed) = ([false; 2], [false; 2]);
             while has_failed != [true; 2] {
                 for i in 0..2 {
                     let mut here = [0, 1].map(|j| place[j] + steps[i] * axes[i][j]);
-                    here[1] = here[1].max(surface).min(deepest);
-                    let found = peak(here)?;
+                    here[1] = here[1].max(Self::surface()).min(deepest);
+                    let (_, found) = self.at(here)?;
                     if found.value - best.value > rounding * best.value {
                         (place, best) = (here, found);
                         steps[i] *= T::of(3.0);
