@@ -55,6 +55,7 @@ mod quantities;
 mod random_scenes;
 mod reference_tables;
 mod references_f32;
+mod safeguards;
 mod saturated;
 mod search_counts;
 mod searches;

@@ -1,0 +1,219 @@
+//! Rules that few scenes need: for each, scenes that go wrong without it.
+#![allow(missing_docs)]
+
+use crate::common;
+use crate::common::NanSafe;
+
+use common::{Profile, graph, join, on_flat};
+use linecontact::search::Brent;
+use linecontact::{
+    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Panels, Solution, Solver,
+};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// By how much the limits are off, as a share of the half-width.
+fn off(solution: &Solution<f64>, on: Interval<f64>) -> f64 {
+    let found = solution.hull();
+    (found.left - on.left).abs().nan_max((found.right - on.right).abs()) / on.half_width()
+}
+
+/// `(1/π) ∫ g dθ` and `(1/π) ∫ g cos θ dθ` of a smooth slope over x = cos θ, by the midpoint rule.
+fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
+    const N: usize = 4000;
+    (0..N).fold([0.0; 2], |[mean, first], i| {
+        let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
+        let g = slope(cos) / N as f64;
+        [mean + g, first + g * cos]
+    })
+}
+
+/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` with `t = (x - x₀)/l`, of
+/// bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens: the body, the load and the contact.
+fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
+    let mut scenes = Vec::new();
+    for (w, t0, t1) in [(0.14, 0.8, -0.3), (0.16, -0.5, 0.8), (0.16, 0.6, -0.7), (0.18, 0.8, -0.7)]
+    {
+        let rise = move |t: f64| ((t - t0) / w).tanh() + 0.01 * t;
+        let [mean, first] = edge_integrals(rise);
+        for x0 in [0.0, 0.3, 0.7] {
+            for l in [1e-2, 3e-3, 1e-3, 3e-4, 1e-4] {
+                let at = move |x: f64| {
+                    let t = (x - x0) / l;
+                    let u = ((t - t0) / w).abs();
+                    let step = w * (u + (-2.0 * u).exp().ln_1p());
+                    [l * (step + 0.005 * t * t - mean * t), rise(t) - mean]
+                };
+                let seam = x0 + t1 * l;
+                let body = join(vec![graph(-4.0, seam, at), graph(seam, 4.0, at)]);
+                scenes.push((body, l * first, Interval { left: x0 - l, right: x0 + l }));
+            }
+        }
+    }
+    scenes
+}
+
+/// What was sampled around a poor guess is too coarse for a contact that turns out to be narrower: the limits are
+/// sought again on samples around that. (Seeds 721, 2573, 3266, 3942 and 5772.)
+#[test]
+fn a_contact_much_narrower_than_the_guess_that_was_sampled() {
+    for (body, load, on) in steps_with_a_seam() {
+        let contact = on_flat(body).single_interval(true);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let (off, estimate) = (off(&solution, on), solution.limits_error().unwrap());
+        assert!(off <= 3.0 * estimate + 1e-14, "{on:?}: {off:e}, {estimate:e}");
+    }
+}
+
+/// The same of one limit at a time. (Seeds 1477 and 3981.)
+#[test]
+fn a_contact_much_narrower_than_the_trials_of_a_nested_search() {
+    let brent = Brent::default();
+    for (body, load, on) in steps_with_a_seam() {
+        let contact = on_flat(body).single_interval(true).limit_search(&brent);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let (off, estimate) = (off(&solution, on), solution.limits_error().unwrap());
+        assert!(off <= 3.0 * estimate + 1e-13, "{on:?}: {off:e}, {estimate:e}");
+    }
+}
+
+/// The slope of the gap jumps down by j at z, inside the contact of a parabola with half-width 1. However small the
+/// jump, the pressure goes to minus infinity there: the bodies part, by a gap that no node of a panel meets. Beside
+/// the jump, `P = (j/π²) ln(2 |t|/δ)` between the two contacts around a gap of half-width δ, and in one contact
+///
+/// ```text
+/// P = sin φ/π - (j/π²) ln|sin((θ + φ)/2)/sin((θ - φ)/2)|     x = cos φ, z = cos θ
+/// ```
+///
+/// so that `δ = 4 sin² θ exp(-π sin θ/j)`, but for a share of about δ². (Seeds 1158 and 2468.)
+#[test]
+fn the_bodies_part_at_any_jump_down_of_the_slope() {
+    for jump in [0.12, 0.15, 0.2, 0.25, 0.3] {
+        for z in [-0.7f64, -0.5, -0.3, 0.1, 0.3, 0.55, 0.8] {
+            let (theta, sin) = (z.acos(), (1.0 - z * z).sqrt());
+            let tilt = jump * theta / PI;
+            let at =
+                move |x: f64, less: f64| [x * x / 2.0 + tilt * x - less * (x - z), x + tilt - less];
+            let body = join(vec![
+                graph(-4.0, z, move |x| at(x, 0.0)),
+                graph(z, 4.0, move |x| at(x, jump)),
+            ]);
+            let solution = on_flat(body).solve(Control::Load(0.5 - jump * sin / PI)).unwrap();
+            let &[left, right] = solution.intervals() else {
+                panic!("{jump} {z}: {:?}", solution.intervals())
+            };
+            assert!(left.right < z && z < right.left, "{jump} {z}: {left:?} {right:?}");
+            let gap = 4.0 * sin * sin * (-PI * sin / jump).exp();
+            let off = ((right.left - left.right) / (2.0 * gap) - 1.0).abs();
+            // Limits are rounded.
+            let allowed = 200.0 * gap * gap + 1e-16 / gap;
+            assert!(off <= allowed + 1e-8, "{jump} {z}: {gap:e} off by {off:e}");
+        }
+    }
+}
+
+/// A wave on both bodies, which are given by different parameters: it is not in the gap `cosh(q x)/q²`, and few nodes
+/// resolve that. But none of them lies where the bodies were evaluated, and between those places the wave counts.
+/// (Seed 4081.)
+#[test]
+fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
+    for k in [0.6, 0.8, 1.0, 1.5, 2.5] {
+        let body = |parameter: fn(f64) -> [f64; 2], q: f64| {
+            Curve::new([-2.0, 2.0], move |p: f64| {
+                let [x, dx] = parameter(p);
+                let (sin, cos) = (k * x).sin_cos();
+                let [y, slope] =
+                    if q > 0.0 { [(q * x).cosh() / (q * q), (q * x).sinh() / q] } else { [0.0; 2] };
+                CurvePoint { x, y: y - cos / k, dx, dy: (slope + sin) * dx }
+            })
+        };
+        let lower = body(|p| [p.sinh(), p.cosh()], 0.0);
+        for (q, l) in [(0.1, 1.0), (0.15, 0.5), (0.2, 1.2), (0.3, 0.3), (0.7, 0.6)] {
+            let upper = body(|p| [-p, -1.0], q);
+            let [_, first] = edge_integrals(|t| (q * l * t).sinh() / q);
+            for tolerance in [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
+                let rule = Panels { tolerance };
+                let contact = Contact::new(&lower, &upper).unwrap().quadrature(&rule);
+                let solution = contact.solve(Control::Load(l * first)).unwrap();
+                let off = off(&solution, Interval { left: -l, right: l });
+                let estimate = solution.limits_error().unwrap();
+                assert!(
+                    off <= 3.0 * estimate + 1e-14,
+                    "{k} {q} {l} {tolerance:e}: {off:e}, {estimate:e}"
+                );
+            }
+        }
+    }
+}
+
+/// The slope `x - x³/100`, and j more beyond ±x₁. Newton's method comes from a lower load, on the near side of which
+/// each step is the square of the one before; the last one goes a little beyond x₁, where the body is far stiffer.
+#[test]
+fn a_last_step_across_a_jump_of_the_slope() {
+    let (x1, bend) = (0.5, 0.01);
+    for (jump, beyond) in [(0.01, 1e-12), (0.01, 1e-11), (0.1, 1e-13), (0.03, 1e-12)] {
+        let smooth = move |x: f64| [x * x / 2.0 - bend * x.powi(4) / 4.0, x - bend * x.powi(3)];
+        let steep = move |x: f64| {
+            let [y, dy] = smooth(x);
+            [y + jump * (x.abs() - x1), dy + jump.copysign(x)]
+        };
+        let pieces = [graph(-2.0, -x1, steep), graph(-x1, x1, smooth), graph(x1, 2.0, steep)];
+        let contact = on_flat(join(pieces.into()));
+        let load = |l: f64| {
+            let sin = (l - x1).max(0.0).sqrt() * (l + x1).sqrt() / l;
+            l * (l / 2.0 - 0.375 * bend * l.powi(3) + 2.0 * jump * sin / PI)
+        };
+        let l = x1 * (1.0 + beyond);
+        for short in [3e-4, 1e-3, 2e-3, 3e-3, 5e-3, 1e-2, 3e-2] {
+            let mut solver = Solver::new();
+            solver.solve(&contact, Control::Load(load(l * (1.0 - short)))).unwrap();
+            let solution = solver.solve(&contact, Control::Load(load(l))).unwrap();
+            let off = off(&solution, Interval { left: -l, right: l });
+            let estimate = solution.limits_error().unwrap();
+            assert!(off <= estimate + 1e-14, "{jump} {beyond} {short}: {off:e}, {estimate:e}");
+        }
+    }
+}
+
+/// The quartic `x⁴ - 2x²` touches between `1 - d/2` and `1 + d/2` of x², `d² = 4 F/(π E*)`, with
+/// `P = 2 E* |x| sqrt((x² - α²)(β² - x²))`. Corners a little beyond that are reached by cells; held there, the
+/// contacts would have to be pulled at.
+#[test]
+fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
+    let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(FRAC_PI_2);
+    for load in [0.01, 0.3, 1.0, 3.0] {
+        let d = f64::sqrt(4.0 * load / PI);
+        let [inner, outer] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
+        let width = outer - inner;
+        for beyond in [1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2] {
+            let corner = outer + beyond * width;
+            for left in [Edge::FreeUntil(-corner), Edge::Free] {
+                let contact = contact.clone().edges(left, Edge::FreeUntil(corner));
+                // From scratch, and from contacts that the corner held.
+                for more in [None, Some(1.02)] {
+                    let mut solver = Solver::new();
+                    if let Some(more) = more {
+                        let held = solver.solve(&contact, Control::Load(more * load)).unwrap();
+                        assert!(beyond > 1e-3 || held.hull().right == corner);
+                    }
+                    let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+                    let found = solution.intervals().iter().flat_map(|on| [on.left, on.right]);
+                    let found: Vec<f64> = found.collect();
+                    let &[a, b, c, e] = &found[..] else { panic!("{load} {beyond}: {found:?}") };
+                    for (found, known) in [(a, -outer), (b, -inner), (c, inner), (e, outer)] {
+                        let off = (found - known).abs() / width;
+                        assert!(off < 1e-12, "{load} {beyond} {more:?}: {known} off by {off:e}");
+                    }
+                    let pressure = solution.pressure().unwrap();
+                    for share in [0.01f64, 0.5, 0.99, 0.9999] {
+                        let x = inner + share * width;
+                        let root = (x * x - inner * inner) * (outer * outer - x * x);
+                        let known = 2.0 * x * root.sqrt();
+                        let off = (pressure.at(x).unwrap() / known - 1.0).abs();
+                        assert!(off < 1e-10, "{load} {beyond} {x}: off by {off:e}");
+                    }
+                }
+            }
+        }
+    }
+}
