@@ -4,12 +4,13 @@
 use crate::common;
 use crate::common::NanSafe;
 
-use common::{Profile, graph, join, on_flat};
+use common::{Counting, Profile, graph, join, on_flat};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Panels, Solution, Solver,
+    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Panels, Piecewise, Solution, Solver,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// By how much the limits are off, as a share of the half-width.
 fn off(solution: &Solution<f64>, on: Interval<f64>) -> f64 {
@@ -27,8 +28,9 @@ fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
     })
 }
 
-/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` with `t = (x - x₀)/l`, of
-/// bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens: the body, the load and the contact.
+/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` with `t =
+/// (x - x₀)/l`, of bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens:
+/// the body, the load and the contact.
 fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     let mut scenes = Vec::new();
     for (w, t0, t1) in [(0.14, 0.8, -0.3), (0.16, -0.5, 0.8), (0.16, 0.6, -0.7), (0.18, 0.8, -0.7)]
@@ -52,8 +54,8 @@ fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     scenes
 }
 
-/// What was sampled around a poor guess is too coarse for a contact that turns out to be narrower: the limits are
-/// sought again on samples around that. (Seeds 721, 2573, 3266, 3942 and 5772.)
+/// What was sampled around a poor guess is too coarse for a contact that turns out to be narrower:
+/// the limits are sought again on samples around that. (Seeds 721, 2573, 3266, 3942 and 5772.)
 #[test]
 fn a_contact_much_narrower_than_the_guess_that_was_sampled() {
     for (body, load, on) in steps_with_a_seam() {
@@ -76,9 +78,10 @@ fn a_contact_much_narrower_than_the_trials_of_a_nested_search() {
     }
 }
 
-/// The slope of the gap jumps down by j at z, inside the contact of a parabola with half-width 1. However small the
-/// jump, the pressure goes to minus infinity there: the bodies part, by a gap that no node of a panel meets. Beside
-/// the jump, `P = (j/π²) ln(2 |t|/δ)` between the two contacts around a gap of half-width δ, and in one contact
+/// The slope of the gap jumps down by j at z, inside the contact of a parabola with half-width 1.
+/// However small the jump, the pressure goes to minus infinity there: the bodies part, by a gap
+/// that no node of a panel meets. Beside the jump, `P = (j/π²) ln(2 |t|/δ)` between the two
+/// contacts around a gap of half-width δ, and in one contact
 ///
 /// ```text
 /// P = sin φ/π - (j/π²) ln|sin((θ + φ)/2)/sin((θ - φ)/2)|     x = cos φ, z = cos θ
@@ -111,9 +114,9 @@ fn the_bodies_part_at_any_jump_down_of_the_slope() {
     }
 }
 
-/// A wave on both bodies, which are given by different parameters: it is not in the gap `cosh(q x)/q²`, and few nodes
-/// resolve that. But none of them lies where the bodies were evaluated, and between those places the wave counts.
-/// (Seed 4081.)
+/// A wave on both bodies, which are given by different parameters: it is not in the gap `cosh(q
+/// x)/q²`, and few nodes resolve that. But none of them lies where the bodies were evaluated, and
+/// between those places the wave counts. (Seed 4081.)
 #[test]
 fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
     for k in [0.6, 0.8, 1.0, 1.5, 2.5] {
@@ -145,8 +148,9 @@ fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
     }
 }
 
-/// The slope `x - x³/100`, and j more beyond ±x₁. Newton's method comes from a lower load, on the near side of which
-/// each step is the square of the one before; the last one goes a little beyond x₁, where the body is far stiffer.
+/// The slope `x - x³/100`, and j more beyond ±x₁. Newton's method comes from a lower load, on the
+/// near side of which each step is the square of the one before; the last one goes a little beyond
+/// x₁, where the body is far stiffer.
 #[test]
 fn a_last_step_across_a_jump_of_the_slope() {
     let (x1, bend) = (0.5, 0.01);
@@ -174,9 +178,9 @@ fn a_last_step_across_a_jump_of_the_slope() {
     }
 }
 
-/// The quartic `x⁴ - 2x²` touches between `1 - d/2` and `1 + d/2` of x², `d² = 4 F/(π E*)`, with
-/// `P = 2 E* |x| sqrt((x² - α²)(β² - x²))`. Corners a little beyond that are reached by cells; held there, the
-/// contacts would have to be pulled at.
+/// The quartic `x⁴ - 2x²` touches between `1 - d/2` and `1 + d/2` of x², `d² = 4 F/(π E*)`, with `P
+/// = 2 E* |x| sqrt((x² - α²)(β² - x²))`. Corners a little beyond that are reached by cells; held
+/// there, the contacts would have to be pulled at.
 #[test]
 fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
     let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
@@ -216,4 +220,76 @@ fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
             }
         }
     }
+}
+
+/// A parabola with a kink inside the contact, to the right of which it is 2 000 times as stiff,
+/// sought from the middle of bodies that are far wider. The load of what is tried first does not go
+/// with the square of the half-width: by steps in that the search overshoots, and has to sample
+/// again and again. (Seed 5194.)
+#[test]
+fn calls_for_a_contact_far_narrower_than_bodies_of_unlike_stiffness() {
+    let stiff = 2048.0;
+    for bend in [0.05, 0.2, 1.0] {
+        for (x0, l) in [(-0.7, 0.01), (-0.3, 1e-4), (0.0, 1e-4), (0.2, 0.01), (0.5, 1e-4)] {
+            for z in [-0.9f64, -0.23, 0.2, 0.7] {
+                // A ramp `k (t - z)` has the integrals k (sin θ - z θ)/π and k (θ - z sin θ)/(2π).
+                let (theta, sin) = (z.acos(), (1.0 - z * z).sqrt());
+                let mean = stiff * (sin - theta * z) / PI;
+                let first = bend / 2.0 + stiff * (theta - sin * z) / (2.0 * PI);
+                let at = move |x: f64, stiff: f64| {
+                    let (t, u) = ((x - x0) / l, (x - x0) / l - z);
+                    let y = bend * t * t / 2.0 - mean * t + stiff * u * u / 2.0;
+                    [l * l * y, l * (bend * t - mean + stiff * u)]
+                };
+                let (kink, calls) = (x0 + l * z, AtomicUsize::new(0));
+                let pieces = [
+                    graph(-4.0, kink, move |x| at(x, 0.0)),
+                    graph(kink, 4.5, move |x| at(x, stiff)),
+                ];
+                let body = Piecewise::new(pieces.map(|piece| Counting(piece, &calls)).into());
+                let body = body.unwrap();
+                let contact = Contact::new(&Flat, &body).unwrap().single_interval(true);
+                calls.store(0, Ordering::Relaxed);
+                let solution = contact.solve(Control::Load(l * l * first)).unwrap();
+                let off = off(&solution, Interval { left: x0 - l, right: x0 + l });
+                assert!(off < 1e-10, "{bend} {x0} {l} {z}: off by {off:e}");
+                let calls = calls.load(Ordering::Relaxed);
+                assert!(calls <= 44, "{bend} {x0} {l} {z}: {calls} calls");
+            }
+        }
+    }
+}
+
+/// A contact a millionth as wide as the bodies, just beside a step of the slope ten times as
+/// narrow. Newton's method gets there, but each of its long steps takes samples of bodies as steep
+/// as exponentials: it is better to begin where the bodies touch first. (Seed 3735.)
+#[test]
+fn calls_for_a_contact_beside_a_narrow_step() {
+    let calls = AtomicUsize::new(0);
+    for (c, k, q, x0, single) in [
+        (0.1155, 5.0, 1.0, 0.2087, true),
+        (0.1155, 5.58, 1.7, 0.2087, false),
+        (0.1155, 1.0, 1.7, -0.3, true),
+        (0.1155, 5.58, 1.7, -0.3, false),
+        (1.0, 1.0, 3.0, 0.2087, true),
+        (1.0, 1.0, 1.7, 0.2087, true),
+    ] {
+        let (l, w, t0) = (1e-6, 0.1, 1.2);
+        let steep = k * f64::exp(q * x0);
+        let rise = move |t: f64| c * ((t - t0) / w).tanh() + steep * (q * l * t).exp_m1();
+        let [mean, first] = edge_integrals(rise);
+        let at = move |x: f64| {
+            let t = (x - x0) / l;
+            let u = ((t - t0) / w).abs();
+            let step = c * w * (u + (-2.0 * u).exp().ln_1p());
+            [l * (step - (mean + steep) * t) + steep / q * (q * l * t).exp_m1(), rise(t) - mean]
+        };
+        let body = Counting(graph(-4.8, 5.0, at), &calls);
+        let contact = Contact::new(&Flat, &body).unwrap().single_interval(single);
+        let solution = contact.solve(Control::Load(l * first)).unwrap();
+        let off = off(&solution, Interval { left: x0 - l, right: x0 + l });
+        assert!(off < 1e-9, "{c} {k} {x0}: off by {off:e}");
+    }
+    let calls = calls.load(Ordering::Relaxed);
+    assert!(calls < 23_000, "{calls} calls");
 }
