@@ -28,8 +28,8 @@ fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
     })
 }
 
-/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` with `t =
-/// (x - x₀)/l`, of bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens:
+/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` over
+/// t = (x - x₀)/l, of bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens:
 /// the body, the load and the contact.
 fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     let mut scenes = Vec::new();
