@@ -236,10 +236,11 @@ pub(super) fn converge<T: Real>(
     Ok(Outcome::LeftBracket)
 }
 
-/// Whether an edge of the contact passes a breakpoint from one step to the next.
+/// Whether an edge of the contact passes a breakpoint from one step to the next, or comes as close to one as rounding.
 fn crosses_breakpoint<T: Real>(gap: &Gap<'_, T>, from: Interval<T>, to: Interval<T>) -> bool {
     [[from.left, to.left], [from.right, to.right]].into_iter().any(|[one, other]| {
-        let passed = Interval { left: one.min(other), right: one.max(other) };
+        let rounding = T::of(4.0) * T::epsilon() * other.abs();
+        let passed = Interval { left: one.min(other) - rounding, right: one.max(other) + rounding };
         gap.breakpoints(passed).next().is_some()
     })
 }
@@ -446,9 +447,7 @@ impl<T: Real> Step<T> {
         let ([left, right, _], size) = (next.steps_of(on, self), self.size());
         // As far as rounding allows.
         let rounding = T::epsilon() * (on.left.abs() + on.right.abs());
-        left.abs() + right.abs() >= size
-            && size > T::epsilon().sqrt()
-            && size * on.half_width() > T::of(64.0) * rounding
+        left.abs() + right.abs() >= size && size * on.half_width() > T::of(64.0) * rounding
     }
 }
 
