@@ -201,10 +201,11 @@ pub enum ContactError<T: Real> {
     /// No position of a contact of some width balances the pressures at its two edges.
     #[error(
         "a contact of half-width {half_width:?} finds no balance anywhere near x = {near:?}: the gap \
-         does not close on one place"
+         does not close on one place; give a start nearer to the contact, declare breakpoints at kinks, or ask for \
+         a load that the bodies are known to bear"
     )]
     NoEquilibrium {
-        /// Half-width tried.
+        /// Half-width tried: the one asked for, if one was.
         half_width: T,
         /// Point of first contact.
         near: T,
@@ -477,15 +478,15 @@ pub enum ContactError<T: Real> {
     },
     /// The pressure has no largest value to be set.
     #[error(
-        "no contact has the peak pressure {wanted:?}: the largest pressure found, with half-width \
-         {half_width:?}, is {found:?}"
+        "no contact is found with the peak pressure {wanted:?}: with half-width {half_width:?} it is {found:?}; {}",
+        how_to_peak(*found)
     )]
     NoPeak {
         /// The peak pressure asked for.
         wanted: T,
         /// The half-width tried last.
         half_width: T,
-        /// The peak pressure there; infinite where the slope of a body jumps.
+        /// The peak pressure there; infinite where the slope of a body jumps, NaN where no contact was found.
         found: T,
     },
     /// A point is above the surface, or not finite.
@@ -714,6 +715,17 @@ fn lost_digits<T: Real>(value: T) -> &'static str {
 /// What may be missing where a contact turns out too wide.
 fn hint(kappa_is_default: bool) -> &'static str {
     if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
+}
+
+/// What to do about a peak pressure that is not found, by the one tried last.
+fn how_to_peak<T: Real>(found: T) -> &'static str {
+    if found.is_finite() {
+        "give the load, or a start nearer to the contact"
+    } else if found > T::zero() {
+        "where the slope of a body jumps the pressure is infinite: round the kink, or give the load or the half-width"
+    } else {
+        "no contact was found under any load tried: give a start nearer to the contact, or the load"
+    }
 }
 
 /// What to do about slopes on the left and on the right that are not those of a gap that closes.

@@ -166,11 +166,15 @@ impl<T: Real> Conditions<T> {
     /// The interval, with the width or those limits that are given, within a range.
     pub fn with_given(&self, on: Interval<T>, range: [T; 2]) -> Interval<T> {
         let Given::HalfWidth(half_width) = self.given else { return self.with_given_limits(on) };
+        let around = |centre| Interval { left: centre - half_width, right: centre + half_width };
+        let given = around(on.centre());
+        if given.left > range[0] && given.right < range[1] {
+            return given;
+        }
         // Not at an end of them, where the slope may be infinite, unless they are just wide enough.
         let room = (range[1] - range[0] - half_width - half_width).max(T::zero());
         let inset = half_width + T::of(0.125) * room;
-        let centre = on.centre().max(range[0] + inset).min(range[1] - inset);
-        Interval { left: centre - half_width, right: centre + half_width }
+        around(on.centre().max(range[0] + inset).min(range[1] - inset))
     }
 
     /// The interval, where both limits are given, or the half-width and one of them.

@@ -144,6 +144,7 @@ fn by_search<T: Real>(
     // Loads and peaks on either side of the one wanted: infinite where the pressure is, or there is no
     // contact, and zero where so small a load does not close a hollow.
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
+    let mut found = T::of(f64::NAN);
     for _ in 0..MOST_LOADS {
         let trial = match (begin.take(), bears) {
             (Some(trial), _) => Ok(trial),
@@ -152,7 +153,10 @@ fn by_search<T: Real>(
         };
         let (pressure, rate) = match trial {
             Ok((found, pressure, _)) if pressure == wanted => return Ok(found),
-            Ok((_, pressure, rate)) => (pressure, rate),
+            Ok((_, pressure, rate)) => {
+                found = pressure;
+                (pressure, rate)
+            }
             Err(ContactError::NoEquilibrium { .. }) if high.is_none() => (zero, zero),
             Err(
                 ContactError::DomainTooShort { .. }
@@ -209,7 +213,6 @@ fn by_search<T: Real>(
         }
         load = next;
     }
-    let found = high.or(low).map_or(zero, |[_, pressure]| pressure);
     let half_width = trials.last.map_or(half_width, |on| on.half_width());
     Err(ContactError::NoPeak { wanted, half_width, found })
 }

@@ -53,6 +53,16 @@ pub(super) struct Single<'s, 'b, T: Real> {
     pub bears: Option<Option<Capacity<T>>>,
 }
 
+/// Where one contact is sought after a search that has found none.
+#[derive(Clone, Copy, PartialEq)]
+enum Elsewhere {
+    /// Where the gap is low, as it looks.
+    Low,
+    FirstContact,
+    /// About the place of first contact as in a contact that leans.
+    Leaning,
+}
+
 /// How far a limit lies beyond a corner on its side.
 fn beyond<T: Real>(on: Interval<T>, side: Side, corner: T) -> T {
     match side {
@@ -157,21 +167,42 @@ impl<T: Real> Single<'_, '_, T> {
             return self.contact_of(converged);
         }
         self.check()?;
-        let half_width = self.start().half_width();
+        let half_width = match self.conditions.given {
+            Given::HalfWidth(half_width) => half_width,
+            _ => self.start().half_width(),
+        };
         if is_one_of_several {
             return Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() });
         }
         // From elsewhere, or on a span far wider, the way there may be blocked.
-        for leans in [false, true] {
-            let mut sampler = Sampler::default();
-            let around = self.around_first_contact(&mut sampler, leans);
-            *self.cost += sampler.cost;
-            self.start = Some(around?);
+        for from in [Elsewhere::Low, Elsewhere::FirstContact, Elsewhere::Leaning] {
+            let Some(start) = self.elsewhere(from)? else { continue };
+            self.start = Some(start);
             if let Some(converged) = self.by_newton(None).map_err(|error| self.because(error))? {
                 return self.contact_of(converged);
             }
         }
         Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() })
+    }
+
+    /// Another start: from where the bodies are low, if heights of them are known, or from where they touch first.
+    ///
+    /// On a flat that leans a little, if only by rounding, the lowest place is at one of its ends, and what is about that
+    /// end tells nothing of the other. But at the limits of a contact round bodies are F/κ apart, and wedges, which rise
+    /// most, up to twice as much: up to there the flat takes part.
+    fn elsewhere(&mut self, from: Elsewhere) -> Result<Option<Interval<T>>, ContactError<T>> {
+        if from == Elsewhere::Low {
+            let Some(look) = self.look else { return Ok(None) };
+            return Ok(match self.conditions.given {
+                Given::Load(load) => Some(look.below(T::of(2.0) * load / self.conditions.kappa)),
+                Given::HalfWidth(half_width) => Some(look.level(half_width)),
+                Given::Centre { .. } => None,
+            });
+        }
+        let mut sampler = Sampler::default();
+        let around = self.around_first_contact(&mut sampler, from == Elsewhere::Leaning);
+        *self.cost += sampler.cost;
+        around.map(Some)
     }
 
     /// Where the bodies touch first, with a width that may bear the load: with the slopes -m and n at the limits a

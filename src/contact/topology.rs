@@ -142,7 +142,18 @@ pub(super) fn find<T: Real>(
                 found => return found,
             }
         }
-        let (start, found) = search.one(!convex && !turns);
+        let (start, found) = match search.one(!convex && !turns) {
+            // Without a look at the bodies.
+            (
+                start,
+                found @ Err(ContactError::NoEquilibrium { .. } | ContactError::NoPeak { .. }),
+            ) if convex && !turns => {
+                search.workspace.report.add(start, Outcome::NotFound);
+                let (start, again) = search.one(true);
+                (start, again.or(found))
+            }
+            found => found,
+        };
         match found {
             Ok(found) => match search.checked(&found, convex)? {
                 None => {

@@ -28,7 +28,7 @@ const MOST_PIECES: usize = 1 << 16;
 /// Angles at which a slope is looked at for what a contact would bear.
 const ANGLES: usize = 8;
 
-/// How often an interval is halved until it bears less than a load.
+/// How often an interval is halved in search of a width or of a place.
 const MOST_HALVES: usize = 200;
 
 /// Heights and slopes of two bodies.
@@ -243,6 +243,65 @@ impl<T: Real> CoarseHeights<T> {
             left: (x - room[0].max(least)).max(from),
             right: (x + room[1].max(least)).min(to),
         }
+    }
+
+    /// The interval about the lowest gap in which it rises by less than so much, as it looks; to an end of the bodies,
+    /// where the slope may be infinite, half the way.
+    pub fn below(&self, rise: T) -> Interval<T> {
+        let (x, [from, to]) = (self.lowest, self.range);
+        let heights = self.bodies.each_ref().map(|rows| at(rows, x, true)[0].abs());
+        let rounding = T::of(8.0) * T::epsilon() * (heights[0] + heights[1]);
+        let level = self.height(x) + rise.max(rounding);
+        let (left, right) = self.nodes.split_at(self.nodes.partition_point(|node| node.x < x));
+        Interval {
+            left: self.rises_to(level, left.iter().rev(), from),
+            right: self.rises_to(level, right.iter(), to),
+        }
+    }
+
+    /// Where the gap rises to a level, over samples from the lowest gap outward.
+    fn rises_to<'n>(&self, level: T, outward: impl Iterator<Item = &'n GapNode<T>>, end: T) -> T
+    where
+        T: 'n,
+    {
+        let (half, mut low, mut high) = (T::of(0.5), self.lowest, end);
+        for node in outward.filter(|node| node.x != end) {
+            if node.height > level {
+                high = node.x;
+                break;
+            }
+            low = node.x;
+        }
+        if high == end {
+            return half * low + half * end;
+        }
+        let from = low;
+        for _ in 0..MOST_HALVES {
+            if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
+                break;
+            }
+            let middle = half * low + half * high;
+            *(if self.height(middle) > level { &mut high } else { &mut low }) = middle;
+        }
+        high
+    }
+
+    /// The interval of a half-width about the lowest gap at whose two ends that is as high, as it looks, if there is
+    /// room for it.
+    pub fn level(&self, half_width: T) -> Interval<T> {
+        let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
+        let mut left = (x - half_width).max(from + half_width);
+        let mut right = (x + half_width).min(to - half_width);
+        for _ in 0..MOST_HALVES {
+            let middle = half * left + half * right;
+            if !(left < middle && middle < right) {
+                break;
+            }
+            let rises = self.height(middle + half_width) > self.height(middle - half_width);
+            *(if rises { &mut right } else { &mut left }) = middle;
+        }
+        let centre = half * left + half * right;
+        Interval { left: centre - half_width, right: centre + half_width }
     }
 
     fn find_lowest(&self, nodes: &[GapNode<T>]) -> T {

@@ -29,6 +29,7 @@ mod edge_pressures;
 mod edges;
 mod errors;
 mod estimates;
+mod flats;
 mod fuzz_regressions;
 mod held_widths;
 mod invariants;

@@ -69,7 +69,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             &["FreeUntil(33.5)", "(κ is 1"],
             Solve,
         ),
-        (E::NoEquilibrium { half_width, near: 15.5 }, &["near x = 15.5"], Solve),
+        (E::NoEquilibrium { half_width, near: 15.5 }, &["near x = 15.5", "give a start"], Solve),
         (E::Overflow { interval: ON }, &["units"], Solve),
         (
             E::BudgetSpent { evaluations: 42, budget: 43, last: ON },

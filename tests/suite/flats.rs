@@ -1,0 +1,212 @@
+//! Punches whose flat leans or bulges by next to nothing, or is joined from arcs by running sums: which of its
+//! corners is the lowest is chance, and the contact spans it.
+//!
+//! With the slope g = s + b x on the flat, and what a parabola or an arc adds to that beyond its corners, the two
+//! conditions of a contact about c are sums of integrals over the overhangs alone:
+//!
+//! ```text
+//! balance:  s + b c + (1/π) (right - left) = 0           right, left = ∫ more dθ
+//! load:     b L²/2 + (L/π) (right + left) = F/κ         right, left = ∫ more |cos θ| dθ
+//! ```
+//!
+//! The slope never falls, so that what meets them is the contact.
+#![allow(missing_docs)]
+
+use crate::common::{Shares, graph};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
+use linecontact::{Interval, ParametricProfile};
+use std::f64::consts::PI;
+
+type Part = Box<dyn ParametricProfile<f64>>;
+
+/// A flat with two corners.
+struct Punch {
+    body: Piecewise<f64, Part>,
+    corners: [f64; 2],
+    radii: [f64; 2],
+    slope: f64,
+    bow: f64,
+    is_round: bool,
+}
+
+impl Punch {
+    /// Corners that are parabolas, a flat that bulges.
+    fn new(half: f64, radii: [f64; 2], slope: f64, bow: f64) -> Self {
+        let reach = half.max(0.3);
+        let flat = move |x: f64| [slope * x + bow * x * x / 2.0, slope + bow * x];
+        let corner = move |x: f64, depth: f64, radius: f64| {
+            let [y, g] = flat(x);
+            [y + depth * depth / (2.0 * radius), g + depth / radius]
+        };
+        let parts = vec![
+            graph(-half - reach, -half, move |x| corner(x, x + half, radii[0])),
+            graph(-half, half, flat),
+            graph(half, half + reach, move |x| corner(x, x - half, radii[1])),
+        ];
+        Self::of(parts, 1, radii, slope, bow, false)
+    }
+
+    /// Corners of so many arcs each, which turn by `turn` in all, joined by running sums.
+    fn joined(half: f64, radii: [f64; 2], slope: f64, [turn, arcs]: [f64; 2]) -> Self {
+        let mut heading = slope - turn;
+        let mut at = [-half - radii[0] * turn.sin(), 0.0];
+        let mut flat = slope;
+        let mut parts: Vec<Part> = Vec::new();
+        let arcs = arcs as usize;
+        for i in 0..=2 * arcs {
+            let ([x, y], from) = (at, heading);
+            let end = if i == arcs {
+                flat = heading;
+                let (sin, cos) = from.sin_cos();
+                let line = move |k| CurvePoint { x: x + k * cos, y: y + k * sin, dx: cos, dy: sin };
+                parts.push(Box::new(Curve::new([0.0, 2.0 * half], line)));
+                line(2.0 * half)
+            } else {
+                let (radius, share) = (radii[usize::from(i > arcs)], turn / arcs as f64);
+                let (sin, cos) = from.sin_cos();
+                let arc = move |k: f64| {
+                    let (s, c) = (from + k).sin_cos();
+                    let [x, y] = [x + radius * (s - sin), y + radius * (cos - c)];
+                    CurvePoint { x, y, dx: radius * c, dy: radius * s }
+                };
+                heading += share;
+                parts.push(Box::new(Curve::new([0.0, share], arc)));
+                arc(share)
+            };
+            at = [end.x, end.y];
+        }
+        Self::of(parts, arcs, radii, flat.tan(), 0.0, true)
+    }
+
+    fn of(
+        parts: Vec<Part>,
+        flat: usize,
+        radii: [f64; 2],
+        slope: f64,
+        bow: f64,
+        is_round: bool,
+    ) -> Self {
+        let body = Piecewise::new(parts).unwrap();
+        let corners = body.piece(flat).unwrap().x();
+        Self { body, corners, radii, slope, bow, is_round }
+    }
+
+    /// How far a contact misses its two conditions under a load, relative to the terms of each, in units of what the
+    /// rounding of the limits explains.
+    fn missed(&self, Interval { left, right }: Interval<f64>, load: f64) -> f64 {
+        let (centre, half) = ((right + left) / 2.0, (right - left) / 2.0);
+        let mut allowed = 1e-9 + 4.0 * f64::EPSILON * (left.abs() + right.abs()) / half;
+        // Of an arc the sine of its angle grows evenly, from that of the flat on.
+        let mut overhang = |over: f64, radius: f64, slope: f64| {
+            if over <= 0.0 {
+                return [0.0; 2];
+            }
+            allowed += 8.0 * f64::EPSILON * (left.abs() + right.abs()) / over;
+            let end = 2.0 * (over / (2.0 * half)).min(1.0).sqrt().asin();
+            // By Simpson's rule.
+            const STEPS: usize = 1024;
+            (0..=STEPS).fold([0.0; 2], |[balance, load], i| {
+                let at = end * i as f64 / STEPS as f64;
+                let within = ((end + at) / 2.0).sin() * ((end - at) / 2.0).sin();
+                let depth = 2.0 * half * within + (over - 2.0 * half).max(0.0);
+                let more = if self.is_round {
+                    let sine = slope.atan().sin() + depth / radius;
+                    sine / (1.0 - sine * sine).sqrt() - slope
+                } else {
+                    depth / radius
+                };
+                let weight = [2.0, 4.0][i % 2] - if i % STEPS == 0 { 1.0 } else { 0.0 };
+                let term = weight * end / (3.0 * STEPS as f64) * more;
+                [balance + term, load + term * at.cos()]
+            })
+        };
+        let behind_left = overhang(self.corners[0] - left, self.radii[0], -self.slope);
+        let behind_right = overhang(right - self.corners[1], self.radii[1], self.slope);
+        let balance = self.slope + self.bow * centre + (behind_right[0] - behind_left[0]) / PI;
+        let terms = self.slope.abs()
+            + self.bow * (centre.abs() + half)
+            + (behind_right[0] + behind_left[0]) / PI;
+        let carried = self.bow * half * half / 2.0 + half / PI * (behind_right[1] + behind_left[1]);
+        (balance.abs() / terms).max((carried / load - 1.0).abs()) / allowed
+    }
+
+    /// Whether a load is more than it bears, as an error says: the contact that reaches the end bears less.
+    fn is_too_short(&self, error: &ContactError<f64>) -> bool {
+        let ContactError::DomainTooShort { end, carried, load, half_width, .. } = *error else {
+            return false;
+        };
+        let last = self.body.pieces() - 1;
+        let range = [self.body.piece(0).unwrap().x()[0], self.body.piece(last).unwrap().x()[1]];
+        let on = if end < 0.0 {
+            Interval { left: end, right: end + 2.0 * half_width }
+        } else {
+            Interval { left: end - 2.0 * half_width, right: end }
+        };
+        range.contains(&end) && carried < load && self.missed(on, carried) < 1.0
+    }
+}
+
+#[test]
+fn the_contact_spans_a_flat_that_leans_by_rounding() {
+    let mut all = Vec::new();
+    for slope in [1e-17, 1e-16, 1e-14, 1e-12] {
+        for sign in [1.0, -1.0] {
+            all.push(Punch::new(1.0, [0.0128, 0.0452], sign * slope, 0.0));
+        }
+    }
+    for arcs in 1..6 {
+        all.push(Punch::joined(1.0, [0.0128, 0.0452], 0.0, [1.2, f64::from(arcs)]));
+    }
+    for punch in all {
+        let contact = Contact::new(&Flat, &punch.body).unwrap();
+        for load in [1e-3, 1e-5, 1e-6, 1e-7] {
+            let found = contact.solve(Control::Load(load));
+            let found = found.unwrap_or_else(|error| panic!("{} {load}: {error}", punch.slope));
+            let on = found.hull();
+            assert!(on.left < -1.0 && on.right > 1.0, "{} {load}: {on:?}", punch.slope);
+            assert!(punch.missed(on, load) < 1.0, "{} {load}: {on:?}", punch.slope);
+        }
+    }
+}
+
+/// Cold, as after a heavier load.
+#[test]
+fn random_flats() {
+    let mut shares = Shares(28);
+    let (mut refused, mut overloaded) = (0, 0);
+    for scene in 0..5000 {
+        let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
+        let radii = [power(-4.0, -0.5), power(-4.0, -0.5)];
+        let half = if scene % 2 == 0 { 1.0 } else { power(-0.7, 0.7) };
+        let (rounding, lean, bow) = (power(-17.0, -12.0), power(-12.0, -3.0), power(-16.0, -2.0));
+        let load = power(-8.0, -1.0);
+        let sign = if shares.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
+        let slope = sign * [0.0, rounding, rounding, lean][scene / 2 % 4];
+        let turn = shares.between(1.0, 1.4);
+        let punch = match scene / 8 % 4 {
+            0 => Punch::new(half, radii, slope, 0.0),
+            1 => Punch::new(half, radii, slope, bow),
+            2 => Punch::joined(half, radii, slope, [turn, 1.0]),
+            _ => Punch::joined(half, radii, slope, [turn, shares.between(2.0, 6.0).floor()]),
+        };
+        let contact = Contact::new(&Flat, &punch.body).unwrap();
+        match contact.solve(Control::Load(load)) {
+            Ok(found) => {
+                let missed = punch.missed(found.hull(), load);
+                assert!(missed < 1.0, "{scene}: {missed} {:?}", found.hull());
+                let mut solver = Solver::new();
+                if solver.solve(&contact, Control::Load(3.0 * load)).is_ok() {
+                    let warm = solver.solve(&contact, Control::Load(load)).unwrap().hull();
+                    assert!(punch.missed(warm, load) < 1.0, "{scene}: {warm:?}");
+                }
+            }
+            Err(error) if punch.is_too_short(&error) => overloaded += 1,
+            Err(error) => {
+                println!("{scene}: {load:e} on {slope:e} {radii:?}: {error}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(overloaded < 250, "{overloaded}");
+    assert_eq!(refused, 0);
+}
