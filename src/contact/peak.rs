@@ -18,6 +18,9 @@ use crate::{ContactError, Ends, Interval, Real};
 /// Loads tried before the pressure is given up.
 const MOST_LOADS: usize = 200;
 
+/// The largest power of the peak that the load goes with: 2 for a round body, 1 for a flat.
+const MOST_POWER: f64 = 5.0;
+
 /// Contacts of given load between free edges.
 struct Trials<'s, T: Real> {
     contact: &'s Contact<'s, T>,
@@ -146,6 +149,7 @@ fn by_search<T: Real>(
     let (mut low, mut high): (Option<[T; 2]>, Option<[T; 2]>) = (None, None);
     let mut found = T::of(f64::NAN);
     for _ in 0..MOST_LOADS {
+        let has_start = begin.is_some() || trials.last.is_some();
         let trial = match (begin.take(), bears) {
             (Some(trial), _) => Ok(trial),
             (None, Some(widest)) if load >= widest.load => Err(widest.too_short(load)),
@@ -185,9 +189,15 @@ fn by_search<T: Real>(
             }
             Err(error) => return Err(error),
         };
+        let power = pressure / (load * rate);
+        if power > T::of(MOST_POWER) && has_start {
+            // Most of such a pressure is no load's: the contact spans a hollow, and pulls there.
+            trials.last = None;
+            continue;
+        }
         *(if pressure < wanted { &mut low } else { &mut high }) = Some([load, pressure]);
         // By Newton's rule for the logarithms, and a little further, so as to enclose it.
-        let power = (pressure / (load * rate)).max(T::of(0.5)).min(T::of(5.0));
+        let power = power.max(T::of(0.5)).min(T::of(MOST_POWER));
         let step = (wanted / pressure).powf(power);
         let step = if pressure < wanted { step * T::of(1.1) } else { step / T::of(1.1) };
         let sure = pressure.is_finite() && pressure > zero;

@@ -118,3 +118,22 @@ fn what_a_given_peak_costs() {
         assert_eq!(cost.evaluations + cost.heights, calls.load(Relaxed) - before);
     }
 }
+
+/// A wide trial spans hollows, and its pressure is hardly the load's: it is not where the next one starts.
+#[test]
+fn of_one_crest_of_many() {
+    for (w, steep, phase, load) in [
+        (74.23460738669868, 2.387420189230763, 6.093179177912889, 8.767190905891958e-7),
+        (156.1475603184488, 13.766458396941339, 5.495245245702054, 3.479030365063762e-8),
+    ] {
+        let a: f64 = steep / (w * w);
+        let contact = on_flat(graph(-1.0, 1.0, move |x| {
+            let (sin, cos) = (w * x + phase).sin_cos();
+            [x * x / 2.0 + a * cos, x - a * w * sin]
+        }));
+        let under = contact.solve(Control::Load(load)).unwrap();
+        let found = contact.solve(Control::PeakPressure(under.peak().unwrap().pressure)).unwrap();
+        assert!((found.load() / load - 1.0).abs() < 1e-7, "{found} {:?} {under} {:?}", found.peak(), under.peak());
+        assert!((found.a() - under.a()).abs() < 1e-7 * under.hull().half_width());
+    }
+}
