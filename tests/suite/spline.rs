@@ -235,7 +235,7 @@ fn bad_points_are_named_by_their_row() {
     assert_eq!(with(10, Some(before), None), SplineError::Duplicate { row: 10, x: before });
     let unsorted = SplineError::Unsorted { row: 10, x: -3.0, before };
     assert_eq!(with(10, Some(-3.0), None), unsorted);
-    assert!(unsorted.to_string().starts_with("row 10: x = -3.0 after"));
+    assert!(unsorted.to_string().starts_with("row 10: x = -3 after"));
     for few in 0..4 {
         let error = Spline::through(&points[..few]).map(|_| ()).unwrap_err();
         assert_eq!(error, SplineError::TooFew { points: few });
