@@ -375,7 +375,9 @@ class Involute(Body):
 
 
 class Crowning(Body):
-    """Logarithmic (Lundberg) crowning of a roller, `Y = -C ln(1 - (X/l)²)`.
+    """Logarithmic (Lundberg) crowning, `Y = -C ln(1 - (X/l)²)`, of a body that is long across the plane.
+
+    Along the axis of a roller the contact is one in space: for it a plane solution is a guide only.
 
     Parameters
     ----------
@@ -465,7 +467,8 @@ class Spline(Body):
         Rows of x and y, lengths, by rising x.
     noise : float
         Standard deviation of the heights: a length. Of all curves that are off the points by so much the
-        smoothest is taken. With 0 the curve goes through the points.
+        smoothest is taken. With 0 the curve goes through the points. Rather a tenth too much than too little: with
+        much less than half of the true noise the curve follows it, and touches in many places.
     outliers : float or None
         How far off its neighbours a point may be before it is refused, in standard deviations. None: any.
 
