@@ -41,7 +41,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
     >>> found["error"]
     array(['', 'InvalidLoadError'], dtype=object)
     >>> print(found.errors[1])
-    the load is -1.0: it must be finite, and positive where limits are sought
+    the load is -1: it must be finite, and positive where limits are sought
     """
 
     errors: dict[int, Exception]
