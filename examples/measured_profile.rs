@@ -4,6 +4,9 @@
 //! noise, to `target/measured_profile.txt`, as a machine would, reads them back, smooths them and
 //! solves; since it is a circle, the answer is known. The pressure is drawn to
 //! `target/figures/measured_profile.svg`. Lengths in mm, pressures in MPa, load in N/mm.
+//!
+//! At last it prints how wrong limits and peak become by how many points, and by a noise that is said to be
+//! a tenth less or more than it is.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -22,10 +25,13 @@ const HALF_WIDTH: f64 = 0.25;
 const MODULUS: f64 = 115e3;
 const NOISE: f64 = 1e-4; // standard deviation of the heights, a tenth of a micrometre
 const POINTS: i32 = 2000; // on either side, a micrometre apart
+/// Half-widths by the radius, and numbers of points, of the table.
+const SIZES: [(f64, i32); 6] =
+    [(0.02, 401), (0.02, 4001), (0.1, 401), (0.1, 4001), (0.22, 401), (0.22, 4001)];
 
 fn main() -> Result<(), Box<dyn Error>> {
     fs::create_dir_all("target")?;
-    fs::write("target/measured_profile.txt", measurement()?)?;
+    fs::write("target/measured_profile.txt", measurement(&mut Random(1))?)?;
     let points = read(&fs::read_to_string("target/measured_profile.txt")?)?;
     let (raw, smooth) = (
         Spline::through(&points)?,
@@ -81,7 +87,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pressures = Panel::new("Pressure on a flat", ("x / mm", range), ("P / MPa", [0.0, 1600.0]))
         .size(520, 220)
         .legend(SeriesLabelPosition::LowerMiddle)
-        .line(solved, BLUE, "as measured")
+        .line(solved, BLUE, "smoothed")
         .dots(known, RED, "of the circle")
         .limit(on.left, "−b")
         .limit(on.right, "a");
@@ -90,24 +96,65 @@ fn main() -> Result<(), Box<dyn Error>> {
     assert!(off.into_iter().all(|off| off.abs() < 0.01), "{off:?}");
     assert!(slope(&smooth) < 0.003 * slope(&raw));
     assert!(matches!(error, SplineError::Outlier { row: 1234, .. }));
-    Ok(())
+    table()
 }
 
 /// What the machine writes: x and y in each line.
-fn measurement() -> Result<String, std::fmt::Error> {
-    let mut state = 1u64;
-    let mut uniform = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+fn measurement(random: &mut Random) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     for i in -POINTS..=POINTS {
         let x = 1e-3 * f64::from(i);
-        let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-        let y = RADIUS - (RADIUS * RADIUS - x * x).sqrt() + NOISE * normal;
+        let y = RADIUS - (RADIUS * RADIUS - x * x).sqrt() + NOISE * random.normal();
         writeln!(text, "{x:.3} {y:.6}")?;
     }
     Ok(text)
+}
+
+/// Prints the largest errors of twenty measurements: of a circle over four half-widths to either side, with noise
+/// of 1e-5 of the radius.
+fn table() -> Result<(), Box<dyn Error>> {
+    let noise = 1e-5;
+    println!("noise 1e-5 R, points over four half-widths to either side, largest errors of 20:");
+    println!("         noise given: 0.9 of it         all            1.1 of it");
+    println!("L/R    points   limits   peak    limits   peak    limits   peak");
+    for (half_width, count) in SIZES {
+        print!("{half_width:<5} {count:7}");
+        let exact = Ellipse::circle(1.0, half_width)?;
+        for given in [0.9, 1.0, 1.1] {
+            let mut worst = [0.0f64; 2];
+            for seed in 0..20 {
+                let mut random = Random(seed);
+                let point = |i: i32| {
+                    let x = 4.0 * half_width * (f64::from(2 * i) / f64::from(count - 1) - 1.0);
+                    [x, 1.0 - ((1.0 - x) * (1.0 + x)).sqrt() + noise * random.normal()]
+                };
+                let points: Vec<_> = (0..count).map(point).collect();
+                let body = Spline::fitted(&points, Fit { noise: given * noise, ..Fit::default() })?;
+                let solution = Contact::new(&Flat, &body)?.solve(Control::Load(exact.load(1.0)))?;
+                let limits = [solution.a(), solution.b()].map(|x| (x / half_width - 1.0).abs());
+                let peak = solution.peak()?.pressure / exact.pressure(0.0, 1.0) - 1.0;
+                worst = [worst[0].max(limits[0]).max(limits[1]), worst[1].max(peak.abs())];
+            }
+            print!("  {:7.0e} {:7.0e}", worst[0], worst[1]);
+        }
+        println!();
+    }
+    Ok(())
+}
+
+/// Random numbers, always the same.
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Of normal distribution, nearly.
+    fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
+    }
 }
 
 /// The points of a file with two numbers in each line.

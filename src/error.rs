@@ -1,8 +1,14 @@
 //! What can go wrong with a scene, and how to mend it.
 
+mod advice;
+
+pub(crate) use advice::is_subnormal;
+
 use crate::profile::SplineError;
+use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use crate::{Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
+use advice::{SEVERAL, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place};
 use std::fmt;
 use thiserror::Error;
 
@@ -40,8 +46,8 @@ pub enum ContactError<T: Real> {
     Points(#[from] SplineError<T>),
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
     #[error(
-        "cancelled after {evaluations} evaluations of the curves, the last from x = {:?} to {:?}",
-        last.left, last.right
+        "cancelled after {evaluations} evaluations of the curves, the last from x = {}",
+        span(last.left, last.right)
     )]
     Cancelled {
         /// Evaluations of the curves by then.
@@ -59,8 +65,8 @@ pub enum ContactError<T: Real> {
     },
     /// The two bodies have no `x` in common.
     #[error(
-        "the bodies lie beside each other: the lower covers x = {:?} to {:?}, the upper {:?} to {:?}",
-        lower[0], lower[1], upper[0], upper[1]
+        "the bodies lie beside each other: the lower covers x = {}, the upper {}; move one of them over the other",
+        span(lower[0], lower[1]), span(upper[0], upper[1])
     )]
     NoCommonRange {
         /// Range of `x` of the lower body.
@@ -69,7 +75,10 @@ pub enum ContactError<T: Real> {
         upper: [T; 2],
     },
     /// `x` is beyond one of the bodies, or NaN.
-    #[error("x = {x:?} is beyond the bodies, which both cover only {:?} to {:?}", range[0], range[1])]
+    #[error(
+        "x = {} is beyond the bodies, which both cover only {}; ask within, or extend their domains",
+        apart(*x, range), span(range[0], range[1])
+    )]
     OutsideBodies {
         /// Where.
         x: T,
@@ -77,7 +86,7 @@ pub enum ContactError<T: Real> {
         range: [T; 2],
     },
     /// `X(k) = x` could not be inverted.
-    #[error("{body} body: X(k) = {x:?} cannot be inverted: {source}")]
+    #[error("{body} body: X(k) = {x} cannot be inverted: {source}", x = six(*x))]
     Inversion {
         /// Whose profile.
         body: Body,
@@ -89,8 +98,8 @@ pub enum ContactError<T: Real> {
     /// The load, half-width, peak pressure or approach asked for is not finite; or it is not positive, which a
     /// load needs to be only where limits are sought without adhesion; or so small that it has lost digits.
     #[error(
-        "the {quantity} is {value:?}: it must be finite, and positive where limits are sought{}",
-        lost_digits(*value)
+        "the {quantity} is {value}: it must be finite, and positive where limits are sought{}",
+        lost_digits(*value), value = six(*value)
     )]
     InvalidLoad {
         /// What was asked for: `load`, `half-width`, `peak pressure` or `approach`.
@@ -99,29 +108,35 @@ pub enum ContactError<T: Real> {
         value: T,
     },
     /// κ is not a positive finite number.
-    #[error("κ = {kappa:?}: the scale must be positive and finite (κ = π E*/2)")]
+    #[error("κ = {kappa}: the scale must be positive and finite (κ = π E*/2)", kappa = six(*kappa))]
     InvalidKappa {
         /// κ as given.
         kappa: T,
     },
     /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
-    #[error("E* = {modulus:?}: the contact modulus must be positive, and π E*/2 finite")]
+    #[error(
+        "E* = {modulus}: the contact modulus must be positive, and π E*/2 finite",
+        modulus = six(*modulus)
+    )]
     InvalidModulus {
         /// E* as given.
         modulus: T,
     },
     /// Given or starting limits are not in order, or a half-width is lost in the rounding of `x`.
-    #[error("the interval from -b = {:?} to a = {:?} is empty, reversed, not finite, or \
-         narrower than the rounding of x",
-        interval.left, interval.right)]
+    #[error(
+        "the interval from -b = {left} to a = {right} is empty, reversed, not finite, or narrower than the rounding \
+         of x; give finite limits, the left one first",
+        left = apart(interval.left, &[interval.right]), right = apart(interval.right, &[interval.left])
+    )]
     InvalidLimits {
         /// The interval as given.
         interval: Interval<T>,
     },
     /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
     #[error(
-        "{name} = {value:?}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
-         finite, distances shorter than the bodies and longer than the rounding of x"
+        "{name} = {value}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
+         finite, distances shorter than the bodies and longer than the rounding of x",
+        value = six(*value)
     )]
     InvalidEdgePressure {
         /// Which of them.
@@ -132,9 +147,9 @@ pub enum ContactError<T: Real> {
     /// The slope difference of the bodies nowhere goes from negative to positive, so that
     /// they do not open on both sides of a point of first contact.
     #[error(
-        "no point of first contact: the slope f₂' - f₁' is {:?} at x = {:?} and {:?} at x = {:?}, but a \
+        "no point of first contact: the slope f₂' - f₁' is {} at x = {} and {} at x = {}, but a \
          gap falls on its left and rises on its right; {}",
-        slope[0], x[0], slope[1], x[1], how_to_touch(*slope)
+        six(slope[0]), place(x[0]), six(slope[1]), place(x[1]), how_to_touch(*slope)
     )]
     NoFirstContact {
         /// Two abscissae.
@@ -144,9 +159,11 @@ pub enum ContactError<T: Real> {
     },
     /// The contact that carries the load reaches beyond a body; of several, the first or the last.
     #[error(
-        "the contact would leave the bodies at x = {end:?}: up to there they carry {carried:?} of the \
-         load {load:?}, with half-width {half_width:?} and peak pressure {peak:?}; extend the domain \
-         or lower the load{}", hint(*kappa_is_default)
+        "the contact would leave the bodies at x = {end}: up to there they carry {carried} of the \
+         load {load}, with half-width {half_width} and peak pressure {peak}; extend the domain \
+         or lower the load{}",
+        hint(*kappa_is_default), end = six(*end), carried = apart(*carried, &[*load]),
+        load = apart(*load, &[*carried]), half_width = six(*half_width), peak = six(*peak)
     )]
     DomainTooShort {
         /// The end that the contact reaches first.
@@ -165,9 +182,11 @@ pub enum ContactError<T: Real> {
     },
     /// A contact of this half-width reaches beyond a body.
     #[error(
-        "a contact of half-width {wanted:?} would leave the bodies at x = {end:?}: there is room for \
-         {half_width:?}, which carries {load:?} with peak pressure {peak:?}; extend the domain or lower \
-         the half-width{}", hint(*kappa_is_default)
+        "a contact of half-width {wanted} would leave the bodies at x = {end}: there is room for \
+         {half_width}, which carries {load} with peak pressure {peak}; extend the domain or lower \
+         the half-width{}",
+        hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
+        half_width = apart(*half_width, &[*wanted]), load = six(*load), peak = six(*peak)
     )]
     HalfWidthTooLarge {
         /// The half-width asked for.
@@ -186,9 +205,9 @@ pub enum ContactError<T: Real> {
     /// The contacts reach the end of the bodies, where nothing is said of a corner, and no load is known under
     /// which one of them just comes there: as where the gap falls towards the end, which touches all at once.
     #[error(
-        "under the load {load:?} the contact reaches the end of the bodies at x = {end:?}: extend the \
-         domain, lower the load, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there{}",
-        hint(*kappa_is_default)
+        "under the load {load} the contact reaches the end of the bodies at x = {end}: extend the \
+         domain, lower the load, or give Edge::FreeUntil({:?}) if the bodies have a sharp corner there{}",
+        end, hint(*kappa_is_default), load = six(*load), end = six(*end)
     )]
     EndReached {
         /// The end that it reaches.
@@ -200,9 +219,9 @@ pub enum ContactError<T: Real> {
     },
     /// No position of a contact of some width balances the pressures at its two edges.
     #[error(
-        "a contact of half-width {half_width:?} finds no balance anywhere near x = {near:?}: the gap \
-         does not close on one place; give a start nearer to the contact, declare breakpoints at kinks, or ask for \
-         a load that the bodies are known to bear"
+        "no contact is found near x = {near}: none of half-width {half_width}, the width asked for or else the \
+         last that was tried, is in balance there; {SEVERAL}, or give a start",
+        near = six(*near), half_width = six(*half_width)
     )]
     NoEquilibrium {
         /// Half-width tried: the one asked for, if one was.
@@ -212,8 +231,8 @@ pub enum ContactError<T: Real> {
     },
     /// The forces on a contact are beyond the range of the number type.
     #[error(
-        "the forces on a contact from {:?} to {:?} overflow: choose units in which they are \
-         nearer to 1, or give a start nearer to the contact", interval.left, interval.right
+        "the forces on a contact from {} overflow: choose units in which they are \
+         nearer to 1, or give a start nearer to the contact", span(interval.left, interval.right)
     )]
     Overflow {
         /// The contact.
@@ -221,9 +240,9 @@ pub enum ContactError<T: Real> {
     },
     /// The search has spent its budget of evaluations.
     #[error(
-        "{evaluations} evaluations of the curves, the last from x = {:?} to {:?}, and not done: the budget is \
+        "{evaluations} evaluations of the curves, the last from x = {}, and not done: the budget is \
          {budget}; give a start nearer to the contact, declare breakpoints, or set a looser tolerance",
-        last.left, last.right
+        span(last.left, last.right)
     )]
     BudgetSpent {
         /// Evaluations of the curves, or values of the slope of the gap, by then.
@@ -235,7 +254,10 @@ pub enum ContactError<T: Real> {
         last: Interval<T>,
     },
     /// The search for the limits gave up.
-    #[error("limits not found: {source}; best so far -b = {:?}, a = {:?}", best.left, best.right)]
+    #[error(
+        "limits not found: {source}; best so far -b = {}, a = {}",
+        apart(best.left, &[best.right]), apart(best.right, &[best.left])
+    )]
     LimitSearch {
         /// The best limits so far.
         best: Interval<T>,
@@ -245,9 +267,9 @@ pub enum ContactError<T: Real> {
     },
     /// The limits are as good as the numbers allow, but Eq. (6) is not met.
     #[error(
-        "the best limits, -b = {:?} and a = {:?}, leave P(a - ε_a) - A = {at_a:?} and \
-         P(ε_b - b) - B = {at_b:?}: more than ε₁, ε₂; take more segments or larger tolerances",
-        best.left, best.right
+        "the best limits, -b = {} and a = {}, leave P(a - ε_a) - A = {at_a} and \
+         P(ε_b - b) - B = {at_b}: more than ε₁, ε₂; take more segments or larger tolerances",
+        apart(best.left, &[best.right]), apart(best.right, &[best.left]), at_a = six(*at_a), at_b = six(*at_b)
     )]
     EdgePressureNotMet {
         /// The best limits.
@@ -270,7 +292,10 @@ pub enum ContactError<T: Real> {
     },
     /// The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq. (6) has
     /// left a singularity, or where the slope of a body jumps.
-    #[error("the pressure at x = {x:?} is infinite; ask beside it, or for edge_singularities()")]
+    #[error(
+        "the pressure at x = {x} is infinite; ask beside it, or for edge_singularities()",
+        x = six(*x)
+    )]
     Singular {
         /// Where.
         x: T,
@@ -278,9 +303,10 @@ pub enum ContactError<T: Real> {
     /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other: a step in
     /// Y, or a wrong derivative, of which [`check_derivatives`](crate::check_derivatives) tells which body it is.
     #[error(
-        "from x = {:?} to {:?} the gap rises by {by_heights:?} by the heights Y of the bodies, but by \
-         {by_slopes:?} by their slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y",
-        between[0], between[1]
+        "from x = {} the gap rises by {by_heights} by the heights Y of the bodies, but by {by_slopes} by their \
+         slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y; check_derivatives tells which",
+        span(between[0], between[1]), by_heights = apart(*by_heights, &[*by_slopes]),
+        by_slopes = apart(*by_slopes, &[*by_heights])
     )]
     InconsistentHeights {
         /// Two places.
@@ -292,8 +318,10 @@ pub enum ContactError<T: Real> {
     },
     /// The bodies would have to pull at each other inside the contact: they part there.
     #[error(
-        "the pressure at x = {x:?} would be {pressure:?}: the bodies part there, and touch in more \
-         than one place"
+        "the pressure at x = {x} would be {pressure} in the contact found under the load {load}, from {}: the bodies \
+         part there; {}",
+        span(interval.left, interval.right), how_to_press(*pressure), x = six(*x), pressure = six(*pressure),
+        load = six(*load)
     )]
     Tension {
         /// Where the pressure is negative.
@@ -307,8 +335,9 @@ pub enum ContactError<T: Real> {
     },
     /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative.
     #[error(
-        "the contact is said to end at the corner x = {x:?}, but the body lifts off there (the strength of \
-         the singularity is {strength:?}): use Edge::FreeUntil, for a corner that is free until it is reached"
+        "the contact is said to end at the corner x = {x}, but under the load {load} the body lifts off there (the \
+         strength of the singularity is {strength}): use Edge::FreeUntil, for a corner that is free until it is reached",
+        x = six(*x), strength = six(*strength), load = six(*load)
     )]
     LiftsOff {
         /// The corner.
@@ -322,8 +351,9 @@ pub enum ContactError<T: Real> {
     },
     /// The bodies would overlap outside the contact: they touch there as well.
     #[error(
-        "the bodies would overlap by {:?} at x = {x:?}, outside the contact: they touch there as \
-         well", -*gap
+        "the bodies would overlap by {} at x = {x}, outside the contact found under the load {load}, from {}: they \
+         touch there as well; {SEVERAL}", six(-*gap), span(interval.left, interval.right), x = six(*x),
+        load = six(*load)
     )]
     Overlap {
         /// Where.
@@ -338,8 +368,9 @@ pub enum ContactError<T: Real> {
     /// The slope of the gap inside the contact is not what the samples say from which the contact was
     /// found: something lies between two of them.
     #[error(
-        "the slope of the gap at x = {x:?} is {slope:?}, where the panels say {assumed:?}: something \
-         narrow has been missed there; declare breakpoints at its ends, or correct the curve"
+        "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something \
+         narrow has been missed there; declare breakpoints at its ends, or correct the curve",
+        x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
     )]
     FeatureMissed {
         /// Where.
@@ -352,10 +383,10 @@ pub enum ContactError<T: Real> {
     /// The samples of the certificate leave a pressure at a free edge that is not that of the contact:
     /// what the limits were found from was not the whole of the curves.
     #[error(
-        "the limits do not balance the bodies: at the free edge x = {x:?} the pressure would have a \
-         singularity of strength {strength:?}, where the limits were found to within {allowed:?}; declare \
+        "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a \
+         singularity of strength {strength}, where the limits were found to within {allowed}; declare \
          breakpoints, give a start nearer to the contact, or correct the curves, which must be the same at \
-         each call"
+         each call", x = six(*x), strength = six(*strength), allowed = six(*allowed)
     )]
     Unbalanced {
         /// The limit.
@@ -368,7 +399,8 @@ pub enum ContactError<T: Real> {
     /// The certificate has spent its budget.
     #[error(
         "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
-         {samples} samples: at x = {x:?} it would take more; narrow the domains, or declare breakpoints"
+         {samples} samples: at x = {x} it would take more; narrow the domains, or declare breakpoints",
+        x = six(*x)
     )]
     Undecided {
         /// Where it has stopped.
@@ -380,22 +412,26 @@ pub enum ContactError<T: Real> {
     },
     /// The tolerance of the panels is negative, one or more, or NaN.
     #[error(
-        "{tolerance:?} is no tolerance: give a number below 1, and not negative; a table needs one above 0"
+        "{tolerance} is no tolerance: give a number below 1, and not negative; a table needs one above 0",
+        tolerance = six(*tolerance)
     )]
     InvalidTolerance {
         /// The tolerance as given.
         tolerance: T,
     },
     /// A work of adhesion is negative or not finite.
-    #[error("the work of adhesion is {work:?}: it must be finite and not negative")]
+    #[error(
+        "the work of adhesion is {work}: it must be finite and not negative",
+        work = six(*work)
+    )]
     InvalidAdhesion {
         /// The work of adhesion as given.
         work: T,
     },
     /// Limits that are both given leave nothing to be sought: only a load can be asked of them.
     #[error(
-        "both limits are given, -b = {:?} and a = {:?}: then the load must be given too, not the \
-         half-width or the peak", interval.left, interval.right
+        "both limits are given, -b = {} and a = {}: then the load must be given too, not the \
+         half-width or the peak", apart(interval.left, &[interval.right]), apart(interval.right, &[interval.left])
     )]
     BothLimitsGiven {
         /// The limits.
@@ -403,7 +439,8 @@ pub enum ContactError<T: Real> {
     },
     /// A moment, or the place where a load acts, is not finite.
     #[error(
-        "the moment, the place it is about, or the place where the load acts is {value:?}: it must be finite"
+        "the moment, the place it is about, or the place where the load acts is {value}: it must be finite",
+        value = six(*value)
     )]
     InvalidMoment {
         /// The value.
@@ -420,9 +457,11 @@ pub enum ContactError<T: Real> {
     },
     /// No tilt is found under which the load acts at the place asked for: the contact would leave the bodies.
     #[error(
-        "no tilt makes the load {load:?} act at x = {at:?}: the nearest is x = {reached:?}, with the tilt \
-         {tilt:?}, and beyond that the contact leaves the bodies, from x = {:?} to {:?}; move the load \
-         inward, lower it, or extend the domain", ends.left, ends.right
+        "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt \
+         {tilt}, and beyond that the contact leaves the bodies, from x = {}; move the load \
+         inward, lower it, or extend the domain",
+        span(ends.left, ends.right), load = six(*load), at = apart(*at, &[*reached]),
+        reached = apart(*reached, &[*at]), tilt = six(*tilt)
     )]
     TiltNotFound {
         /// Load per unit length asked for.
@@ -438,8 +477,9 @@ pub enum ContactError<T: Real> {
     },
     /// The bodies come apart: the pull is more than adhesion can bear.
     #[error(
-        "no contact under the load {load:?}: the pull is more than the adhesion can bear; the \
-         contact was followed down to {least:?}"
+        "no contact under the load {load}: the pull is more than the adhesion can bear; the \
+         contact was followed down to {least}; pull less",
+        load = apart(*load, &[*least]), least = apart(*least, &[*load])
     )]
     PullOff {
         /// Load per unit length asked for.
@@ -458,9 +498,11 @@ pub enum ContactError<T: Real> {
     },
     /// The contact with this peak pressure reaches beyond a body, or beyond a corner.
     #[error(
-        "the peak pressure {wanted:?} takes a wider contact than there is room for: with half-width \
-         {half_width:?}, up to x = {end:?}, it is {found:?} under the load {load:?}; extend the domains \
-         or lower the peak{}", hint(*kappa_is_default)
+        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width \
+         {half_width}, up to x = {end}, it is {found} under the load {load}; extend the domains \
+         or lower the peak{}",
+        hint(*kappa_is_default), wanted = apart(*wanted, &[*found]), found = apart(*found, &[*wanted]),
+        half_width = six(*half_width), end = six(*end), load = six(*load)
     )]
     PeakTooHigh {
         /// The peak pressure asked for.
@@ -478,8 +520,9 @@ pub enum ContactError<T: Real> {
     },
     /// The pressure has no largest value to be set.
     #[error(
-        "no contact is found with the peak pressure {wanted:?}: with half-width {half_width:?} it is {found:?}; {}",
-        how_to_peak(*found)
+        "no contact is found with the peak pressure {wanted}: with half-width {half_width} it is {found}; {}",
+        how_to_peak(*found),
+        wanted = apart(*wanted, &[*found]), found = apart(*found, &[*wanted]), half_width = six(*half_width)
     )]
     NoPeak {
         /// The peak pressure asked for.
@@ -490,7 +533,10 @@ pub enum ContactError<T: Real> {
         found: T,
     },
     /// A point is above the surface, or not finite.
-    #[error("no stress at x = {x:?}, depth {depth:?}: both must be finite, the depth not negative")]
+    #[error(
+        "no stress at x = {x}, depth {depth}: both must be finite, the depth not negative",
+        x = six(*x), depth = six(*depth)
+    )]
     AboveSurface {
         /// Abscissa.
         x: T,
@@ -498,14 +544,17 @@ pub enum ContactError<T: Real> {
         depth: T,
     },
     /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
-    #[error("Poisson's ratio is {ratio:?}: it must be from 0 to 1/2")]
+    #[error(
+        "Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel", ratio = six(*ratio)
+    )]
     InvalidPoissonRatio {
         /// As given.
         ratio: T,
     },
     /// Young's modulus is not a positive finite number.
     #[error(
-        "{body} body: Young's modulus is {modulus:?}: it must be positive and finite (or Material::Rigid)"
+        "{body} body: Young's modulus is {modulus}: it must be positive and finite (or Material::Rigid)",
+        modulus = six(*modulus)
     )]
     InvalidYoungsModulus {
         /// Whose.
@@ -522,8 +571,8 @@ pub enum ContactError<T: Real> {
     NoMaterials,
     /// The depth, radius or length of a reference is not a positive finite number, or a disc is smaller than the contact.
     #[error(
-        "a reference at {length:?}: its depth, radius or length must be positive and finite, and a disc larger \
-         than the contact"
+        "a reference at {length}: its depth, radius or length must be positive and finite, and a disc larger \
+         than the contact", length = six(*length)
     )]
     InvalidReference {
         /// As given.
@@ -531,8 +580,9 @@ pub enum ContactError<T: Real> {
     },
     /// No contact that stays on the bodies has this approach.
     #[error(
-        "an approach of {wanted:?} is more than the bodies bear: they carry {load:?}, with an approach of \
-         {approach:?}; extend the domain or lower the approach"
+        "an approach of {wanted} is more than the bodies bear: they carry {load}, with an approach of \
+         {approach}; extend the domain or lower the approach",
+        wanted = apart(*wanted, &[*approach]), approach = apart(*approach, &[*wanted]), load = six(*load)
     )]
     ApproachTooLarge {
         /// The approach asked for.
@@ -544,9 +594,8 @@ pub enum ContactError<T: Real> {
     },
     /// An approach that a table of a spring does not cover.
     #[error(
-        "the table covers approaches from {:?} to {:?}, not {approach:?}: make it for a wider range of loads (apart, the \
-         bodies bear none)",
-        range[0], range[1]
+        "the table covers approaches from {}, not {}: make it for a wider range of loads (apart, the bodies bear none)",
+        span(range[0], range[1]), apart(*approach, range)
     )]
     OutsideTable {
         /// As given.
@@ -556,8 +605,9 @@ pub enum ContactError<T: Real> {
     },
     /// The approach to these references does not grow with the load: no load goes with it alone.
     #[error(
-        "under the load {load:?} the approach falls by {rate:?} with each unit of it: the references are \
-         too close to the surface; put them deeper, take larger lengths, or an x inside the contact"
+        "under the load {load} the approach falls by {rate} with each unit of it: the references are \
+         too close to the surface; put them deeper, take larger lengths, or an x inside the contact",
+        load = six(*load), rate = six(*rate)
     )]
     ApproachFalls {
         /// Where it was seen.
@@ -566,21 +616,28 @@ pub enum ContactError<T: Real> {
         rate: T,
     },
     /// The coefficient of friction is not finite.
-    #[error("the coefficient of friction is {coefficient:?}: it must be finite")]
+    #[error(
+        "the coefficient of friction is {coefficient}: it must be finite",
+        coefficient = six(*coefficient)
+    )]
     InvalidFriction {
         /// As given.
         coefficient: T,
     },
     /// The coefficient of friction of partial slip is not a positive finite number.
     #[error(
-        "the coefficient of friction is {friction:?}: for partial slip it must be positive and finite"
+        "the coefficient of friction is {friction}: for partial slip it must be positive and finite",
+        friction = six(*friction)
     )]
     InvalidSlipFriction {
         /// μ as given.
         friction: T,
     },
     /// The force or the tension of partial slip is not finite.
-    #[error("{quantity} = {value:?}: what acts along the contact must be finite")]
+    #[error(
+        "{quantity} = {value}: what acts along the contact must be finite",
+        value = six(*value)
+    )]
     InvalidShear {
         /// `force` or `tension`.
         quantity: &'static str,
@@ -589,7 +646,8 @@ pub enum ContactError<T: Real> {
     },
     /// Friction does not carry the force: the bodies slip everywhere.
     #[error(
-        "the tangential force {force:?} is no less than friction carries, μF = {limit:?}: the bodies slip everywhere"
+        "the tangential force {} is no less than friction carries, μF = {}: the bodies slip everywhere; lower it, or \
+         raise the load", apart(*force, &[*limit]), apart(*limit, &[*force])
     )]
     SlipsEverywhere {
         /// Q.
@@ -600,8 +658,9 @@ pub enum ContactError<T: Real> {
     /// The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
     /// rounding. Without slip the traction is Q ∂P/∂F, of [`Solution::load_rates`](crate::Solution::load_rates).
     #[error(
-        "the tangential force {force:?} is so much less than friction carries, μF = {limit:?}, that nothing is seen to \
-         slip: take Q times the rate of the pressure in load_rates"
+        "the tangential force {force} is so much less than friction carries, μF = {limit}, that nothing is seen to \
+         slip: take Q times the rate of the pressure in load_rates",
+        force = six(*force), limit = six(*limit)
     )]
     SticksEverywhere {
         /// Q.
@@ -612,9 +671,9 @@ pub enum ContactError<T: Real> {
     /// The bodies would stick beside the contact: with so large a tension, or so small a force, slip reverses
     /// while the force grows, and the history counts.
     #[error(
-        "the bodies would stick from {:?} to {:?}, beyond the contact from {:?} to {:?}: slip reverses; lower \
+        "the bodies would stick from {}, beyond the contact from {}: slip reverses; lower \
          the tension, or raise the force",
-        zone.left, zone.right, contact.left, contact.right
+        span(zone.left, zone.right), span(contact.left, contact.right)
     )]
     ReversedSlip {
         /// Where they would stick.
@@ -624,8 +683,8 @@ pub enum ContactError<T: Real> {
     },
     /// Friction on bodies of different elasticity changes the pressure.
     #[error(
-        "the bodies are unlike: by Dundurs' constant β = {beta:?} friction changes the pressure, which is not \
-         modelled; like bodies, or incompressible ones, have β = 0"
+        "the bodies are unlike: by Dundurs' constant β = {beta} friction changes the pressure, which is not \
+         modelled; like bodies, or incompressible ones, have β = 0", beta = six(*beta)
     )]
     UnlikeBodies {
         /// β in plane strain, from -1/2 to 1/2.
@@ -639,8 +698,9 @@ pub enum ContactError<T: Real> {
     },
     /// A point is not inside the contact, or not outside it, as it has to be.
     #[error(
-        "x = {x:?} must lie {}side the contact from {:?} to {:?}",
-        if *inside { "in" } else { "out" }, interval.left, interval.right
+        "x = {} must lie {}side the contact from {}",
+        apart(*x, &[interval.left, interval.right]), if *inside { "in" } else { "out" },
+        span(interval.left, interval.right)
     )]
     InvalidPosition {
         /// Where.
@@ -674,8 +734,8 @@ pub enum ContactError<T: Real> {
     },
     /// An integral over the pressure has not converged.
     #[error(
-        "an integral over the pressure for x = {x:?} has not converged in {panels} panels: the \
-         pressure is too rough; set a looser tolerance or a finer quadrature"
+        "an integral over the pressure for x = {x} has not converged in {panels} panels: the \
+         pressure is too rough; set a looser tolerance or a finer quadrature", x = six(*x)
     )]
     Integral {
         /// The abscissa that it was for.
@@ -686,8 +746,9 @@ pub enum ContactError<T: Real> {
     /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
     /// segments.
     #[error(
-        "the pressure at x = {x:?} is not resolved: {pressure:?} with an error of about \
-         {error:?}; take more segments, or stay further away from the edge"
+        "the pressure at x = {x} is not resolved: {pressure} with an error of about \
+         {error}; take more segments, or stay further away from the edge",
+        x = six(*x), pressure = six(*pressure), error = six(*error)
     )]
     Unresolved {
         /// Where.
@@ -697,49 +758,6 @@ pub enum ContactError<T: Real> {
         /// Its estimated error.
         error: T,
     },
-}
-
-/// Whether a number is so small that it has fewer digits than others.
-pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
-    value.is_finite() && !value.is_zero() && !(T::one() / value).is_finite()
-}
-
-fn lost_digits<T: Real>(value: T) -> &'static str {
-    if is_subnormal(value) {
-        "; of so small a number digits are lost: choose units in which it is nearer to 1"
-    } else {
-        ""
-    }
-}
-
-/// What may be missing where a contact turns out too wide.
-fn hint(kappa_is_default: bool) -> &'static str {
-    if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
-}
-
-/// What to do about a peak pressure that is not found, by the one tried last.
-fn how_to_peak<T: Real>(found: T) -> &'static str {
-    if found.is_finite() {
-        "give the load, or a start nearer to the contact"
-    } else if found > T::zero() {
-        "where the slope of a body jumps the pressure is infinite: round the kink, or give the load or the half-width"
-    } else {
-        "no contact was found under any load tried: give a start nearer to the contact, or the load"
-    }
-}
-
-/// What to do about slopes on the left and on the right that are not those of a gap that closes.
-fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
-    let zero = T::zero();
-    if left.is_zero() && right.is_zero() {
-        "these bodies are parallel: two flats need Edge::Fixed or FreeUntil at their corners; of two like curves \
-         one is to be flipped (Placement::flipped)"
-    } else if left >= zero && right <= zero {
-        "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
-         a convex body a smaller radius than the hollow that it lies in"
-    } else {
-        "this gap leads down to an end of the bodies: widen their domains, or tilt one of them"
-    }
 }
 
 /// What a [`ContactError`] is about: what was given, the solve, or a question to its solution.

@@ -94,6 +94,7 @@ pub mod profile;
 pub mod quadrature;
 mod real;
 pub mod reference;
+mod rounded;
 pub mod search;
 mod solution;
 mod solver;

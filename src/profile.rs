@@ -73,6 +73,7 @@ pub use rounded_punch::rounded_punch;
 pub use spline::{Fit, Spline, SplineError};
 
 use crate::Real;
+use crate::rounded::{six, span};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -267,7 +268,7 @@ fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
 #[non_exhaustive]
 pub enum ProfileError<T: Real> {
     /// A parameter has a value for which there is no such shape.
-    #[error("{name} is {value:?}: it must be {must}")]
+    #[error("{name} is {value}: it must be {must}", value = six(*value))]
     Parameter {
         /// Which parameter.
         name: &'static str,
@@ -286,7 +287,8 @@ pub enum ProfileError<T: Real> {
     },
     /// The range of `k` is empty, reversed, or not finite.
     #[error(
-        "k cannot run from {from:?} to {to:?}: the domain needs two finite ends in rising order, a finite distance apart"
+        "k cannot run from {from} to {to}: the domain needs two finite ends in rising order, a finite distance apart",
+        from = six(*from), to = six(*to)
     )]
     Domain {
         /// Start of the range.
@@ -295,7 +297,10 @@ pub enum ProfileError<T: Real> {
         to: T,
     },
     /// The curve returned NaN or an infinity.
-    #[error("{quantity} is {value:?} at k = {k:?}: end the domain, or a piece, before this point")]
+    #[error(
+        "{quantity} is {value} at k = {k}: end the domain, or a piece, before this point",
+        value = six(*value), k = six(*k)
+    )]
     NotFinite {
         /// `X`, `Y`, `X'` or the slope `Y'/X'`.
         quantity: &'static str,
@@ -306,8 +311,8 @@ pub enum ProfileError<T: Real> {
     },
     /// A derivative is not that of its function.
     #[error(
-        "{quantity} is {given:?} at k = {k:?}, but differences give {difference:?}: check the \
-         formula of the derivative"
+        "{quantity} is {given} at k = {k}, but differences give {difference}: check the \
+         formula of the derivative", given = six(*given), k = six(*k), difference = six(*difference)
     )]
     Derivative {
         /// `X'` or `Y'`.
@@ -321,9 +326,9 @@ pub enum ProfileError<T: Real> {
     },
     /// `X` does not rise, or fall, all the way.
     #[error(
-        "X turns back at k = {k:?} (x = {x:?}) in the domain from {:?} to {:?}: end the domain there, or make a \
+        "X turns back at k = {k} (x = {x}) in the domain from {}: end the domain there, or make a \
          piece of each side{}",
-        domain[0], domain[1], in_degrees(*domain)
+        span(domain[0], domain[1]), in_degrees(*domain), k = six(*k), x = six(*x)
     )]
     TurnsBack {
         /// Parameter of the turning point, as near as it was found.

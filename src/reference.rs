@@ -101,6 +101,7 @@ pub use unequal_radii::UnequalRadii;
 pub use wedge::Wedge;
 pub use westergaard::Westergaard;
 
+use crate::rounded::six;
 use crate::{Edge, Interval, Real};
 use std::fmt::Debug;
 use thiserror::Error;
@@ -151,7 +152,7 @@ pub trait ClosedForm<T: Real>: Debug + Send + Sync {
 #[non_exhaustive]
 pub enum ReferenceError<T: Real> {
     /// A parameter has a value for which the form does not hold.
-    #[error("{name} is {value:?}: it must be {must}")]
+    #[error("{name} is {value}: it must be {must}", value = six(*value))]
     Parameter {
         /// Which parameter.
         name: &'static str,
@@ -161,7 +162,10 @@ pub enum ReferenceError<T: Real> {
         must: &'static str,
     },
     /// The pull is more than adhesion can bear.
-    #[error("no contact under the load {load:?}: the bodies come apart at {least:?}")]
+    #[error(
+        "no contact under the load {load}: the bodies come apart at {least}",
+        load = six(*load), least = six(*least)
+    )]
     PullOff {
         /// Load per unit length.
         load: T,

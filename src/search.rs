@@ -33,6 +33,7 @@ pub use newton::Newton;
 pub use secant::Secant;
 
 use crate::Real;
+use crate::rounded::{apart, six};
 use thiserror::Error;
 
 /// A strategy that finds where a function is zero.
@@ -205,7 +206,10 @@ impl Default for StoppingCriteria {
 #[non_exhaustive]
 pub enum SearchError<T: Real> {
     /// The bracket has a NaN or infinite end, or its ends are the wrong way round.
-    #[error("[{lo:?}, {hi:?}] is no bracket: give two finite ends in rising order")]
+    #[error(
+        "[{lo}, {hi}] is no bracket: give two finite ends in rising order",
+        lo = six(*lo), hi = six(*hi)
+    )]
     Bracket {
         /// Lower end as given.
         lo: T,
@@ -214,7 +218,8 @@ pub enum SearchError<T: Real> {
     },
     /// The function has the same sign at both ends.
     #[error(
-        "no sign change: f({lo:?}) = {f_lo:?} and f({hi:?}) = {f_hi:?}; widen or move the bracket"
+        "no sign change: f({lo}) = {f_lo} and f({hi}) = {f_hi}; widen or move the bracket",
+        lo = six(*lo), f_lo = six(*f_lo), hi = six(*hi), f_hi = six(*f_hi)
     )]
     NoSignChange {
         /// Lower end.
@@ -227,7 +232,10 @@ pub enum SearchError<T: Real> {
         f_hi: T,
     },
     /// The function returned NaN or an infinity.
-    #[error("the function is {value:?} at {x:?}; it must be finite on the whole bracket")]
+    #[error(
+        "the function is {value} at {x}; it must be finite on the whole bracket",
+        value = six(*value), x = six(*x)
+    )]
     NotFinite {
         /// Where.
         x: T,
@@ -236,16 +244,20 @@ pub enum SearchError<T: Real> {
     },
     /// The evaluations ran out.
     #[error(
-        "no convergence in {} evaluations; best so far f({:?}) = {:?}, sign change in [{:?}, {:?}]; \
+        "no convergence in {} evaluations; best so far f({}) = {}, sign change in [{}, {}]; \
          raise max_evaluations or loosen the tolerance",
-        best.evaluations, best.x, best.residual, best.bracket[0], best.bracket[1]
+        best.evaluations, six(best.x), six(best.residual), apart(best.bracket[0], &[best.bracket[1]]),
+        apart(best.bracket[1], &[best.bracket[0]])
     )]
     Budget {
         /// The best point so far.
         best: Root<T>,
     },
     /// A strategy has looked at, or returned, a point that is not in the bracket it was given.
-    #[error("the strategy went to {x:?}, which is not in the bracket [{lo:?}, {hi:?}]")]
+    #[error(
+        "the strategy went to {}, which is not in the bracket [{}, {}]: it must stay there",
+        apart(*x, &[*lo, *hi]), apart(*lo, &[*x, *hi]), apart(*hi, &[*x, *lo])
+    )]
     LeftBracket {
         /// Where it went.
         x: T,
@@ -256,8 +268,9 @@ pub enum SearchError<T: Real> {
     },
     /// A strategy has stopped where the function is still far from zero.
     #[error(
-        "the strategy stopped at {x:?}, where the function is still {residual:?}: tighten its \
-         tolerance"
+        "the search stopped at {x}, where the function is still {residual}: tighten the tolerance, if one was set, or \
+         write the function so that no large terms cancel",
+        x = six(*x), residual = six(*residual)
     )]
     NotConverged {
         /// What it returned.
@@ -266,7 +279,10 @@ pub enum SearchError<T: Real> {
         residual: T,
     },
     /// A tolerance is negative, NaN or infinite.
-    #[error("{value:?} is no tolerance: give a finite number that is not negative")]
+    #[error(
+        "{value} is no tolerance: give a finite number that is not negative",
+        value = six(*value)
+    )]
     Tolerance {
         /// The tolerance as given.
         value: f64,

@@ -3,6 +3,7 @@
 use crate::{call, errors};
 use linecontact::{Convexity, CurvePoint, ParametricProfile};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
@@ -68,8 +69,16 @@ fn evaluate(
     k: &[f64],
     points: &mut [CurvePoint<f64>],
 ) -> PyResult<()> {
-    let found = function.bind(py).call1((PyArray1::from_slice(py, k),))?;
-    let count = found.len().unwrap_or(1);
+    let function = function.bind(py);
+    let found = function
+        .call1((PyArray1::from_slice(py, k),))
+        .map_err(|error| said_to_take_arrays(py, function, k, error))?;
+    let alone =
+        found.getattr("ndim").and_then(|axes| axes.extract()).is_ok_and(|axes: usize| axes < 2);
+    let count = match found.len() {
+        Ok(count) if !(alone && count != 4) => count,
+        _ => usize::from(!found.is_none()),
+    };
     if count != 4 {
         return Err(errors::missing_derivatives(py, count));
     }
@@ -77,7 +86,7 @@ fn evaluate(
         let part = found.get_item(i)?;
         let row = match part.extract::<PyReadonlyArray1<'_, f64>>() {
             Ok(row) if row.as_array().len() == k.len() => row,
-            _ => spread(&part, k.len())?,
+            _ => spread(&part, k.len()).map_err(|_| of_no_length(py, i, &part, k.len()))?,
         };
         let row = row.as_array();
         for (point, &value) in points.iter_mut().zip(row) {
@@ -86,6 +95,43 @@ fn evaluate(
         }
     }
     Ok(())
+}
+
+/// The exception of a function that was given an array: if it takes a single number, that is what is wrong.
+fn said_to_take_arrays(
+    py: Python<'_>,
+    function: &Bound<'_, PyAny>,
+    k: &[f64],
+    error: PyErr,
+) -> PyErr {
+    let of_type =
+        error.is_instance_of::<PyTypeError>(py) || error.is_instance_of::<PyValueError>(py);
+    if !of_type || function.call1((k[0],)).is_err() {
+        return error;
+    }
+    let says = format!(
+        "the function of a Curve takes one number, but it is called with an array of k, here of {}: use the functions \
+         of numpy, such as np.cosh for math.cosh, and np.where for if ({})",
+        k.len(),
+        error.value(py)
+    );
+    let better = PyTypeError::new_err(says);
+    better.set_cause(py, Some(error));
+    better
+}
+
+/// What is wrong with a part of what a function has returned.
+fn of_no_length(py: Python<'_>, part: usize, found: &Bound<'_, PyAny>, count: usize) -> PyErr {
+    let name = ["x", "y", "dx", "dy"][part];
+    let shape = py.import("numpy").and_then(|numpy| numpy.call_method1("shape", (found,)));
+    let found = match shape.and_then(|shape| shape.str()) {
+        Ok(shape) => format!("of shape {shape}"),
+        Err(_) => "that is no array".to_owned(),
+    };
+    PyValueError::new_err(format!(
+        "the function of a Curve has returned {name} {found} for {count} values of k: each of x, y, dx and dy must be \
+         as many numbers, or one for all"
+    ))
 }
 
 /// A number for all points, or an array of other numbers, as one of `float`.

@@ -564,3 +564,81 @@ def test_missing_derivatives_show_how_to_write_them() -> None:
     assert isinstance(raised.value, errors.MissingDerivativesError)
     assert raised.value.count == 2
     assert isinstance(pickle.loads(pickle.dumps(raised.value)), errors.MissingDerivativesError)
+
+
+def scalar_cosh(k: Any) -> Any:
+    return k, math.cosh(k), 1.0, math.sinh(k)
+
+
+def with_an_if(k: Any) -> Any:
+    return (k, k**2, 1.0, 2 * k) if k > 0 else (k, 0.0, 1.0, 0.0)
+
+
+# Types would tell of most of these mistakes.
+ANY: Any = lc
+
+
+def anything(made: Any) -> Any:
+    return made
+
+
+# What is asked for wrongly; the exception; what it says of what was found, and of what helps.
+MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
+    (lambda: material_of(STEEL), TypeError, ("materials are Material(", "such as (steel, steel)")),
+    (lambda: material_of((STEEL, 210e3)), TypeError, ("210000.0 is no Material", "E and ν")),
+    (lambda: material_of((STEEL,) * 3), TypeError, ("materials are", "one for the upper body")),
+    (lambda: ANY.Ellipse.circle(10, 1.0), TypeError, ("angles is 1.0", "two numbers")),
+    (lambda: ANY.Line(0.1, 1.0), TypeError, ("domain is 1.0", "such as (-1.0, 1.0)")),
+    (lambda: ANY.Curve(2.0, scalar_cosh), TypeError, ("domain is 2.0", "two numbers")),
+    (lambda: contact(start=0.5), TypeError, ("start is 0.5", "two numbers")),
+    (lambda: ANY.Parabola("10", (-1, 1)), TypeError, ("radius is '10'", "give one number")),
+    (lambda: ANY.Curve((-1, 1), scalar_cosh), TypeError, ("array of k", "np.cosh for math.cosh")),
+    (lambda: ANY.Curve((-1, 1), with_an_if), TypeError, ("array of k", "np.where for if")),
+    (
+        lambda: ANY.Curve((-1, 1), lambda k: (k, k[:1].repeat(3), k, k)),
+        ValueError,
+        ("returned y of shape (3,) for 2 values of k", "as many numbers, or one for all"),
+    ),
+    (
+        lambda: ANY.Curve((-1, 1), lambda k: (k, k, "steep", k)),
+        ValueError,
+        ("returned dx", "as many numbers"),
+    ),
+    (lambda: ANY.Curve((-1, 1), lambda k: k**2), TypeError, ("returned one array:", "must return four")),
+    (lambda: ANY.Curve((-1, 1), lambda k: None), TypeError, ("returned nothing:", "must return four")),
+    (lambda: anything(contact()).solve(load="500"), TypeError, ("load is '500'", "give one number")),
+    (lambda: anything(contact()).solve(load=[1.0, 2.0]), TypeError, ("load is [1.0, 2.0]", "give one number")),
+    (lambda: ANY.sweep(contact(), load="500"), TypeError, ("load is '500'", "give numbers")),
+    (lambda: ANY.sweep(contact(), load=["1", "2"]), TypeError, ("load is ['1', '2']", "give numbers")),
+    (
+        lambda: solved().stress([0.0, 0.1], [0.1, 0.2, 0.3]),
+        ValueError,
+        ("x has the shape (2,), depth (3,)", "as many of each"),
+    ),
+    (lambda: ANY.Material(210e3, 30), lc.InputError, ("ratio is 30", "0 to 1/2", "0.3 of steel")),
+    (lambda: ANY.Material("210e3", 0.3), TypeError, ("youngs_modulus is '210e3'", "one number")),
+]
+
+
+def material_of(materials: Any) -> lc.Contact:
+    return lc.Contact(FLAT, BODY, materials=materials)
+
+
+@pytest.mark.parametrize(("provoke", "kind", "words"), MISTAKES, ids=lambda case: str(case)[:40])
+def test_mistakes_are_told_before_a_cryptic_error(
+    provoke: Callable[[], Any], kind: type[Exception], words: tuple[str, ...]
+) -> None:
+    with pytest.raises(kind) as raised:
+        provoke()
+    for word in words:
+        assert word in str(raised.value)
+
+
+def test_what_a_function_raises_comes_out_as_it_is() -> None:
+    def broken(k: Any) -> Any:
+        raise ValueError("mine")
+
+    with pytest.raises(ValueError, match="^mine$"):
+        lc.Curve((-1, 1), broken)
+    assert lc.Material(210e3, 0.3) == (210e3, 0.3)
+    assert pickle.loads(pickle.dumps(STEEL)) == STEEL and "Material(youngs_modulus" in repr(STEEL)

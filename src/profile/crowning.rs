@@ -7,6 +7,9 @@ use crate::Real;
 /// pressure of a roller from piling up at its ends (Lundberg, *Forschung auf dem Gebiete des
 /// Ingenieurwesens* 10, 1939, 201).
 ///
+/// In this plane it is a body that is long across, as a slide shoe with crowned ends. The relief along the axis of
+/// a roller is a contact in space, for which a plane solution is a guide only.
+///
 /// The slope `2 C X/((l - X)(l + X))` is infinite at ±l. It is taken from the distances to the two
 /// ends, so that it keeps its digits next to them, and the height likewise.
 ///

@@ -2,6 +2,7 @@
 
 use super::{Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
 use crate::Real;
+use crate::rounded::{apart, six};
 use thiserror::Error;
 
 /// Smooth profiles joined end to end, from left to right.
@@ -231,7 +232,10 @@ pub enum PiecewiseError<T: Real> {
         source: ProfileError<T>,
     },
     /// The tolerance is negative, NaN or infinite.
-    #[error("{tolerance:?} is no tolerance: give a finite number that is not negative")]
+    #[error(
+        "{tolerance} is no tolerance: give a finite number that is not negative",
+        tolerance = six(*tolerance)
+    )]
     Tolerance {
         /// The tolerance as given.
         tolerance: T,
@@ -241,8 +245,9 @@ pub enum PiecewiseError<T: Real> {
     NoPieces,
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
-        "gap of {:?} at breakpoint {breakpoint}: the piece on its left ends at x = {left:?}, the next starts \
-         at x = {right:?}", *right - *left
+        "gap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at {right} \
+         the other starts; close it, or join them by Piecewise::with_tolerance",
+        six(*right - *left), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Gap {
         /// Index of the breakpoint, 0 between the first two pieces.
@@ -255,8 +260,9 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours overlap: `x` between them belongs to both. Also what pieces in the
     /// wrong order look like.
     #[error(
-        "overlap of {:?} at breakpoint {breakpoint}: the piece on its left ends at x = {left:?}, the next \
-         starts at x = {right:?}; pieces go from left to right", *left - *right
+        "overlap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at \
+         {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance",
+        six(*left - *right), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Overlap {
         /// Index of the breakpoint, 0 between the first two pieces.
@@ -268,8 +274,10 @@ pub enum PiecewiseError<T: Real> {
     },
     /// Two neighbours meet at different heights.
     #[error(
-        "jump of {:?} at breakpoint {breakpoint} (x = {x:?}): Y = {left:?} on its left, {right:?} on its right",
-        *right - *left
+        "jump of {} between pieces {breakpoint} and {} (from 0, left to right), at x = {x}: Y = {left} on its left, \
+         {right} on its right; move one of them, or join them by Piecewise::with_tolerance",
+        six(*right - *left), breakpoint + 1, x = six(*x), left = apart(*left, &[*right]),
+        right = apart(*right, &[*left])
     )]
     Jump {
         /// Index of the breakpoint, 0 between the first two pieces.

@@ -36,9 +36,14 @@ use crate::Real;
 )]
 pub struct Fit<T> {
     /// Standard deviation of the heights, in their own unit: what the measuring machine adds to
-    /// them. Of all curves that are off the points by this much (root of the mean square) the
-    /// smoothest is taken, the one with the least `∫ Y''² dX` (Reinsch, *Numer. Math.* 10, 1967,
-    /// 177). With 0, the default, the curve goes through the points.
+    /// them. Of all curves that are off the points by this much the smoothest is taken, the one with
+    /// the least `∫ Y''² dX`; the sum of the squares may be up to `N + sqrt(2 N)` in units of the noise
+    /// (Reinsch, *Numer. Math.* 10, 1967, 177). A curve that is smoother still is taken where it is
+    /// expected to be nearer to the surface. With 0, the default, the curve goes through the points.
+    ///
+    /// Rather a tenth too much than too little. A tenth either way changes the pressure little; much less
+    /// than half of the true noise, and the curve follows the noise: it is then a rough surface, with
+    /// many contacts and several times the pressure. Estimates and checks are those of that surface.
     pub noise: T,
     /// How far off a point may be before it is taken for a slip of the measurement: its distance
     /// from the cubic through its four neighbours, in standard deviations. These are estimated from

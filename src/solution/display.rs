@@ -2,27 +2,9 @@
 
 use super::stress::Stress;
 use super::{Certificate, Extremum, Peak, Solution};
+use crate::rounded::{DIGITS, Rounded};
 use crate::{ContactError, Estimate, Interval, Real, Side};
 use std::fmt::{Display, Formatter, Result};
-
-/// Digits shown unless a precision says how many.
-const DIGITS: usize = 6;
-
-/// A number with so many digits that count, trailing zeros left out.
-struct Rounded(f64, usize);
-
-impl Display for Rounded {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        let Self(value, digits) = *self;
-        let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
-        let size = rounded.abs();
-        if size != 0.0 && !(1e-3..1e6).contains(&size) && size.is_finite() {
-            write!(f, "{rounded:e}")
-        } else {
-            write!(f, "{rounded}")
-        }
-    }
-}
 
 fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
     Rounded(value.to_subset_unchecked(), f.precision().unwrap_or(DIGITS))
@@ -82,7 +64,9 @@ impl<T: Real> Display for Solution<'_, T> {
             }
         }
         if self.is_steep() {
-            f.write_str("\nthe surfaces are steep for half-planes: are all units right?")?;
+            f.write_str(
+                "\nthe surfaces are steep (slopes above 0.3), so less like half-planes: do all units go together?",
+            )?;
         }
         Ok(())
     }

@@ -1,10 +1,11 @@
 //! Each message of an error names the values that it was given, and says what to do.
 #![allow(missing_docs)]
 
-use linecontact::profile::SplineError;
+use linecontact::profile::{Parabola, SplineError, rounded_punch, wedge};
 use linecontact::search::{Root, SearchError};
 use linecontact::{
-    Body, ContactError, Edge, Ends, ErrorKind, Interval, PiecewiseError, ProfileError,
+    Body, Contact, ContactError, Control, Edge, Ends, ErrorKind, Flat, Interval, PiecewiseError,
+    ProfileError,
 };
 
 use ContactError as E;
@@ -26,10 +27,10 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         (E::Profile { body: Body::Upper, source: not_finite }, &["upper body: Y' is NaN"], Input),
         (
             E::NoCommonRange { lower: [1.5, 2.5], upper: [3.5, 4.5] },
-            &["lower covers x = 1.5 to 2.5", "upper 3.5 to 4.5"],
+            &["lower covers x = 1.5 to 2.5", "upper 3.5 to 4.5", "move one"],
             Input,
         ),
-        (E::OutsideBodies { x: 5.5, range: [6.5, 7.5] }, &["only 6.5 to 7.5"], Solve),
+        (E::OutsideBodies { x: 5.5, range: [6.5, 7.5] }, &["only 6.5 to 7.5", "extend"], Solve),
         (E::Inversion { body: Body::Lower, x: 8.5, source: astray }, &["lower body"], Solve),
         (
             E::InvalidLoad { quantity: "half-width", value: -9.5 },
@@ -69,7 +70,18 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             &["FreeUntil(33.5)", "(κ is 1"],
             Solve,
         ),
-        (E::NoEquilibrium { half_width, near: 15.5 }, &["near x = 15.5", "give a start"], Solve),
+        (
+            E::NoEquilibrium { half_width, near: 15.5 },
+            &[
+                "near x = 15.5",
+                "the width asked for or else",
+                "give the load",
+                "breakpoints",
+                "Fit::noise",
+                "start",
+            ],
+            Solve,
+        ),
         (E::Overflow { interval: ON }, &["units"], Solve),
         (
             E::BudgetSpent { evaluations: 42, budget: 43, last: ON },
@@ -90,7 +102,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         (E::Singular { x: 18.5 }, &["x = 18.5 is infinite", "edge_singularities"], Evaluation),
         (
             E::InconsistentHeights { between: [1.5, 2.5], by_heights: 3.5, by_slopes: 4.5 },
-            &["x = 1.5 to 2.5", "3.5 by the heights", "4.5 by their slopes"],
+            &["x = 1.5 to 2.5", "3.5 by the heights", "4.5 by their slopes", "check_derivatives"],
             Input,
         ),
         (E::FeatureMissed { x: 1.5, slope: 2.5, assumed: 3.5 }, &["x = 1.5 is 2.5"], Solve),
@@ -112,7 +124,11 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             &["act at x = 1.5", "nearest is x = 2.5", "tilt 3.5", "extend the domain"],
             Solve,
         ),
-        (E::PullOff { load: -3.5, least: -2.5 }, &["load -3.5", "down to -2.5"], Solve),
+        (
+            E::PullOff { load: -3.5, least: -2.5 },
+            &["load -3.5", "down to -2.5", "pull less"],
+            Solve,
+        ),
         (E::PeakEdge { edge: Edge::Fixed(1.5) }, &["Fixed(1.5)", "half-width"], Input),
         (
             E::PeakTooHigh {
@@ -128,7 +144,12 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         ),
         (
             E::NoPeak { wanted: 1.5, half_width, found: 2.5 },
-            &["peak pressure 1.5", "is 2.5"],
+            &["peak pressure 1.5", "is 2.5", "give the load"],
+            Solve,
+        ),
+        (
+            E::NoPeak { wanted: 1.5, half_width, found: f64::INFINITY },
+            &["peak pressure 1.5", "is inf", "give the load", "round the kink"],
             Solve,
         ),
         (E::AboveSurface { x: 1.5, depth: -2.5 }, &["x = 1.5", "depth -2.5"], Evaluation),
@@ -153,7 +174,11 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         ),
         (E::InvalidSlipFriction { friction: -1.5 }, &["-1.5", "positive"], Input),
         (E::InvalidShear { quantity: "tension", value: 1.5 }, &["tension = 1.5"], Input),
-        (E::SlipsEverywhere { force: 1.5, limit: 2.5 }, &["1.5", "μF = 2.5"], Solve),
+        (
+            E::SlipsEverywhere { force: 1.5, limit: 2.5 },
+            &["1.5", "μF = 2.5", "raise the load"],
+            Solve,
+        ),
         (E::SticksEverywhere { force: 1.5, limit: 2.5 }, &["1.5", "μF = 2.5", "load_rates"], Solve),
         (
             E::ReversedSlip { zone: Interval { left: 1.5, right: 2.5 }, contact: ON },
@@ -162,7 +187,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         ),
         (E::UnlikeBodies { beta: 0.25 }, &["β = 0.25", "like bodies"], Input),
         (E::SlipNotSupported { why: "so it is" }, &["so it is"], Input),
-        (E::InvalidPoissonRatio { ratio: 1.5 }, &["0 to 1/2"], Input),
+        (E::InvalidPoissonRatio { ratio: 1.5 }, &["0 to 1/2", "0.3"], Input),
         (E::InvalidFriction { coefficient: f64::NAN }, &["NaN", "finite"], Input),
         (E::InvalidPosition { x: 1.5, inside: true, interval: ON }, &["lie inside"], Evaluation),
         (E::InvalidPosition { x: 1.5, inside: false, interval: ON }, &["lie outside"], Evaluation),
@@ -174,16 +199,17 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
     ]
 }
 
-/// The numbers that an error shows, without their signs.
-fn numbers(shown: &str) -> impl Iterator<Item = &str> {
+/// The numbers of at least so many characters that an error shows, without their signs.
+fn numbers(shown: &str, least: usize) -> impl Iterator<Item = f64> {
     let parts = shown.split(|c: char| !c.is_ascii_digit() && c != '.');
-    parts.filter(|part| part.len() > 1 && part.parse::<f64>().is_ok())
+    parts.filter(move |part| part.len() >= least).filter_map(|part| part.parse().ok())
 }
 
 fn assert_says(error: &(impl std::error::Error + Send + Sync + 'static), words: &[&str]) {
     let (fields, message) = (format!("{error:?}"), error.to_string());
-    for number in numbers(&fields) {
-        assert!(numbers(&message).any(|said| said == number), "{number} of {fields}: {message}");
+    // A single digit belongs to a name.
+    for number in numbers(&fields, 2) {
+        assert!(numbers(&message, 1).any(|said| said == number), "{number} of {fields}: {message}");
     }
     for word in words {
         assert!(message.contains(word), "{word}: {message}");
@@ -199,18 +225,64 @@ fn the_message_of_a_contact_names_its_values() {
     }
 }
 
-/// What solves the equations all the same is for a program, and left to the fields.
 #[test]
-fn the_message_of_what_is_no_contact_says_where_it_is_none() {
+fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
     let (interval, load) = (ON, 1.5);
-    for (error, words) in [
-        (E::Tension { x: 2.5, pressure: -3.5, interval, load }, ["x = 2.5", "-3.5", "part there"]),
-        (E::LiftsOff { x: 2.5, strength: -3.5, interval, load }, ["x = 2.5", "-3.5", "FreeUntil"]),
-        (E::Overlap { x: 2.5, gap: -3.5, interval, load }, ["x = 2.5", "by 3.5", "touch there"]),
+    let helps = ["give the load", "change it a little", "breakpoints", "Fit::noise"];
+    let minus_infinity = f64::NEG_INFINITY;
+    for (error, words, helps) in [
+        (E::Tension { x: 2.5, pressure: -3.5, interval, load }, "part there", &helps[..]),
+        (E::Tension { x: 2.5, pressure: minus_infinity, interval, load }, "-inf", &["round off"]),
+        (E::Overlap { x: 2.5, gap: -3.5, interval, load }, "touch there", &helps[..]),
     ] {
-        let message = error.to_string();
-        assert!(words.iter().all(|word| message.contains(word)), "{message}");
-        assert_eq!(error.kind(), Solve, "{message}");
+        assert_says(&error, &["x = 2.5", "-11.5 to 12.5", "the load 1.5", words]);
+        assert_says(&error, helps);
+        assert_eq!(error.kind(), Solve, "{error}");
+    }
+    let lifts = E::LiftsOff { x: 2.5, strength: -3.5, interval, load }.to_string();
+    let words = ["x = 2.5", "-3.5", "the load 1.5", "FreeUntil"];
+    assert!(words.iter().all(|word| lifts.contains(word)), "{lifts}");
+}
+
+/// Six digits, more where two numbers differ only behind them, and all where one is to be copied.
+#[test]
+fn messages_have_the_digits_that_tell_something() {
+    let (half_width, end, peak) = (0.123_456_789, 0.987_654_321_012, 5.415_062_361_294_345);
+    let (carried, load, no) = (0.5, 0.500_000_001, false);
+    let error = E::DomainTooShort { end, carried, load, half_width, peak, kappa_is_default: no };
+    let message = error.to_string();
+    for words in ["carry 0.5 ", "load 0.500000001,", "half-width 0.123457 ", "pressure 5.41506;"] {
+        assert!(message.contains(words), "{words}: {message}");
+    }
+    let copied = E::EndReached { end, load, kappa_is_default: no }.to_string();
+    assert!(copied.contains("x = 0.987654:"), "{copied}");
+    assert!(copied.contains("FreeUntil(0.987654321012)"), "{copied}");
+    let flats = Contact::new(&Flat, &Flat)
+        .and_then(|contact| contact.solve(Control::Load(1.0)).map(|_| ()));
+    let message = flats.unwrap_err().to_string();
+    assert!(message.contains("0 at x = -inf and 0 at x = inf"), "{message}");
+}
+
+/// Of what is asked for, what is found and what helps, in scenes that have such an error.
+#[test]
+fn a_width_that_nobody_asked_for_is_said_to_be_one_that_was_tried() {
+    let groove = Parabola::new(3.0, [-1.5, 1.5]).unwrap();
+    let punch = rounded_punch(1.0, 0.1, 1.05).unwrap();
+    let contact = Contact::new(&groove, &punch).unwrap().single_interval(true);
+    let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
+    assert!(matches!(error, E::NoEquilibrium { .. }), "{error}");
+    assert_says(
+        &E::NoEquilibrium { half_width: 0.25, near: -1.5 },
+        &["or else the last that was tried"],
+    );
+    assert!(error.to_string().contains("single_interval"), "{error}");
+
+    let wedge = wedge([-0.1, 0.1], 1.0).unwrap();
+    let contact = Contact::new(&Flat, &wedge).unwrap();
+    let error = contact.solve(Control::PeakPressure(1.0)).map(|_| ()).unwrap_err();
+    let message = error.to_string();
+    for words in ["peak pressure 1:", "is inf", "round the kink", "give the load"] {
+        assert!(message.contains(words), "{words}: {message}");
     }
 }
 
@@ -232,14 +304,24 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
     for (error, words) in [
         (PiecewiseError::InPiece { piece: 12, source: not_finite }, "piece 12"),
         (PiecewiseError::Tolerance { tolerance: -1.5 }, "-1.5"),
-        (PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75 }, "gap of 2.25"),
-        (PiecewiseError::Overlap { breakpoint: 12, left: 3.75, right: 1.5 }, "overlap of 2.25"),
-        (PiecewiseError::Jump { breakpoint: 12, x: 4.5, left: 1.5, right: 3.75 }, "jump of 2.25"),
+        (
+            PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75 },
+            "gap of 2.25 between pieces 12 and 13 (from 0",
+        ),
+        (
+            PiecewiseError::Overlap { breakpoint: 12, left: 3.75, right: 1.5 },
+            "overlap of 2.25 between pieces 12 and 13 (from 0",
+        ),
+        (
+            PiecewiseError::Jump { breakpoint: 12, x: 4.5, left: 1.5, right: 3.75 },
+            "jump of 2.25 between pieces 12 and 13 (from 0",
+        ),
     ] {
         assert_says(&error, &[words]);
     }
     for (error, words) in [
-        (SplineError::NotFinite { row: 12, x: 1.5, y: f64::NAN }, "row 12"),
+        (SplineError::NotFinite { row: 12, x: 1.5, y: f64::NAN }, "remove the row"),
+        (SplineError::NothingLeft { noise: 1.5, line: 2.5 }, "give less noise"),
         (SplineError::Duplicate { row: 12, x: 1.5 }, "row 12"),
         (SplineError::Unsorted { row: 12, x: 1.5, before: 2.5 }, "after 2.5"),
     ] {
@@ -249,8 +331,11 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
     for (error, words) in [
         (SearchError::NotFinite { x: 1.5, value: f64::NAN }, "NaN at 1.5"),
         (SearchError::Budget { best }, "raise max_evaluations"),
-        (SearchError::LeftBracket { x: 1.5, lo: 2.5, hi: 3.5 }, "[2.5, 3.5]"),
-        (SearchError::NotConverged { x: 1.5, residual: 2.5 }, "still 2.5"),
+        (SearchError::LeftBracket { x: 1.5, lo: 2.5, hi: 3.5 }, "[2.5, 3.5]: it must stay"),
+        (
+            SearchError::NotConverged { x: 1.5, residual: 2.5 },
+            "still 2.5: tighten the tolerance, if one was set, or write",
+        ),
         (SearchError::Tolerance { value: -1.5 }, "-1.5 is no tolerance"),
     ] {
         assert_says(&error, &[words]);

@@ -133,7 +133,12 @@ fn of_one_crest_of_many() {
         }));
         let under = contact.solve(Control::Load(load)).unwrap();
         let found = contact.solve(Control::PeakPressure(under.peak().unwrap().pressure)).unwrap();
-        assert!((found.load() / load - 1.0).abs() < 1e-7, "{found} {:?} {under} {:?}", found.peak(), under.peak());
+        assert!(
+            (found.load() / load - 1.0).abs() < 1e-7,
+            "{found} {:?} {under} {:?}",
+            found.peak(),
+            under.peak()
+        );
         assert!((found.a() - under.a()).abs() < 1e-7 * under.hull().half_width());
     }
 }

@@ -169,7 +169,7 @@ fn breakpoints_are_checked() {
     ));
     assert_eq!(join(vec![]), PiecewiseError::NoPieces);
     let message = join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]).to_string();
-    assert!(message.contains("gap of 1e-6 at breakpoint 0"), "{message}");
+    assert!(message.contains("gap of 1e-6 between pieces 0 and 1"), "{message}");
 
     // Rounding is no gap, and measured pieces may be met with a tolerance.
     let off = |by| vec![first(), line(0.0, 1.0, by, 0.0)];

@@ -127,6 +127,11 @@ fn solves_agree_with_the_shape_that_the_points_are_of() {
     assert_relative_eq!(pressure, form.pressure(0.3, 1.0), epsilon = 0.0, max_relative = 1e-8);
 }
 
+/// The root mean square distance that Reinsch allows, in units of the noise.
+fn reinsch(points: usize) -> f64 {
+    (1.0 + (2.0 / points as f64).sqrt()).sqrt()
+}
+
 /// `Σ (Y - y)² + α ∫ Y''²` is least where Y'' is zero at the ends, and at each knot the jump of Y'''
 /// times α is what the point is above the curve. The problem is convex: there is no other such curve.
 #[test]
@@ -138,7 +143,8 @@ fn the_smoothed_spline_is_the_smoothest() {
         let spline = Spline::fitted(&points, Fit { noise, outliers: None }).unwrap();
         let left: Vec<f64> = points.iter().map(|&[x, y]| y - spline.at(x).y).collect();
         let rms = (left.iter().map(|d| d * d).sum::<f64>() / points.len() as f64).sqrt();
-        assert_relative_eq!(rms, noise, epsilon = 0.0, max_relative = 1.1e-4);
+        let allowed = noise * reinsch(points.len());
+        assert_relative_eq!(rms, allowed, epsilon = 0.0, max_relative = 1.1e-4);
 
         let bends = bends(&spline);
         let n = bends.len();
@@ -168,7 +174,8 @@ fn many_noisy_points_give_the_contact() {
     let body = Spline::fitted(&points, Fit { noise, ..Fit::default() }).unwrap();
     let off = |&[x, y]: &[f64; 2]| (body.at(x).y - y).powi(2);
     let rms = (points.iter().map(off).sum::<f64>() / points.len() as f64).sqrt();
-    assert_relative_eq!(rms, noise, epsilon = 0.0, max_relative = 1.1e-4);
+    let allowed = noise * reinsch(points.len());
+    assert_relative_eq!(rms, allowed, epsilon = 0.0, max_relative = 1.1e-4);
 
     let form = Ellipse::circle(2.0, 0.5).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
@@ -190,6 +197,29 @@ fn many_noisy_points_give_the_contact() {
     assert!(error(&raw) > 0.05 && error(&body) < 2e-4, "{:e} {:e}", error(&raw), error(&body));
 }
 
+/// Whatever is said of the noise, within 10 %: many points are no reason to follow it.
+#[test]
+fn a_noise_that_is_not_quite_known_leaves_the_peak() {
+    let (radius, half_width, noise) = (10.0, 0.25, 1e-4);
+    let form = Ellipse::circle(radius, half_width).unwrap();
+    let top = form.pressure(0.0, 1.0);
+    for (seed, n) in [401, 1001, 4001, 20_001, 4001, 1001].into_iter().enumerate() {
+        let mut random = Noise(seed as u64 + 21);
+        let mut height = |x: f64| circle(radius)(x) + noise * random.normal();
+        let points: Vec<_> = even(n, |_| 0.0).iter().map(|&[x, _]| [x, height(x)]).collect();
+        for share in [0.9, 0.98, 1.0, 1.02, 1.1] {
+            let fit = Fit { noise: share * noise, ..Fit::default() };
+            let body = Spline::fitted(&points, fit).unwrap();
+            let contact = Contact::new(&Flat, &body).unwrap();
+            let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
+            assert_eq!(solution.intervals().len(), 1, "{n} points, {share} of the noise");
+            let peak = solution.peak().unwrap().pressure;
+            let off = peak / top - 1.0;
+            assert!(off.abs() < 0.03, "{n} points, {share} of the noise: off by {off:.1e}");
+        }
+    }
+}
+
 #[test]
 fn bad_points_are_named_by_their_row() {
     let points = even(50, |x| x * x);
@@ -205,7 +235,7 @@ fn bad_points_are_named_by_their_row() {
     assert_eq!(with(10, Some(before), None), SplineError::Duplicate { row: 10, x: before });
     let unsorted = SplineError::Unsorted { row: 10, x: -3.0, before };
     assert_eq!(with(10, Some(-3.0), None), unsorted);
-    assert!(unsorted.to_string().starts_with("row 10: x = -3.0 after"));
+    assert!(unsorted.to_string().starts_with("row 10: x = -3 after"));
     for few in 0..4 {
         let error = Spline::through(&points[..few]).map(|_| ()).unwrap_err();
         assert_eq!(error, SplineError::TooFew { points: few });

@@ -38,14 +38,35 @@ class Unchanging:
         super().__delattr__(name)
 
 
-def as_range(given: Sequence[float]) -> Range:
+def as_number(given: Any, name: str) -> float:
+    """One number: what is read from a file or a form is text as yet, and an array is more than one."""
+    if not isinstance(given, str | bytes):
+        try:
+            return float(given)
+        except (TypeError, ValueError):
+            pass
+    raise TypeError(f"{name} is {given!r}: give one number")
+
+
+def as_range(given: Any, name: str) -> Range:
     """Two numbers as a tuple."""
-    first, last = given
-    return float(first), float(last)
+    try:
+        first, last = given
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {given!r}: give two numbers, such as (-1.0, 1.0)") from None
+    return as_number(first, name), as_number(last, name)
+
+
+def as_numbers(given: Any, name: str) -> FloatArray:
+    """An array of numbers."""
+    found = np.asarray(given)
+    if found.dtype.kind in "US":
+        raise TypeError(f"{name} is {given!r}: give numbers")
+    return np.asarray(found, dtype=np.float64)
 
 
 def each(of: Callable[[FloatArray], FloatArray], x: Any) -> Any:
     """The values at `x`: a number of a number, an array of an array."""
-    places = np.asarray(x, dtype=np.float64)
+    places = as_numbers(x, "x")
     values = of(places.reshape(-1))
     return float(values[0]) if places.ndim == 0 else values.reshape(places.shape)

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._numbers import FloatArray, Numbers, Range, Unchanging, as_range
+from ._numbers import FloatArray, Numbers, Range, Unchanging, as_number, as_numbers, as_range
 
 Bulge: TypeAlias = Literal["unknown", "straight", "convex", "concave"]
 Step: TypeAlias = tuple[str, tuple[float, ...]]
@@ -173,7 +173,7 @@ class Body(Unchanging, ABC):
         >>> float(x), float(y)
         (6.0, 1.0)
         """
-        return self._placed("shifted", float(along), float(across))
+        return self._placed("shifted", as_number(along, "along"), as_number(across, "across"))
 
     def mirrored(self) -> Placed:
         """Left and right exchanged: `X` becomes `-X`, without any rounding."""
@@ -185,11 +185,11 @@ class Body(Unchanging, ABC):
 
     def rotated(self, angle: float) -> Placed:
         """Turned about the origin by an angle in radians, from the X axis towards the Y axis."""
-        return self._placed("rotated", float(angle))
+        return self._placed("rotated", as_number(angle, "angle"))
 
     def scaled(self, factor: float) -> Placed:
         """All lengths multiplied by a factor; a negative one adds half a turn."""
-        return self._placed("scaled", float(factor))
+        return self._placed("scaled", as_number(factor, "factor"))
 
 
 class Placed(Body):
@@ -265,7 +265,7 @@ class Line(Body):
     """
 
     def __init__(self, slope: float, domain: Sequence[float]) -> None:
-        self.slope, self._domain = float(slope), as_range(domain)
+        self.slope, self._domain = as_number(slope, "slope"), as_range(domain, "domain")
         self._profile = _native.Profile.line(self.slope, self._domain)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -290,7 +290,7 @@ class Parabola(Body):
     """
 
     def __init__(self, radius: float, domain: Sequence[float]) -> None:
-        self.radius, self._domain = float(radius), as_range(domain)
+        self.radius, self._domain = as_number(radius, "radius"), as_range(domain, "domain")
         self._profile = _native.Profile.parabola(self.radius, self._domain)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -315,7 +315,7 @@ class Ellipse(Body):
     """
 
     def __init__(self, along: float, across: float, angles: Sequence[float]) -> None:
-        self.along, self.across, self.angles = float(along), float(across), as_range(angles)
+        self.along, self.across, self.angles = as_number(along, "along"), as_number(across, "across"), as_range(angles, "angles")
         self._profile = _native.Profile.ellipse(self.along, self.across, self.angles)
 
     @classmethod
@@ -366,8 +366,8 @@ class Involute(Body):
     """
 
     def __init__(self, base_radius: float, origin: float, angles: Sequence[float]) -> None:
-        self.base_radius, self.origin = float(base_radius), float(origin)
-        self.angles = as_range(angles)
+        self.base_radius, self.origin = as_number(base_radius, "base_radius"), as_number(origin, "origin")
+        self.angles = as_range(angles, "angles")
         self._profile = _native.Profile.involute(self.base_radius, self.origin, self.angles)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -375,7 +375,9 @@ class Involute(Body):
 
 
 class Crowning(Body):
-    """Logarithmic (Lundberg) crowning of a roller, `Y = -C ln(1 - (X/l)²)`.
+    """Logarithmic (Lundberg) crowning, `Y = -C ln(1 - (X/l)²)`, of a body that is long across the plane.
+
+    Along the axis of a roller the contact is one in space: for it a plane solution is a guide only.
 
     Parameters
     ----------
@@ -395,8 +397,8 @@ class Crowning(Body):
     """
 
     def __init__(self, depth: float, half_length: float, domain: Sequence[float]) -> None:
-        self.depth, self.half_length = float(depth), float(half_length)
-        self._domain = as_range(domain)
+        self.depth, self.half_length = as_number(depth, "depth"), as_number(half_length, "half_length")
+        self._domain = as_range(domain, "domain")
         self._profile = _native.Profile.crowning(self.depth, self.half_length, self._domain)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -422,7 +424,7 @@ class Wedge(Body):
     """
 
     def __init__(self, slopes: Sequence[float], reach: float) -> None:
-        self.slopes, self.reach = as_range(slopes), float(reach)
+        self.slopes, self.reach = as_range(slopes, "slopes"), as_number(reach, "reach")
         self._profile = _native.Profile.wedge(self.slopes, self.reach)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -449,7 +451,7 @@ class RoundedPunch(Body):
     """
 
     def __init__(self, flat: float, radius: float, reach: float) -> None:
-        self.flat, self.radius, self.reach = float(flat), float(radius), float(reach)
+        self.flat, self.radius, self.reach = as_number(flat, "flat"), as_number(radius, "radius"), as_number(reach, "reach")
         self._profile = _native.Profile.rounded_punch(self.flat, self.radius, self.reach)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -465,7 +467,8 @@ class Spline(Body):
         Rows of x and y, lengths, by rising x.
     noise : float
         Standard deviation of the heights: a length. Of all curves that are off the points by so much the
-        smoothest is taken. With 0 the curve goes through the points.
+        smoothest is taken. With 0 the curve goes through the points. Rather a tenth too much than too little: with
+        much less than half of the true noise the curve follows it, and touches in many places.
     outliers : float or None
         How far off its neighbours a point may be before it is refused, in standard deviations. None: any.
 
@@ -487,12 +490,12 @@ class Spline(Body):
     def __init__(
         self, points: npt.ArrayLike, noise: float = 0.0, outliers: float | None = 10.0
     ) -> None:
-        rows = np.array(points, dtype=np.float64)
+        rows = as_numbers(points, "points").copy()
         if rows.ndim != 2 or rows.shape[1] != 2:
             raise ValueError(f"points of shape {rows.shape}: give rows of x and y, of shape (n, 2)")
         rows.setflags(write=False)
-        self.points, self.noise = rows, float(noise)
-        self.outliers = None if outliers is None else float(outliers)
+        self.points, self.noise = rows, as_number(noise, "noise")
+        self.outliers = None if outliers is None else as_number(outliers, "outliers")
         self._profile = _native.Profile.spline(rows, self.noise, self.outliers)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -550,7 +553,7 @@ class Curve(Body):
     def __init__(
         self, domain: Sequence[float], function: CurveFunction, convexity: Bulge = "unknown"
     ) -> None:
-        self._domain, self.function, self._bulge = as_range(domain), function, convexity
+        self._domain, self.function, self._bulge = as_range(domain, "domain"), function, convexity
         self._profile = _native.Profile.curve(self._domain, function, convexity)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -590,7 +593,7 @@ class Piecewise(Body):
 
     def __init__(self, parts: Sequence[Body], tolerance: float | None = None) -> None:
         self.parts = tuple(parts)
-        self.tolerance = None if tolerance is None else float(tolerance)
+        self.tolerance = None if tolerance is None else as_number(tolerance, "tolerance")
         self._profile = _native.Profile.piecewise([part._profile for part in self.parts], self.tolerance)
 
     def _arguments(self) -> tuple[Any, ...]:

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
-from ._numbers import Range, Unchanging, as_range
+from ._numbers import Range, Unchanging, as_number, as_range
 from .bodies import Body
-from .solution import PartialSlip, Solution
+from .solution import PartialSlip, Solution, _acting, _ratio
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -30,7 +30,12 @@ __all__ = [
 ]
 
 
-class Material(NamedTuple):
+class _Material(NamedTuple):
+    youngs_modulus: float
+    poisson_ratio: float
+
+
+class Material(_Material):
     """An isotropic elastic material.
 
     Parameters
@@ -48,8 +53,11 @@ class Material(NamedTuple):
     115384.62
     """
 
-    youngs_modulus: float
-    poisson_ratio: float
+    __slots__ = ()
+
+    def __new__(cls, youngs_modulus: float, poisson_ratio: float) -> Material:
+        """Refuses a ratio that none can have, here and not at a solve."""
+        return super().__new__(cls, as_number(youngs_modulus, "youngs_modulus"), _ratio(poisson_ratio))
 
     @classmethod
     def rigid(cls) -> Material:
@@ -65,8 +73,21 @@ class Material(NamedTuple):
 
 
 def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
-    modulus, ratio = material
-    return None if modulus == math.inf else (float(modulus), float(ratio))
+    try:
+        modulus, ratio = material
+    except (TypeError, ValueError):
+        raise TypeError(f"{material!r} is no Material: give E and ν, as Material(210e3, 0.3)") from None
+    modulus, ratio = as_number(modulus, "youngs_modulus"), as_number(ratio, "poisson_ratio")
+    return None if modulus == math.inf else (modulus, ratio)
+
+
+def _both(materials: Sequence[Any]) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+    """The materials of the two bodies."""
+    if isinstance(materials, Material) or not isinstance(materials, Sequence) or len(materials) != 2:
+        raise TypeError(
+            f"materials are {materials!r}: give one for the lower and one for the upper body, such as (steel, steel)"
+        )
+    return _elastic(materials[0]), _elastic(materials[1])
 
 
 def contact_modulus(
@@ -118,17 +139,17 @@ class Edge(NamedTuple):
     @classmethod
     def fixed(cls, x: float) -> Edge:
         """A sharp corner at this x, a length, from which the contact does not part."""
-        return cls("fixed", float(x))
+        return cls("fixed", as_number(x, "x"))
 
     @classmethod
     def free_until(cls, x: float) -> Edge:
         """A smooth body with a sharp corner at this x, a length: free as long as the corner is not reached."""
-        return cls("free_until", float(x))
+        return cls("free_until", as_number(x, "x"))
 
     @classmethod
     def adhesive(cls, work: float) -> Edge:
         """Adhesion at the edge alone (JKR), with this work of adhesion: energy per unit area."""
-        return cls("adhesive", float(work))
+        return cls("adhesive", as_number(work, "work"))
 
 
 class EdgePressure(NamedTuple):
@@ -182,17 +203,17 @@ class Reference(NamedTuple):
     @classmethod
     def depth(cls, depth: float) -> Reference:
         """The point at this depth below the surface, a length."""
-        return cls("depth", float(depth))
+        return cls("depth", as_number(depth, "depth"))
 
     @classmethod
     def disc(cls, radius: float) -> Reference:
         """The centre of a disc of this radius, a length, which is loaded at the opposite point."""
-        return cls("disc", float(radius))
+        return cls("disc", as_number(radius, "radius"))
 
     @classmethod
     def length(cls, length: float) -> Reference:
         """ℓ in `2 ln(ℓ/|x - s|)`, a length: any other constant."""
-        return cls("length", float(length))
+        return cls("length", as_number(length, "length"))
 
 
 class References(NamedTuple):
@@ -379,11 +400,11 @@ def _prescribed(
     *, references: References | None, **numbers: float | None
 ) -> tuple[str, list[float], References | None]:
     """What is prescribed, as the library takes it."""
-    given = {name: value for name, value in numbers.items() if value is not None}
+    given = {name: as_number(value, name) for name, value in numbers.items() if value is not None}
     kind, values = _control(given, references)
     if references is not None and kind != "approach":
         raise TypeError("references belong to an approach: give them where one is asked for")
-    return kind, [float(value) for value in values], references
+    return kind, values, references
 
 
 class Contact(Unchanging):
@@ -466,7 +487,7 @@ class Contact(Unchanging):
         if tolerance is not None:
             if quadrature is not None:
                 raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
-            quadrature = Panels(float(tolerance))
+            quadrature = Panels(as_number(tolerance, "tolerance"))
         self.lower, self.upper = lower, upper
         self._settings: dict[str, Any] = {
             "contact_modulus": contact_modulus,
@@ -475,7 +496,7 @@ class Contact(Unchanging):
             "plane": plane,
             "edges": edges,
             "edge_pressure": edge_pressure,
-            "start": None if start is None else as_range(start),
+            "start": None if start is None else as_range(start, "start"),
             "search": search,
             "inversion": inversion,
             "quadrature": quadrature,
@@ -487,7 +508,7 @@ class Contact(Unchanging):
             upper._profile,
             kappa=kappa,
             contact_modulus=contact_modulus,
-            materials=None if materials is None else (*map(_elastic, materials), plane),
+            materials=None if materials is None else (*_both(materials), plane),
             edges=edges,
             edge_pressure=edge_pressure,
             start=self._settings["start"],
@@ -620,7 +641,7 @@ class Contact(Unchanging):
         0.5
         """
         wanted = _wanted(prescribed)
-        acting = (float(friction), float(force), float(tension))
+        acting = _acting(friction, force, tension)
         return PartialSlip(self._scene.partial_slip(wanted, acting), self, wanted, acting)
 
 

@@ -50,7 +50,7 @@ class MissingDerivativesError(InputError, TypeError):
     Attributes
     ----------
     count : int
-        How many it has returned.
+        How many it has returned; 1 of one array or number alone.
     """
 
     count: int
@@ -60,8 +60,9 @@ class MissingDerivativesError(InputError, TypeError):
         self.count = count
 
     def __str__(self) -> str:
+        returned = {0: "nothing", 1: "one array"}.get(self.count, f"{self.count} arrays")
         return (
-            f"the function of a Curve has returned {self.count} arrays: it must return four, X, Y and their "
+            f"the function of a Curve has returned {returned}: it must return four, X, Y and their "
             "derivatives by k, of as many numbers as k has. For a circle of radius R by its angle:\n"
             "    def circle(k):\n"
             "        x, y = R * np.sin(k), R * (1 - np.cos(k))\n"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, Numbers, each
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, each
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -263,21 +263,31 @@ def _plain(value: Any) -> Any:
     return float(value) if np.ndim(value) == 0 else value
 
 
-def _ratio(ratio: float) -> float:
+def _ratio(given: float) -> float:
+    """Poisson's ratio, if a material can have it."""
+    ratio = as_number(given, "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
         from .errors import InvalidPoissonRatioError
 
-        error = InvalidPoissonRatioError(f"Poisson's ratio is {ratio}: it must be from 0 to 1/2")
+        error = InvalidPoissonRatioError(f"Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel")
         error.ratio = ratio
         raise error
     return ratio
 
 
+def _acting(friction: float, force: float, tension: float) -> tuple[float, float, float]:
+    """What acts along the contact, as the library takes it."""
+    return as_number(friction, "friction"), as_number(force, "force"), as_number(tension, "tension")
+
+
 def _stress(of: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]],
             x: Any, depth: Any) -> Stress:  # fmt: skip
-    places, depths = np.broadcast_arrays(
-        np.asarray(x, dtype=np.float64), np.asarray(depth, dtype=np.float64)
-    )
+    places, depths = as_numbers(x, "x"), as_numbers(depth, "depth")
+    try:
+        places, depths = np.broadcast_arrays(places, depths)
+    except ValueError:
+        shapes = f"x has the shape {places.shape}, depth {depths.shape}"
+        raise ValueError(f"{shapes}: give as many of each, or one number for all") from None
     parts = of(places.ravel(), depths.ravel())
     return Stress(*(_plain(part.reshape(places.shape)) for part in parts))
 
@@ -668,7 +678,7 @@ class Solution:
 
     def partial_slip(self, *, friction: float, force: float, tension: float = 0.0) -> PartialSlip:
         """The same contact, found anew, with a tangential force that friction carries: see `Contact.partial_slip`."""
-        acting = (float(friction), float(force), float(tension))
+        acting = _acting(friction, force, tension)
         return _slipped_again(self._contact, self._prescribed, acting)
 
     # The whole.

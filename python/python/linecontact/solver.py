@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-import numpy as np
-
 from . import _native
-from ._numbers import FloatArray, Numbers
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range
 from .bodies import Body
 from .contact import Contact, Prescribed, References, Settings, _wanted
-from .solution import PartialSlip, Solution
+from .solution import PartialSlip, Solution, _acting
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -88,7 +86,7 @@ class Solver:
     ) -> PartialSlip:
         """As `Contact.partial_slip`, from the last contact."""
         wanted = _wanted(prescribed)
-        acting = (float(friction), float(force), float(tension))
+        acting = _acting(friction, force, tension)
         found = self._solver.partial_slip(contact._scene, wanted, acting)
         return PartialSlip(found, contact, wanted, acting)
 
@@ -152,8 +150,7 @@ class SpringTable:
         loads: Sequence[float],
         tolerance: float = 1e-6,
     ) -> None:
-        first, last = loads
-        self._made_of = (contact, references, (float(first), float(last)), float(tolerance))
+        self._made_of = (contact, references, as_range(loads, "loads"), as_number(tolerance, "tolerance"))
         self._table = _native.SpringTable(contact._scene, *self._made_of[1:])
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -176,7 +173,7 @@ class SpringTable:
 
     def at(self, approach: float | Numbers) -> SpringPoints:
         """The states at approaches, lengths within the table."""
-        places = np.asarray(approach, dtype=np.float64)
+        places = as_numbers(approach, "approach")
 
         def shaped(column: FloatArray) -> Any:
             return float(column[0]) if places.ndim == 0 else column.reshape(places.shape)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._numbers import as_numbers
 from .contact import Contact, References, _control
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
     >>> found["error"]
     array(['', 'InvalidLoadError'], dtype=object)
     >>> print(found.errors[1])
-    the load is -1.0: it must be finite, and positive where limits are sought
+    the load is -1: it must be finite, and positive where limits are sought
     """
 
     errors: dict[int, Exception]
@@ -130,7 +131,7 @@ def sweep(
            [ 427.8,  605. ,  741. ]])
     """
     quantities = [quantities] if isinstance(quantities, str) else list(quantities)
-    numbers = {name: np.asarray(values, dtype=np.float64) for name, values in prescribed.items()}
+    numbers = {name: as_numbers(values, name) for name, values in prescribed.items()}
     kind, given = _control(numbers, references, quantities)
     lengths = {len(contacts)} if not isinstance(contacts, Contact) else set()
     for name, values in numbers.items():

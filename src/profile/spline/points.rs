@@ -1,6 +1,7 @@
 //! What points must be to become a profile.
 
 use crate::Real;
+use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use std::cmp::Ordering;
 use thiserror::Error;
@@ -25,7 +26,9 @@ pub enum SplineError<T: Real> {
         points: usize,
     },
     /// A coordinate is NaN or infinite.
-    #[error("row {row}: the point [{x:?}, {y:?}] is not finite")]
+    #[error(
+        "row {row}: the point [{x}, {y}] is not finite: remove the row", x = six(*x), y = six(*y)
+    )]
     NotFinite {
         /// Row of the point.
         row: usize,
@@ -35,7 +38,10 @@ pub enum SplineError<T: Real> {
         y: T,
     },
     /// Two neighbours have one x, or x so near that their distance is lost.
-    #[error("row {row}: x = {x:?} as in the row before: keep one of the two, or their mean")]
+    #[error(
+        "row {row}: x = {x} as in the row before: keep one of the two, or their mean",
+        x = six(*x)
+    )]
     Duplicate {
         /// Row of the second.
         row: usize,
@@ -43,7 +49,10 @@ pub enum SplineError<T: Real> {
         x: T,
     },
     /// x falls from one point to the next.
-    #[error("row {row}: x = {x:?} after {before:?}: sort the points by x, or reverse them")]
+    #[error(
+        "row {row}: x = {x} after {before}: sort the points by x, or reverse them",
+        x = apart(*x, &[*before]), before = apart(*before, &[*x])
+    )]
     Unsorted {
         /// Row of the second.
         row: usize,
@@ -54,9 +63,10 @@ pub enum SplineError<T: Real> {
     },
     /// A point is off the curve through its neighbours.
     #[error(
-        "row {row}: y = {y:?} at x = {x:?}, where its neighbours suggest {expected:?}: {deviations:?} \
+        "row {row}: y = {y} at x = {x}, where its neighbours suggest {expected}: {deviations} \
          standard deviations off. Remove the row, or set Fit::outliers to None if the body has a \
-         corner there"
+         corner there",
+        y = six(*y), x = six(*x), expected = six(*expected), deviations = six(*deviations)
     )]
     Outlier {
         /// Row of the point, the one that is furthest off.
@@ -71,20 +81,29 @@ pub enum SplineError<T: Real> {
         deviations: T,
     },
     /// The noise is negative, NaN or infinite.
-    #[error("the noise is {noise:?}: give the standard deviation of the heights, 0 or more")]
+    #[error(
+        "the noise is {noise}: give the standard deviation of the heights, 0 or more",
+        noise = six(*noise)
+    )]
     Noise {
         /// The noise as given.
         noise: T,
     },
     /// The limit for outliers is not positive.
-    #[error("Fit::outliers is {deviations:?}: give a number of standard deviations, or None")]
+    #[error(
+        "Fit::outliers is {deviations}: give a number of standard deviations, or None",
+        deviations = six(*deviations)
+    )]
     Limit {
         /// The limit as given.
         deviations: T,
     },
-    /// A straight line is as close to the points as the noise allows.
+    /// A straight line is as close to the points as the noise allows, or expected to be nearer to the body than
+    /// any curve.
     #[error(
-        "noise of {noise:?} leaves nothing of the points: a straight line is only {line:?} off them"
+        "noise of {noise} leaves nothing of the points: a straight line, {line} off them, is as near as can be told; \
+         give less noise, or points of more of the body", noise = apart(*noise, &[*line]),
+        line = apart(*line, &[*noise])
     )]
     NothingLeft {
         /// The noise as given.
@@ -94,8 +113,8 @@ pub enum SplineError<T: Real> {
     },
     /// The curve up to a point is beyond the range of the number type.
     #[error(
-        "row {row}: the numbers of the curve from x = {before:?} to {x:?} overflow, or vanish. Give \
-         the points in a unit of their own size"
+        "row {row}: the numbers of the curve from x = {} overflow, or vanish. Give \
+         the points in a unit of their own size", span(*before, *x)
     )]
     Overflow {
         /// Row of the point.

@@ -15,67 +15,183 @@
 use super::SplineError;
 use crate::Real;
 use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
+use nalgebra::Matrix2;
 
 /// A row of the equations: the height and the slope at two neighbouring knots, and the right side.
 type Row<T> = [T; 5];
 
-/// Height and slope at each knot of the spline with the root mean square distance `noise` from the
-/// points.
+/// How often the doubt about a curve counts in its [`risk`](Fitting::risk). Once is right for heights. Twice left
+/// half the error of pressures, which follow the curvature, and bears a noise of half its true size.
+const DOUBT: f64 = 2.0;
+
+/// Steps, as ratios, at which reaches are tried.
+const STEP: f64 = 1.5;
+
+/// Height and slope at each knot of the smoothest spline that Reinsch allows the noise, `N + sqrt(2 N)` for the sum
+/// of the squares of the distances in units of it; or of a smoother one, where that is expected to be nearer to
+/// the curve that was measured, as where the noise is said to be less than it is.
 pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>, SplineError<T>> {
     let count = T::count(points.len());
-    let [first, last] = [points[0], points[points.len() - 1]];
-    let chord = (last[1] - first[1]) / (last[0] - first[0]);
-    // Without the line from the first point to the last, which is not penalised, there is less to round.
-    let line = |x: T| first[1] + chord * (x - first[0]);
-    let rest: Vec<[T; 2]> = points.iter().map(|&[x, y]| [x - first[0], y - line(x)]).collect();
-    let spacing = (last[0] - first[0]) / (count - T::one());
-
-    let mut scratch = Vec::with_capacity(points.len());
-    let mut knots = vec![[T::zero(); 2]; points.len()];
-    // In units of the noise, so that no square of a small number vanishes. The reach of the smoothing is
-    // in points: α = reach⁴ spacing³.
-    let mut distance = |reach: T, knots: &mut Vec<[T; 2]>| {
-        let stiffness = reach * reach * spacing * spacing.sqrt();
-        penalised(&rest, stiffness, &mut scratch, knots);
-        let off = |(point, knot): (&[T; 2], &[T; 2])| (point[1] - knot[0]) / noise;
-        let square = |sum: T, pair| sum + off(pair).powi(2);
-        (rest.iter().zip(knots.iter()).fold(T::zero(), square) / count).sqrt()
-    };
     let [least, most] = [T::of(1e-3), T::of(3.0) * count];
-    let line_off = distance(most, &mut knots);
+    let allowed = T::one() + (T::of(2.0) / count).sqrt();
+    let mut fitting = Fitting::new(points, noise);
+    let line_off = fitting.fit(most);
     if !line_off.is_finite() {
         let source = SearchError::NotFinite { x: most, value: line_off };
         return Err(SplineError::Smoothing { source });
     }
-    if line_off <= T::one() {
-        return Err(SplineError::NothingLeft { noise, line: line_off * noise });
+    let nothing_left = SplineError::NothingLeft { noise, line: line_off.sqrt() * noise };
+    if line_off <= allowed {
+        return Err(nothing_left);
     }
     // Both in logarithms, and nothing below a millionth of what is sought.
-    let mut off = |reach: T, knots: &mut Vec<[T; 2]>| distance(reach, knots).max(T::of(1e-6)).ln();
-    let near = off(least, &mut knots);
-    if near < T::zero() {
-        let bracket = Bracket::new(least.ln(), most.ln()).values(near, line_off.ln());
-        let search =
-            Brent { tolerance: StoppingCriteria { residual: 1e-4, ..StoppingCriteria::FULL } };
-        let found = search.find(&mut |reach: T| off(reach.exp(), &mut knots), &bracket);
-        let reach = found.map_err(|source| SplineError::Smoothing { source })?.x.exp();
-        off(reach, &mut knots);
+    let floor = T::of(1e-12);
+    let mut off = |reach: T| (fitting.fit(reach).max(floor) / allowed).ln();
+    let near = off(least);
+    let reach = if near < T::zero() {
+        let bracket = Bracket::new(least.ln(), most.ln()).values(near, (line_off / allowed).ln());
+        search(&mut |reach: T| off(reach.exp()), &bracket)?
+    } else {
+        least
+    };
+    let reach = fitting.least_risk(reach, most)?;
+    if reach >= most {
+        return Err(nothing_left);
     }
-    for (knot, point) in knots.iter_mut().zip(points) {
-        *knot = [knot[0] + line(point[0]), knot[1] + chord];
+    fitting.fit(reach);
+    Ok(fitting.knots())
+}
+
+/// Where a function of the logarithm of the reach is zero.
+fn search<T: Real>(
+    function: &mut dyn FnMut(T) -> T,
+    bracket: &Bracket<T>,
+) -> Result<T, SplineError<T>> {
+    let brent = Brent { tolerance: StoppingCriteria { residual: 1e-4, ..StoppingCriteria::FULL } };
+    let found =
+        brent.find(function, bracket).map_err(|source| SplineError::Smoothing { source })?;
+    Ok(found.x.exp())
+}
+
+/// Points, and the curve that was fitted to them last.
+struct Fitting<T> {
+    /// With the mean spacing as the unit of x, and without the line from the first to the last: it is not
+    /// penalised, and there is less to round.
+    points: Vec<[T; 2]>,
+    noise: T,
+    spacing: T,
+    first: T,
+    chord: T,
+    triangle: Vec<[Row<T>; 2]>,
+    curve: Vec<[T; 2]>,
+}
+
+impl<T: Real> Fitting<T> {
+    fn new(points: &[[T; 2]], noise: T) -> Self {
+        let [first, last] = [points[0], points[points.len() - 1]];
+        let spacing = (last[0] - first[0]) / T::count(points.len() - 1);
+        let chord = (last[1] - first[1]) / T::count(points.len() - 1);
+        let rest = |&[x, y]: &[T; 2]| {
+            let x = (x - first[0]) / spacing;
+            [x, y - (first[1] + chord * x)]
+        };
+        Self {
+            points: points.iter().map(rest).collect(),
+            noise,
+            spacing,
+            first: first[1],
+            chord,
+            triangle: Vec::with_capacity(points.len()),
+            curve: vec![[T::zero(); 2]; points.len()],
+        }
     }
-    Ok(knots)
+
+    /// The mean square of the distances from the points to the curve that smooths over `reach` points,
+    /// `α = reach⁴ spacing³`; in units of the noise, so that no square of a small number vanishes.
+    fn fit(&mut self, reach: T) -> T {
+        penalised(&self.points, reach * reach, &mut self.triangle, &mut self.curve);
+        let pairs = self.points.iter().zip(&self.curve);
+        let square =
+            |(point, knot): (&[T; 2], &[T; 2])| ((point[1] - knot[0]) / self.noise).powi(2);
+        pairs.fold(T::zero(), |sum, pair| sum + square(pair)) / T::count(self.points.len())
+    }
+
+    /// The mean square error to be expected of the heights, but for a constant (Mallows, *Technometrics* 15,
+    /// 1973, 661), in units of the noise: of the distances, which grow with the reach, and the doubt, which falls.
+    fn risk(&mut self, reach: T) -> T {
+        let distance = self.fit(reach);
+        let doubt = freedom(&self.triangle) / T::count(self.points.len());
+        distance + T::of(2.0 * DOUBT) * doubt
+    }
+
+    /// The reach of the least risk, from one reach to another.
+    fn least_risk(&mut self, from: T, most: T) -> Result<T, SplineError<T>> {
+        let step = T::of(STEP);
+        let (mut best, mut least, mut reach) = (from, self.risk(from), from);
+        while reach < most {
+            reach = (reach * step).min(most);
+            let risk = self.risk(reach);
+            if risk < least {
+                (best, least) = (reach, risk);
+            }
+        }
+        if best <= from || best >= most {
+            return Ok(best);
+        }
+        // Between half a step to the left and half a step to the right the risk stops falling.
+        let half = step.ln() * T::of(0.5);
+        let mut rise = |middle: T| {
+            let [before, after] =
+                [middle - half, middle + half].map(|reach| self.risk(reach.exp()));
+            (after - before) / least
+        };
+        let ends = [best.ln() - half, best.ln() + half];
+        let [falls, rises] = ends.map(&mut rise);
+        if !(falls < T::zero() && rises > T::zero()) {
+            return Ok(best);
+        }
+        search(&mut rise, &Bracket::new(ends[0], ends[1]).values(falls, rises))
+    }
+
+    /// Height and slope at each knot, with the line.
+    fn knots(self) -> Vec<[T; 2]> {
+        let Self { first, chord, spacing, .. } = self;
+        let knot = |(&[x, _], &[y, slope]): (&[T; 2], &[T; 2])| {
+            [y + (first + chord * x), (slope + chord) / spacing]
+        };
+        self.points.iter().zip(&self.curve).map(knot).collect()
+    }
+}
+
+/// By how much all heights together follow the points: the trace of the matrix that makes the heights of the
+/// curve from those of the points. From right to left, by the inverse of the triangle.
+fn freedom<T: Real>(triangle: &[[Row<T>; 2]]) -> T {
+    // The covariance of height and slope at a knot, for points with a variance of 1.
+    let mut covariance = Matrix2::zeros();
+    triangle.iter().rev().fold(T::zero(), |sum, [upper, lower]| {
+        let next = Matrix2::new(upper[2], upper[3], lower[2], lower[3]);
+        let inverse = Matrix2::new(
+            T::one() / upper[0],
+            -upper[1] / (upper[0] * lower[1]),
+            T::zero(),
+            T::one() / lower[1],
+        );
+        covariance = inverse
+            * (Matrix2::identity() + next * covariance * next.transpose())
+            * inverse.transpose();
+        sum + covariance.m11
+    })
 }
 
 /// Height and slope at each knot, for the square root of α.
 fn penalised<T: Real>(
     points: &[[T; 2]],
     stiffness: T,
-    scratch: &mut Vec<[Row<T>; 2]>,
+    triangle: &mut Vec<[Row<T>; 2]>,
     knots: &mut [[T; 2]],
 ) {
     let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-    scratch.clear();
+    triangle.clear();
     // Rows 0 and 1 start with the left knot of an interval, 2 and 3 with the right.
     let mut rows = [[zero; 5]; 4];
     for pair in points.windows(2) {
@@ -84,15 +200,15 @@ fn penalised<T: Real>(
         insert(&mut rows, [one, zero, zero, zero, pair[0][1]]);
         insert(&mut rows, [bent / h, half * bent, -bent / h, half * bent, zero]);
         insert(&mut rows, [zero, -level, zero, level, zero]);
-        scratch.push([rows[0], rows[1]]);
+        triangle.push([rows[0], rows[1]]);
         let next = |row: Row<T>| [row[2], row[3], zero, zero, row[4]];
         rows = [next(rows[2]), next(rows[3]), [zero; 5], [zero; 5]];
     }
     let n = points.len();
     insert(&mut rows, [one, zero, zero, zero, points[n - 1][1]]);
-    scratch.push([rows[0], rows[1]]);
+    triangle.push([rows[0], rows[1]]);
     let mut after = [zero; 2];
-    for (knot, [upper, lower]) in knots.iter_mut().zip(scratch.iter()).rev() {
+    for (knot, [upper, lower]) in knots.iter_mut().zip(triangle.iter()).rev() {
         let known = |row: &Row<T>| row[4] - row[2] * after[0] - row[3] * after[1];
         let slope = known(lower) / lower[1];
         *knot = [(known(upper) - upper[1] * slope) / upper[0], slope];

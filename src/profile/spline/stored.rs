@@ -3,6 +3,7 @@
 use super::{Cubic, SplineError, points};
 use crate::Real;
 use crate::profile::ParametricProfile;
+use crate::rounded::six;
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -18,7 +19,8 @@ pub(super) enum Fault<T: Real> {
     #[error(transparent)]
     Knots(#[from] SplineError<T>),
     #[error(
-        "cubic {cubic} (from 0, left to right) does not go on from the one before, at x = {x:?}"
+        "cubic {cubic} (from 0, left to right) does not go on from the one before, at x = {x}",
+        x = six(*x)
     )]
     Break { cubic: usize, x: T },
 }

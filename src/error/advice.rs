@@ -1,0 +1,66 @@
+//! What messages say of what helps.
+
+use crate::Real;
+use crate::rounded::{Rounded, six};
+
+/// Whether a number is so small that it has fewer digits than others.
+pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
+    value.is_finite() && !value.is_zero() && !(T::one() / value).is_finite()
+}
+
+pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
+    if is_subnormal(value) {
+        "; of so small a number digits are lost: choose units in which it is nearer to 1"
+    } else {
+        ""
+    }
+}
+
+/// Where a flat without ends has its ends there are none.
+pub(super) fn place<T: Real>(x: T) -> Rounded {
+    let endless = !(x * T::of(8.0)).is_finite();
+    six(if endless { x * T::of(f64::INFINITY) } else { x })
+}
+
+/// What to do where the contact found is not all of it.
+pub(super) const SEVERAL: &str = "where several may touch, give the load (for a half-width, a peak, adhesion or single_interval \
+    only one is sought); or change it a little, declare kinks as breakpoints, smooth measured points (Fit::noise)";
+
+/// What to do about a pressure that is negative.
+pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {
+    if pressure.is_finite() {
+        SEVERAL
+    } else {
+        "round off the hollow corner there, or change the load until the contact ends beside it"
+    }
+}
+
+/// What to do about a peak pressure that is not found, by the one tried last.
+pub(super) fn how_to_peak<T: Real>(found: T) -> &'static str {
+    if found.is_finite() {
+        "give the load or the half-width, or a start nearer to the contact"
+    } else if found > T::zero() {
+        "where the slope of a body jumps the pressure is infinite: round the kink, or give the load or the half-width"
+    } else {
+        "no contact was found under any load tried: give a start nearer to the contact, or the load"
+    }
+}
+
+/// What may be missing where a contact turns out too wide.
+pub(super) fn hint(kappa_is_default: bool) -> &'static str {
+    if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
+}
+
+/// What to do about slopes on the left and on the right that are not those of a gap that closes.
+pub(super) fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
+    let zero = T::zero();
+    if left.is_zero() && right.is_zero() {
+        "these bodies are parallel: two flats need Edge::Fixed or FreeUntil at their corners; of two like curves \
+         one is to be flipped (Placement::flipped)"
+    } else if left >= zero && right <= zero {
+        "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
+         a convex body a smaller radius than the hollow that it lies in"
+    } else {
+        "this gap leads down to an end of the bodies: widen their domains, or tilt one of them"
+    }
+}
