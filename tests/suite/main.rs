@@ -32,6 +32,7 @@ mod estimates;
 mod fuzz_regressions;
 mod held_widths;
 mod invariants;
+mod joints;
 mod limits;
 mod loads;
 mod messages;
