@@ -29,6 +29,7 @@ mod edge_pressures;
 mod edges;
 mod errors;
 mod estimates;
+mod flanks;
 mod fuzz_regressions;
 mod held_widths;
 mod invariants;
