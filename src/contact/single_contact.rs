@@ -26,10 +26,9 @@ pub(super) const MOST_DOUBT: f64 = 0.03;
 /// Initial guesses before the search is given up.
 const MOST_GUESSES: usize = 120;
 
-/// Steps beyond an end of the bodies in an initial guess, after which another is made; in full, after which it is
-/// asked what they bear; and where that says nothing of one contact of several. (Each goes half the way: a contact
-/// may come as close to an end as 1e-7 of its width.)
-const MOST_AT_END: [usize; 3] = [2, 10, 24];
+/// Steps beyond an end of the bodies in an initial guess, after which another is made; and in full, after which it is
+/// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+const MOST_AT_END: [usize; 2] = [2, 24];
 
 /// Initial guesses that may reach for an end before it is asked what the bodies bear.
 const MOST_GUESSES_AT_END: usize = 12;
@@ -267,8 +266,7 @@ impl<T: Real> Single<'_, '_, T> {
         let most_at_end = match (effort, self.bears) {
             (Effort::Guess, _) => MOST_AT_END[0],
             (Effort::Full, Some(Some(_))) => usize::MAX,
-            (Effort::Full, None) => MOST_AT_END[1],
-            (Effort::Full, Some(None)) => MOST_AT_END[2],
+            (Effort::Full, _) => MOST_AT_END[1],
         };
         let (gap, conditions) = (&self.contact.gap, self.conditions);
         let find = |integrator: &mut dyn Integrator<T>, most_at_end| {

@@ -31,6 +31,8 @@ pub(super) struct SampledBody<T> {
     bodies: T,
     /// What the rounding of x, or the noise of X, makes of the slope where the bodies bend sharply.
     noise: T,
+    /// What the noise of X alone makes of it, where it was measured.
+    measured: T,
     /// What the series of the bodies leave open where their points are not at the nodes. What the two
     /// have in common does not show in the series of the gap.
     off: T,
@@ -51,7 +53,7 @@ impl<T: Real> PanelSet<T> {
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, off, missed } = seen;
+            let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -60,8 +62,7 @@ impl<T: Real> PanelSet<T> {
             // Next to a singularity the slope may be large, or noisy, beyond all that counts
             // elsewhere.
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let rounded = T::epsilon() * bodies;
-            let rounded = if self.noise.is_some() { rounded.max(noise) } else { rounded };
+            let rounded = (T::epsilon() * bodies).max(measured);
             let verdict = judge(n, &panel.series, allowed, rounded);
             let (tail, next, split) = match verdict {
                 // The first sign of a tip looks like noise.
@@ -241,9 +242,14 @@ impl<T: Real> PanelSet<T> {
             }
             let CurveSample { k, x, y, .. } = samples[samples.len() / 2];
             let (_, piece) = gap.piece_at(body, x, Side::Left);
-            noise[i] = Noise::near(&piece, k, &mut self.cost);
-            let rounded = |noise: T, value: T| noise <= T::of(4.0) * T::epsilon() * value.abs();
-            counts |= !(rounded(noise[i].x, x) && rounded(noise[i].y, y));
+            let measured = Noise::near(&piece, k, &mut self.cost);
+            let beyond_rounding = |noise: T, value: T| {
+                let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
+                if is_more { noise } else { T::zero() }
+            };
+            noise[i] =
+                Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
+            counts |= noise[i].x + noise[i].y > T::zero();
         }
         self.noise = counts.then_some(noise);
         counts
@@ -261,17 +267,25 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
+        let mut seen = SampledBody {
+            slope: zero,
+            bodies: zero,
+            noise: zero,
+            measured: zero,
+            off,
+            missed: zero,
+        };
         for i in 0..N {
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
         }
         let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
-        let [of_lower, of_upper] =
-            self.noise.map_or([rounded; 2], |noise| noise.map(|noise| rounded.max(noise.x)));
-        let bends = of_lower * bend(lower) + of_upper * bend(upper);
-        seen.noise = bends / (nodes[N - 1] - nodes[0]);
+        let length = nodes[N - 1] - nodes[0];
+        if let Some([of_lower, of_upper]) = self.noise {
+            seen.measured = (of_lower.x * bend(lower) + of_upper.x * bend(upper)) / length;
+        }
+        seen.noise = (rounded * (bend(lower) + bend(upper)) / length).max(seen.measured);
         seen
     }
 }
