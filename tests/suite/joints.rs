@@ -132,7 +132,7 @@ fn a_polynomial_cut_at_its_zeros() {
     let [low, high] = [-1.0, 1.0];
     let cuts = [low, zeros[0], zeros[1], zeros[2], high];
     let side = |i: usize| {
-        let sign = if i % 2 == 0 { -1.0 / 3.0 } else { 1.0 / 3.0 };
+        let sign = if i.is_multiple_of(2) { -1.0 / 3.0 } else { 1.0 / 3.0 };
         graph(cuts[i], cuts[i + 1], move |x| {
             [sign * x * (4.0 * x * x - 3.0), sign * (12.0 * x * x - 3.0)]
         })
