@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::edges::Conditions;
-use super::equations::Equations;
+use super::equations::{Equations, Residual};
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
 use crate::search::{Bracket, Brent, try_find};
@@ -16,6 +16,13 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 /// Shares of the bodies that are left out at their ends where the slope is no number there, or too
 /// large for one.
 const LEFT_OUT: [f64; 4] = [0.0, 4.0, 4e3, 4e6];
+
+/// The error, as a share, to which contacts are sampled until the largest is between two of them: the whole of the
+/// bodies may be hard to sample, and all that counts is which way it would move.
+const ROUGH: f64 = 1e-2;
+
+/// The share of its load by which a contact that was sampled so must be out of balance.
+const SURE: f64 = 0.1;
 
 /// By how much narrower contacts at the end become from one to the next until one is too narrow.
 const NARROWER: f64 = 8.0;
@@ -85,9 +92,11 @@ pub(super) fn capacity<T: Real>(
 ) -> Option<Capacity<T>> {
     let Ends { left, right } = ends;
     let mut integrator = Panels::FULL.integrator().ok()?;
+    let mut rough = Panels { tolerance: ROUGH }.integrator().ok()?;
     let fixed = conditions.limits();
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
-    let mut pinned = Pinned { contact, equations, integrator: &mut *integrator };
+    let (full, rough) = (&mut *integrator, &mut *rough);
+    let mut pinned = Pinned { contact, equations, full, rough };
     let found = LEFT_OUT.into_iter().find_map(|share| {
         let out = T::of(share) * T::epsilon() * (right - left);
         let (left, right) = (fixed.left.unwrap_or(left + out), fixed.right.unwrap_or(right - out));
@@ -109,7 +118,7 @@ pub(super) fn capacity<T: Real>(
         };
         Some(Capacity { on, end: ends[side], load, peak })
     });
-    *cost += integrator.cost();
+    *cost += integrator.cost() + rough.cost();
     // Without adhesion one that would have to be pulled at is none: the bodies touch beside a hollow.
     let pulled = conditions.edges.are_adhesive();
     let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
@@ -120,7 +129,9 @@ pub(super) fn capacity<T: Real>(
 struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     equations: Equations<T>,
-    integrator: &'s mut dyn Integrator<T>,
+    full: &'s mut dyn Integrator<T>,
+    /// One that samples to within [`ROUGH`].
+    rough: &'s mut dyn Integrator<T>,
 }
 
 impl<T: Real> Pinned<'_, T> {
@@ -132,7 +143,7 @@ impl<T: Real> Pinned<'_, T> {
             Ends { right: Some(_), .. } => return Some((whole, Side::Left)),
             Ends { left: None, right: None } => {}
         }
-        let at_whole = self.shift(whole)?;
+        let at_whole = self.rough_shift(whole)?;
         let side = if at_whole > T::zero() { Side::Right } else { Side::Left };
         if at_whole.is_zero() {
             return Some((whole, side));
@@ -152,7 +163,7 @@ impl<T: Real> Pinned<'_, T> {
             if on(narrow).half_width() <= T::zero() {
                 return None;
             }
-            let at_narrow = self.shift(on(narrow))?;
+            let at_narrow = self.rough_shift(on(narrow))?;
             if (at_narrow > T::zero()) != (at_wide > T::zero()) {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
                 let [lo, hi] = if side == Side::Left { [one, other] } else { [other, one] };
@@ -166,16 +177,31 @@ impl<T: Real> Pinned<'_, T> {
         None
     }
 
-    /// Positive: the contact must move to the right.
-    fn shift(&mut self, on: Interval<T>) -> Option<T> {
-        // Panels much wider than a contact would not see what is narrow in it.
-        let covered =
-            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
-        if covered > T::of(2.0 * NARROWER) * on.half_width() {
-            self.integrator.clear_samples();
-        }
-        let (equations, gap) = (&self.equations, &self.contact.gap);
-        let residual = equations.residual(gap, on, self.integrator, &mut Cost::default()).ok()?;
-        residual.is_finite().then(|| residual.shift())
+    /// Positive: the contact must move to the right. To no more than its sign, where that is sure.
+    fn rough_shift(&mut self, on: Interval<T>) -> Option<T> {
+        let rough = residual(self.contact, &self.equations, self.rough, on).filter(|rough| {
+            rough.shift().abs() > (T::of(SURE) + T::of(16.0) * rough.error) * rough.size
+        });
+        rough.map(|rough| rough.shift()).or_else(|| self.shift(on))
     }
+
+    /// The same in full.
+    fn shift(&mut self, on: Interval<T>) -> Option<T> {
+        Some(residual(self.contact, &self.equations, self.full, on)?.shift())
+    }
+}
+
+fn residual<T: Real>(
+    contact: &Contact<'_, T>,
+    equations: &Equations<T>,
+    integrator: &mut dyn Integrator<T>,
+    on: Interval<T>,
+) -> Option<Residual<T>> {
+    // Panels much wider than a contact would not see what is narrow in it.
+    let covered = integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
+    if covered > T::of(2.0 * NARROWER) * on.half_width() {
+        integrator.clear_samples();
+    }
+    let residual = equations.residual(&contact.gap, on, integrator, &mut Cost::default()).ok()?;
+    residual.is_finite().then_some(residual)
 }

@@ -12,8 +12,10 @@
 
 mod curve_samples;
 mod inverse_hermite;
+mod noise;
 
 pub(crate) use curve_samples::CurveSample;
+pub(crate) use noise::Noise;
 
 use super::{Cost, Gap};
 use crate::profile::{Piece, first_turn};
@@ -47,6 +49,11 @@ impl<T: Real> SampleCache<T> {
     /// Forgets what was sampled: the body is another.
     pub fn clear(&mut self) {
         self.piece = None;
+    }
+
+    /// The piece they lie on; `None` where it is given by x itself.
+    pub fn piece(&self) -> Option<usize> {
+        self.piece
     }
 
     /// The last points, one for each target.
@@ -243,11 +250,14 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
                 }
             }
             let found = self.find(i, [left, right], cost)?;
-            // A strategy that stops early leaves nodes that are good for nothing.
+            // A strategy that stops early leaves nodes that are good for nothing; but none comes closer than X
+            // is known.
             let missed = found.x - target;
             let [from, to] = self.piece.x();
-            let noise = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
-            if missed.abs() > T::of(5.0) * self.room[i] + noise {
+            let beyond = missed.abs() - T::of(5.0) * self.room[i];
+            let rounding = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
+            if beyond > rounding && beyond > T::of(4.0) * Noise::near(&self.piece, found.k, cost).x
+            {
                 let source = SearchError::NotConverged { x: found.k, residual: missed };
                 return Err(ContactError::Inversion { body: self.body, x: target, source });
             }

@@ -7,6 +7,9 @@ use std::fmt;
 /// Steps in `k` at which the check looks at `X` and `X'`.
 const STEPS: usize = 32;
 
+/// A piece, and the points all along it at which it was looked at.
+pub(super) type Scanned<'a, T> = (Piece<'a, T>, [CurvePoint<T>; STEPS + 1]);
+
 /// A smooth curve and its two ends, from left to right.
 #[derive(Clone, Copy)]
 pub struct Piece<'a, T> {
@@ -119,24 +122,26 @@ impl<'a, T: Real> Piece<'a, T> {
     /// finite (`X'` may be at the very ends), [`ProfileError::TurnsBack`],
     /// [`ProfileError::Derivative`].
     pub fn checked(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
+        Self::checked_points(curve).map(|(piece, _)| piece)
+    }
+
+    /// Checks a curve as [`checked`](Self::checked) does, and keeps the points.
+    pub(super) fn checked_points(
+        curve: &'a dyn ParametricProfile<T>,
+    ) -> Result<Scanned<'a, T>, ProfileError<T>> {
         let (piece, points) = Self::scanned(curve)?;
         let [from, to] = curve.domain();
         for place in [0.2763, 0.7236] {
             check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
         }
-        Ok(piece)
+        Ok((piece, points))
     }
 
-    /// As [`checked`](Self::checked), but for the derivatives: for a curve made from one that has been
-    /// checked, the heights of which may be next to nothing but rounding now.
-    pub(super) fn rising(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
-        Self::scanned(curve).map(|(piece, _)| piece)
-    }
-
-    /// A curve that has been looked at all along, and where.
-    fn scanned(
+    /// Checks all but the derivatives: of a curve made from one that has been checked, the heights of
+    /// which may be next to nothing but rounding now.
+    pub(super) fn scanned(
         curve: &'a dyn ParametricProfile<T>,
-    ) -> Result<(Self, [CurvePoint<T>; STEPS + 1]), ProfileError<T>> {
+    ) -> Result<Scanned<'a, T>, ProfileError<T>> {
         let [from, to] = interval(curve.domain())?;
         let step = (to - from) / T::count(STEPS);
         let k = |i| if i == STEPS { to } else { from + step * T::count(i) };

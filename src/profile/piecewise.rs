@@ -1,5 +1,6 @@
 //! The combinator that joins smooth pieces.
 
+use super::piece::Scanned;
 use super::{Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
 use crate::Real;
 use crate::rounded::{apart, six};
@@ -58,18 +59,23 @@ pub struct Piecewise<T, P> {
 }
 
 /// A look at a part.
-type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Piece<'a, T>, ProfileError<T>>;
+type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Scanned<'a, T>, ProfileError<T>>;
+
+/// The rounding of `X`, and of a joint that is not given more: a share of the extent or of the
+/// distance from 0. A few sums and products, each off by half a unit in the last place.
+const UNITS: f64 = 64.0;
 
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
-    /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place
-    /// of the larger of their extent and their distance from 0.
+    /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place of the
+    /// larger of their extent and their distance from 0, in `X` and in `Y`. Where the pieces are
+    /// steep, `Y` may jump by the rise over such a rounding of `X` besides.
     ///
     /// # Errors
     /// What [`Piece::new`] says of a piece, as [`PiecewiseError::InPiece`];
     /// [`PiecewiseError::Gap`], [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a breakpoint;
     /// [`PiecewiseError::NoPieces`].
     pub fn new(parts: Vec<P>) -> Result<Self, PiecewiseError<T>> {
-        Self::with_tolerance(parts, T::of(64.0) * T::epsilon())
+        Self::with_tolerance(parts, T::of(UNITS) * T::epsilon())
     }
 
     /// As [`new`](Self::new), for pieces that meet only to within `tolerance` times the
@@ -81,47 +87,25 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if !(tolerance.is_finite() && tolerance >= T::zero()) {
             return Err(PiecewiseError::Tolerance { tolerance });
         }
-        Self::joined(parts, tolerance, |part| Piece::checked(part))
+        Self::joined(parts, tolerance, |part| Piece::checked_points(part))
     }
 
     fn joined(parts: Vec<P>, tolerance: T, check: Check<T>) -> Result<Self, PiecewiseError<T>> {
-        let mut ends: Vec<([T; 2], [CurvePoint<T>; 2])> = Vec::with_capacity(parts.len());
+        let mut scans = Vec::with_capacity(parts.len());
         let mut smooth = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
-            let Piece { k, ends: points, .. } =
-                check(part).map_err(|source| PiecewiseError::InPiece { piece, source })?;
-            ends.push((k, points));
-            let inner = Piece::first_of(part)
-                .map_err(|source| PiecewiseError::InPiece { piece, source })?
-                .map_or(1, |(count, _)| count);
+            let fault = |source| PiecewiseError::InPiece { piece, source };
+            scans.push(Scan::new(check(part).map_err(fault)?));
+            let inner = Piece::first_of(part).map_err(fault)?.map_or(1, |(count, _)| count);
             smooth.extend((0..inner).map(|inner| (piece, inner)));
         }
         if parts.is_empty() {
             return Err(PiecewiseError::NoPieces);
         }
-        for breakpoint in 0..parts.len() - 1 {
-            let [x, x_next] = [0, 1].map(|i| ends[breakpoint + i].1.map(|point| point.x));
-            let (left, right) = (x[1], x_next[0]);
-            let mismatch = right - left;
-            if mismatch.abs() > tolerance * extent(x).max(extent(x_next)) {
-                return Err(if mismatch > T::zero() {
-                    PiecewiseError::Gap { breakpoint, left, right }
-                } else {
-                    PiecewiseError::Overlap { breakpoint, left, right }
-                });
-            }
-            let y = heights(breakpoint, &ends[breakpoint])?;
-            let y_next = heights(breakpoint + 1, &ends[breakpoint + 1])?;
-            let jump = y_next[0] - y[1];
-            if jump.abs() > tolerance * extent(y).max(extent(y_next)) {
-                return Err(PiecewiseError::Jump {
-                    breakpoint,
-                    x: left,
-                    left: y[1],
-                    right: y_next[0],
-                });
-            }
+        for (breakpoint, pair) in scans.windows(2).enumerate() {
+            Scan::meet(breakpoint, [&pair[0], &pair[1]], tolerance)?;
         }
+        let ends: Vec<_> = scans.iter().map(|scan| (scan.piece.k, scan.piece.ends)).collect();
         let mut convexity = parts[0].convexity();
         for (breakpoint, pair) in ends.windows(2).enumerate() {
             let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
@@ -163,27 +147,81 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if parts.first().map(middle) > parts.last().map(middle) {
             parts.reverse();
         }
-        Piecewise::joined(parts, tolerance, |part| Piece::rising(part))
+        Piecewise::joined(parts, tolerance, |part| Piece::scanned(part))
     }
 }
 
-/// `Y` at the two ends of a piece.
-fn heights<T: Real>(
-    piece: usize,
-    (k, ends): &([T; 2], [CurvePoint<T>; 2]),
-) -> Result<[T; 2], PiecewiseError<T>> {
-    for (&k, &CurvePoint { y: value, .. }) in k.iter().zip(ends) {
-        if !value.is_finite() {
-            let source = ProfileError::NotFinite { quantity: "Y", k, value };
-            return Err(PiecewiseError::InPiece { piece, source });
+/// A part that has been looked at all along.
+struct Scan<'p, T> {
+    piece: Piece<'p, T>,
+    /// Of `X` and of `Y`: the range of their values and 0.
+    extents: [T; 2],
+    /// How steep it is at its left and its right end: by the chord to the next point, so that an upright
+    /// end hides no step.
+    steepness: [T; 2],
+}
+
+impl<'p, T: Real> Scan<'p, T> {
+    fn new((piece, points): Scanned<'p, T>) -> Self {
+        let extent = |of: fn(&CurvePoint<T>) -> T| {
+            let values = points.iter().map(of).filter(|value| value.is_finite());
+            let (low, high) = values.fold((T::zero(), T::zero()), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+            high - low
+        };
+        let chord = |[end, next]: [usize; 2]| {
+            let [end, next] = [points[end], points[next]];
+            let steepness = ((next.y - end.y) / (next.x - end.x)).abs();
+            if steepness.is_finite() { steepness } else { T::zero() }
+        };
+        let last = points.len() - 1;
+        let mut steepness = [[0, 1], [last, last - 1]].map(chord);
+        if points[last].x < points[0].x {
+            steepness.reverse();
         }
+        Self { piece, extents: [extent(|point| point.x), extent(|point| point.y)], steepness }
     }
-    Ok(ends.map(|point| point.y))
-}
 
-/// The larger of the length of an interval and its distance from 0.
-fn extent<T: Real>([from, to]: [T; 2]) -> T {
-    (to - from).abs().max(from.abs()).max(to.abs())
+    /// Checks that two neighbours meet.
+    fn meet(
+        breakpoint: usize,
+        [before, after]: [&Self; 2],
+        tolerance: T,
+    ) -> Result<(), PiecewiseError<T>> {
+        let [extent, height] = [0, 1].map(|i| before.extents[i].max(after.extents[i]));
+        let [left, right] = [before.piece.ends[1], after.piece.ends[0]];
+        let mismatch = right.x - left.x;
+        if mismatch.abs() > tolerance * extent {
+            let (left, right) = (left.x, right.x);
+            return Err(if mismatch > T::zero() {
+                PiecewiseError::Gap { breakpoint, left, right }
+            } else {
+                PiecewiseError::Overlap { breakpoint, left, right }
+            });
+        }
+        before.check_heights(breakpoint)?;
+        after.check_heights(breakpoint + 1)?;
+        let jump = (right.y - left.y).abs();
+        let steep = before.steepness[1] * before.extents[0] + after.steepness[0] * after.extents[0];
+        let rounding = tolerance.min(T::of(UNITS) * T::epsilon());
+        if jump > tolerance * height + rounding * steep {
+            let (x, left, right) = (left.x, left.y, right.y);
+            return Err(PiecewiseError::Jump { breakpoint, x, left, right });
+        }
+        Ok(())
+    }
+
+    /// Refuses a part whose `Y` is not finite at one of its ends.
+    fn check_heights(&self, piece: usize) -> Result<(), PiecewiseError<T>> {
+        for (&k, &CurvePoint { y: value, .. }) in self.piece.k.iter().zip(&self.piece.ends) {
+            if !value.is_finite() {
+                let source = ProfileError::NotFinite { quantity: "Y", k, value };
+                return Err(PiecewiseError::InPiece { piece, source });
+            }
+        }
+        Ok(())
+    }
 }
 
 impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> {

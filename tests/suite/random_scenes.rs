@@ -23,10 +23,10 @@ const OVERLAP: f64 = 3e-5;
 const TENSION: f64 = 1e-9;
 
 /// Marsaglia's xorshift, 64 bits.
-struct Dice(u64);
+pub struct Dice(u64);
 
 impl Dice {
-    fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         let mut dice = Self((seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
         for _ in 0..8 {
             dice.uniform();
@@ -34,18 +34,18 @@ impl Dice {
         dice
     }
 
-    fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         for (left, by) in [(true, 13), (false, 7), (true, 17)] {
             self.0 ^= if left { self.0 << by } else { self.0 >> by };
         }
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn within(&mut self, from: f64, to: f64) -> f64 {
+    pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.uniform()
     }
 
-    fn power_of_ten(&mut self, from: f64, to: f64) -> f64 {
+    pub fn power_of_ten(&mut self, from: f64, to: f64) -> f64 {
         10f64.powf(self.within(from, to))
     }
 

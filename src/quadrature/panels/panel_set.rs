@@ -3,12 +3,13 @@
 mod candidate;
 mod derivative_check;
 mod sampling;
+mod seams;
 
 pub(crate) use derivative_check::compare;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, SampleCache, Sampler};
-use crate::numerics::chebyshev::{MOST, Row, size_for, value_at};
+use crate::gap::{Cost, Gap, Noise, SampleCache, Sampler};
+use crate::numerics::chebyshev::{MOST, Row, size_for};
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
@@ -20,6 +21,9 @@ const MOST_SPLITS: usize = 4096;
 /// How often a span is halved before large noise is taken for what it is, and not for a wave that
 /// is not resolved yet.
 const NOISY_LEVEL: usize = 4;
+
+/// The share of an error that is left to both halves where halving does not help: then the noise is measured.
+const STUCK: f64 = 0.25;
 
 /// Panels, besides twice as many as the first cover has, that the extensions of solve after solve may add before all is
 /// covered anew. (Each adds one at least, and whatever is asked of the panels takes time for every one.)
@@ -51,6 +55,10 @@ pub(crate) struct PanelSet<T> {
     /// Panels still to be looked at, the leftmost last.
     waiting: Vec<Candidate<T>>,
     traces: [SampleCache<T>; 2],
+    /// The noise of both bodies on the span that is sampled, if it is more than rounding; and whether it was
+    /// measured there.
+    noise: Option<[Noise<T>; 2]>,
+    has_measured: bool,
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
     /// Nodes to start a panel with.
@@ -79,6 +87,8 @@ impl<T: Real> PanelSet<T> {
             is_cut_up: false,
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
+            noise: None,
+            has_measured: false,
             size: T::zero(),
             initial: 8,
             coarse: false,
@@ -278,6 +288,9 @@ impl<T: Real> PanelSet<T> {
         neighbour: Option<Panel<T>>,
     ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
+        if self.panels.is_empty() || self.noise_is_of_another_piece(gap, x) {
+            (self.noise, self.has_measured) = (None, false);
+        }
         let mut trial = Candidate::new(x);
         self.try_out(gap, &mut trial)?;
         if let Some(panel) = neighbour {
@@ -290,7 +303,8 @@ impl<T: Real> PanelSet<T> {
             // A step in the heights may well lie in the middle, where neither half would have it.
             let share = T::of(if trial.hides { ASIDE } else { 0.5 });
             let middle = (T::one() - share) * left + share * right;
-            let may = splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x);
+            let may =
+                splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x, self.noise);
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
@@ -305,6 +319,13 @@ impl<T: Real> PanelSet<T> {
                 // Noise is what both halves have as much of. A wave that is not resolved yet has,
                 // too, if it is no longer faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
+                let is_stuck = |half: &Candidate<T>| {
+                    half.split && half.panel.tail >= T::of(STUCK) * trial.panel.tail
+                };
+                if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap) {
+                    self.try_out(gap, &mut trial)?;
+                    continue;
+                }
                 // Much more is no noise: fewer nodes have given up earlier.
                 let as_much = |half: &Candidate<T>| {
                     let ratio = half.panel.tail / trial.panel.tail;
@@ -325,7 +346,7 @@ impl<T: Real> PanelSet<T> {
                 trial = one;
                 continue;
             }
-            if trial.split && !is_long(trial.panel.x) {
+            if trial.split && !is_long(trial.panel.x, self.noise) {
                 trial.panel.straighten();
             }
             // What happens between the last node and the end of a panel shows at its neighbour.
@@ -334,7 +355,7 @@ impl<T: Real> PanelSet<T> {
             if let Some(before) = before.filter(apart) {
                 let finer = trial.level < MOST_LEVELS
                     && trial.may_be_halved()
-                    && (is_long(trial.panel.x) || is_long(before.x));
+                    && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise));
                 if finer && splits < MOST_SPLITS && !self.coarse {
                     self.panels.pop();
                     let again =
@@ -363,41 +384,11 @@ impl<T: Real> PanelSet<T> {
         // Not in the middle, where a formula may be better than elsewhere.
         let from = left + T::of(0.3) * (right - left);
         let mut part = Panel::new([from, from + T::of(SHARE_OF_A_WAVE) * (right - left)]);
-        if !is_long(part.x) {
+        if !is_long(part.x, self.noise) {
             return Ok(true);
         }
         self.sample_panel::<N>(gap, &mut part)?;
         let rest = part.series[N / 2..N].iter().fold(T::zero(), |max, a| max.max(a.abs()));
         Ok(rest >= T::of(0.125) * panel.tail)
     }
-
-    /// Whether two neighbours have the same slope where they meet.
-    pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
-        missed(left, right) <= self.doubt(left, right, allowed, T::one())
-    }
-
-    /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
-    /// either: something lies between their last nodes.
-    fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
-        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
-        let missed = missed(left, right);
-        let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
-        if missed > least && missed <= most {
-            left.tail = left.tail.max(missed);
-            right.tail = right.tail.max(missed);
-        }
-    }
-
-    /// By how much two neighbours may miss each other, with so much of what is allowed.
-    fn doubt(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
-        let allowed = share * allowed.max(self.tolerance * self.size);
-        T::of(16.0) * (left.tail + right.tail + allowed)
-    }
-}
-
-/// By how much the slopes of two neighbours differ where they meet.
-fn missed<T: Real>(left: &Panel<T>, right: &Panel<T>) -> T {
-    let [from, to] =
-        [(left, T::one()), (right, -T::one())].map(|(panel, s)| value_at(panel.coefficients(), s));
-    (from - to).abs()
 }

@@ -1,6 +1,7 @@
 //! A span that is tried out as one panel, and how often it may be halved.
 
 use crate::Real;
+use crate::gap::Noise;
 use crate::quadrature::panels::Panel;
 
 /// How often a span is halved beside a jump: what is left is no part of any integral.
@@ -63,9 +64,10 @@ impl<T: Real> Candidate<T> {
     }
 }
 
-/// Whether a panel can be halved: it is longer than a few units in the last place.
-pub(super) fn is_long<T: Real>([left, right]: [T; 2]) -> bool {
+/// Whether a panel can be halved: it is longer than a few units in the last place, or than the noise of X.
+pub(super) fn is_long<T: Real>([left, right]: [T; 2], noise: Option<[Noise<T>; 2]>) -> bool {
     let middle = T::of(0.5) * left + T::of(0.5) * right;
-    let fine = T::of(8.0) * T::epsilon() * left.abs().max(right.abs());
+    let rounded = T::epsilon() * left.abs().max(right.abs());
+    let fine = T::of(8.0) * noise.map_or(rounded, |[one, other]| rounded.max(one.x).max(other.x));
     right - left > fine && middle > left && middle < right
 }

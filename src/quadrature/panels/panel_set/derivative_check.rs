@@ -10,7 +10,8 @@ impl<T: Real> PanelSet<T> {
     /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
     /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
     pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
+        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
+            let trace = &self.traces[i];
             let curve_samples = trace.curve_samples();
             let n = curve_samples.len();
             if trace.direct || n < 8 {
@@ -42,7 +43,11 @@ impl<T: Real> PanelSet<T> {
                 };
                 return Err(ContactError::Profile { body, source });
             }
-            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height());
+            let steepest = curve_samples
+                .iter()
+                .fold(T::zero(), |max, curve_sample| max.max(curve_sample.slope.abs()));
+            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height())
+                + T::count(n) * self.noise_of_height(i, steepest);
             let noise =
                 noise + T::of(1e-6) * self.size * (curve_samples[n - 1].x - curve_samples[0].x);
             if off > T::of(0.3) * sum + noise {
@@ -72,6 +77,11 @@ impl<T: Real> PanelSet<T> {
             }
         }
         Ok(())
+    }
+
+    /// How far the height of a body may be off where its slope is this, as far as its noise was measured.
+    fn noise_of_height(&self, body: usize, slope: T) -> T {
+        self.noise.map_or(T::zero(), |noise| noise[body].y + noise[body].x * slope.abs())
     }
 
     /// Whether the gap rises between the first node, a middle one and the last as much by its heights as by its
@@ -105,6 +115,7 @@ impl<T: Real> PanelSet<T> {
                     let missed = places[j] - near.x;
                     heights[j] = near.y + missed * near.slope;
                     doubt[j] += (missed * (next.slope - near.slope)).abs();
+                    doubt[j] += self.noise_of_height(i, near.slope);
                     rounded = rounded.max(near.y.abs() + (near.x * near.slope).abs());
                 }
                 rises = [heights[1] - heights[0], heights[2] - heights[1]];

@@ -2,11 +2,11 @@
 
 use super::candidate::Candidate;
 use super::{EndProbe, PanelSet};
-use crate::gap::{Gap, sample_near};
+use crate::gap::{CurveSample, Gap, Noise, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
-use crate::{Body, ContactError, Interval, Real};
+use crate::{Body, ContactError, Interval, Real, Side};
 
 /// By how much of the distance to the nearest other node a point may miss its own, and for a first estimate.
 const NEAR: [f64; 2] = [0.1, 0.45];
@@ -29,8 +29,10 @@ pub(super) struct SampledBody<T> {
     slope: T,
     /// The largest sum of the slopes of the two bodies.
     bodies: T,
-    /// What the rounding of x makes of the slope where the bodies bend sharply.
+    /// What the rounding of x, or the noise of X, makes of the slope where the bodies bend sharply.
     noise: T,
+    /// What the noise of X alone makes of it, where it was measured.
+    measured: T,
     /// What the series of the bodies leave open where their points are not at the nodes. What the two
     /// have in common does not show in the series of the gap.
     off: T,
@@ -51,7 +53,7 @@ impl<T: Real> PanelSet<T> {
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, off, missed } = seen;
+            let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -60,7 +62,8 @@ impl<T: Real> PanelSet<T> {
             // Next to a singularity the slope may be large, or noisy, beyond all that counts
             // elsewhere.
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
+            let rounded = (T::epsilon() * bodies).max(measured);
+            let verdict = judge(n, &panel.series, allowed, rounded);
             let (tail, next, split) = match verdict {
                 // The first sign of a tip looks like noise.
                 Resolution::Good(tail) | Resolution::Noise(tail)
@@ -101,7 +104,10 @@ impl<T: Real> PanelSet<T> {
                 continue;
             } else if !split {
                 // The heights tell of what is too narrow for the nodes.
-                let heights = self.check_heights(panel, bodies);
+                let mut heights = self.check_heights(panel, bodies);
+                if heights.is_err() && self.measure_noise(gap) {
+                    heights = self.check_heights(panel, bodies);
+                }
                 if heights.is_err() {
                     // Beside a step in them any difference is large.
                     if !trial.hides {
@@ -180,8 +186,10 @@ impl<T: Real> PanelSet<T> {
         let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
         let near = T::of(NEAR[usize::from(self.coarse)]) * reach;
-        let room = std::array::from_fn(|i| near * T::of(table.spacing[i]));
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
+        let room: [T; N] = std::array::from_fn(|i| near * T::of(table.spacing[i]));
+        let (bodies, noise) = ([Body::Lower, Body::Upper], self.noise);
+        for (i, (body, trace)) in bodies.into_iter().zip(&mut self.traces).enumerate() {
+            let room = noise.map_or(room, |noise| room.map(|room| room.max(noise[i].x)));
             sample_near(gap, body, &nodes, &room, trace, &mut self.cost)?;
         }
         self.cost.samples += N;
@@ -210,6 +218,43 @@ impl<T: Real> PanelSet<T> {
         Ok(seen)
     }
 
+    /// Whether the bodies were sampled last on other pieces than those of a span.
+    pub(super) fn noise_is_of_another_piece(&self, gap: &Gap<'_, T>, x: [T; 2]) -> bool {
+        let middle = T::of(0.5) * x[0] + T::of(0.5) * x[1];
+        let is_other = |(trace, body): (&SampleCache<T>, Body)| {
+            trace.piece() != Some(gap.piece_at(body, middle, Side::Left).0)
+        };
+        self.has_measured && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
+    }
+
+    /// Measures the noise of both bodies where they were sampled last, once on a piece. Whether it is more than
+    /// rounding.
+    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>) -> bool {
+        if std::mem::replace(&mut self.has_measured, true) {
+            return false;
+        }
+        let mut noise = [Noise { x: T::zero(), y: T::zero() }; 2];
+        let mut counts = false;
+        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
+            let samples = self.traces[i].curve_samples();
+            if self.traces[i].direct || samples.is_empty() {
+                continue;
+            }
+            let CurveSample { k, x, y, .. } = samples[samples.len() / 2];
+            let (_, piece) = gap.piece_at(body, x, Side::Left);
+            let measured = Noise::near(&piece, k, &mut self.cost);
+            let beyond_rounding = |noise: T, value: T| {
+                let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
+                if is_more { noise } else { T::zero() }
+            };
+            noise[i] =
+                Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
+            counts |= noise[i].x + noise[i].y > T::zero();
+        }
+        self.noise = counts.then_some(noise);
+        counts
+    }
+
     /// What the slopes of the two bodies at the nodes say.
     fn seen<const N: usize>(
         &self,
@@ -222,14 +267,25 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let mut seen = SampledBody { slope: zero, bodies: zero, noise: zero, off, missed: zero };
+        let mut seen = SampledBody {
+            slope: zero,
+            bodies: zero,
+            noise: zero,
+            measured: zero,
+            off,
+            missed: zero,
+        };
         for i in 0..N {
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
             seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
         }
         let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
-        seen.noise = rounded * (bend(lower) + bend(upper)) / (nodes[N - 1] - nodes[0]);
+        let length = nodes[N - 1] - nodes[0];
+        if let Some([of_lower, of_upper]) = self.noise {
+            seen.measured = (of_lower.x * bend(lower) + of_upper.x * bend(upper)) / length;
+        }
+        seen.noise = (rounded * (bend(lower) + bend(upper)) / length).max(seen.measured);
         seen
     }
 }

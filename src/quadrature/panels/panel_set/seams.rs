@@ -1,0 +1,38 @@
+//! Whether two neighbouring panels meet: what lies between the last nodes of either shows there only.
+
+use super::PanelSet;
+use crate::Real;
+use crate::numerics::chebyshev::value_at;
+use crate::quadrature::panels::panel::Panel;
+
+impl<T: Real> PanelSet<T> {
+    /// Whether two neighbours have the same slope where they meet.
+    pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
+        missed(left, right) <= self.doubt(left, right, allowed, T::one())
+    }
+
+    /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
+    /// either: something lies between their last nodes.
+    pub(super) fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
+        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
+        let missed = missed(left, right);
+        let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
+        if missed > least && missed <= most {
+            left.tail = left.tail.max(missed);
+            right.tail = right.tail.max(missed);
+        }
+    }
+
+    /// By how much two neighbours may miss each other, with so much of what is allowed.
+    fn doubt(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
+        let allowed = share * allowed.max(self.tolerance * self.size);
+        T::of(16.0) * (left.tail + right.tail + allowed)
+    }
+}
+
+/// By how much the slopes of two neighbours differ where they meet.
+fn missed<T: Real>(left: &Panel<T>, right: &Panel<T>) -> T {
+    let [from, to] =
+        [(left, T::one()), (right, -T::one())].map(|(panel, s)| value_at(panel.coefficients(), s));
+    (from - to).abs()
+}

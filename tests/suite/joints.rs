@@ -1,0 +1,151 @@
+//! Joints of pieces: the size by which a jump of Y is measured.
+#![allow(missing_docs)]
+
+use crate::common::{Profile, graph, intervals, join, on_flat};
+use crate::random_scenes::Dice;
+use approx::assert_relative_eq;
+use linecontact::{Control, Curve, CurvePoint, Piecewise, PiecewiseError};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// A body in pieces.
+struct Body {
+    /// Of each piece `[Y, Y']` by x.
+    height: Box<dyn Fn(usize, f64) -> [f64; 2] + Send + Sync>,
+    /// The ends of each.
+    ends: Vec<[f64; 2]>,
+    /// How high it is.
+    size: f64,
+}
+
+/// Scallops, waves cut at their zeros, and wedges, at x = 0 or far from it. A piece ends where the next starts but
+/// for rounding: the one place is a sum, the other a product.
+fn body(dice: &mut Dice) -> Body {
+    let pieces = 2 + (6.0 * dice.uniform()) as usize;
+    let [size, period] = [dice.power_of_ten(-6.0, 3.0), dice.power_of_ten(-3.0, 2.0)];
+    let far = if dice.uniform() < 0.5 { 0.0 } else { dice.power_of_ten(0.0, 4.0) };
+    let from = dice.within(-1.0, 1.0) * far * period;
+    let height: Box<dyn Fn(usize, f64) -> [f64; 2] + Send + Sync> =
+        match (3.0 * dice.uniform()) as u32 {
+            0 => Box::new(move |i, x| {
+                let z = (x - from) / period - i as f64 - 0.5;
+                [size * (z * z - 0.25), 2.0 * size * z / period]
+            }),
+            1 => Box::new(move |i, x| {
+                let (sin, cos) = (PI * (x - from) / period).sin_cos();
+                let sign = if i % 2 == 0 { size } else { -size };
+                [sign * sin, sign * cos * PI / period]
+            }),
+            _ => Box::new(move |i, x| {
+                let (steps, slope) = (x - from - (i + i % 2) as f64 * period, size / period);
+                let slope = if i % 2 == 0 { slope } else { -slope };
+                [slope * steps, slope]
+            }),
+        };
+    let mut sum = from;
+    let ends = (0..pieces).map(|i| {
+        sum += period;
+        [from + i as f64 * period, sum]
+    });
+    Body { height, ends: ends.collect(), size }
+}
+
+/// A body with X and Y scaled, and lifted from one piece on.
+fn built(
+    body: &Arc<Body>,
+    [wide, high]: [f64; 2],
+    (first, by): (usize, f64),
+) -> Result<Piecewise<f64, Profile>, PiecewiseError<f64>> {
+    let piece = |(i, &ends): (usize, &[f64; 2])| -> Profile {
+        let body = body.clone();
+        let up = if i >= first { by } else { 0.0 };
+        Box::new(Curve::new(ends, move |k: f64| {
+            let [y, slope] = (body.height)(i, k);
+            CurvePoint { x: wide * k, y: high * (y + up), dx: wide, dy: high * slope }
+        }))
+    };
+    Piecewise::new(body.ends.iter().enumerate().map(piece).collect())
+}
+
+/// In any unit of X and of Y pieces are joined that meet at Y = 0 but for rounding, and none that has a step a
+/// thousand times as high as the rounding of Y, and of X where it is steep.
+#[test]
+fn random_joints_at_height_zero() {
+    let (mut refused, mut passed, scenes) = (Vec::new(), Vec::new(), 2000);
+    for seed in 0..scenes {
+        let mut dice = Dice::new(seed);
+        let body = Arc::new(body(&mut dice));
+        let unit = |dice: &mut Dice| 2f64.powi(dice.within(-60.0, 60.0) as i32);
+        let units = [[1.0, 1.0], [unit(&mut dice), 1.0], [1.0, unit(&mut dice)]];
+        let first = 1 + (dice.uniform() * (body.ends.len() - 1) as f64) as usize;
+        let [from, to] = [body.ends[0][0], body.ends[body.ends.len() - 1][1]];
+        let steepest = PI * body.size / (body.ends[0][1] - body.ends[0][0]);
+        let step = 3e-11 * (body.size + steepest * from.abs().max(to.abs()));
+        for unit in units {
+            refused.extend(built(&body, unit, (0, 0.0)).err().map(|error| (seed, error)));
+            passed.extend(built(&body, unit, (first, step)).is_ok().then_some((seed, unit)));
+        }
+    }
+    println!("{} of {scenes} refused, {} steps passed", refused.len(), passed.len());
+    assert!(refused.is_empty(), "{:?}", refused[0]);
+    assert!(passed.is_empty(), "{:?}", passed[0]);
+}
+
+/// What is long and level has no height by which a step could be nothing.
+#[test]
+fn steps_on_long_flat_bodies_are_refused() {
+    let level = |from: f64, to: f64, up: f64| graph(from, to, move |_| [up, 0.0]);
+    let bulge = |x: f64| [1e-6 * x * x, 2e-6 * x];
+    for up in [1e-30, 1e-9, -1e-3] {
+        let bodies: [Vec<Profile>; 3] = [
+            vec![level(-1e6, 0.0, 0.0), level(0.0, 1e6, up)],
+            vec![level(1e6, 2e6, 7.0), level(2e6, 3e6, 7.0 * (1.0 + 1e-13) + up)],
+            vec![graph(-1.0, 0.0, bulge), level(0.0, 1e9, up.signum() * up.abs().max(1e-18))],
+        ];
+        for (i, body) in bodies.into_iter().enumerate() {
+            let error = Piecewise::new(body).map(|_| ()).unwrap_err();
+            assert!(matches!(error, PiecewiseError::Jump { breakpoint: 0, .. }), "{i}: {error}");
+        }
+    }
+}
+
+/// Nor does a step pass where the pieces are upright.
+#[test]
+fn steps_beside_upright_ends_are_refused() {
+    let arc = |from: f64, to: f64, up: f64| -> Profile {
+        Box::new(Curve::new([from, to], move |k: f64| {
+            let (sin, cos) = k.sin_cos();
+            CurvePoint { x: sin, y: up + 1.0 - cos, dx: cos, dy: sin }
+        }))
+    };
+    let beyond = |x: f64| graph(1.0, 2.0, move |_| [x, 0.0]);
+    let quarter = || arc(0.0, PI / 2.0, 0.0);
+    assert!(Piecewise::new(vec![quarter(), beyond(1.0)]).is_ok());
+    let error = Piecewise::new(vec![quarter(), beyond(1.0 + 1e-5)]).map(|_| ()).unwrap_err();
+    assert!(matches!(error, PiecewiseError::Jump { .. }), "{error}");
+}
+
+/// `|T₃|/3`, cut at the zeros of the polynomial, touches on the preimages of a wedge's contact, `|v| ≤ π F/2`.
+#[test]
+fn a_polynomial_cut_at_its_zeros() {
+    let zeros: Vec<f64> = (0..3).map(|i| -(PI * (2.0 * f64::from(i) + 1.0) / 6.0).cos()).collect();
+    let [low, high] = [-1.0, 1.0];
+    let cuts = [low, zeros[0], zeros[1], zeros[2], high];
+    let side = |i: usize| {
+        let sign = if i.is_multiple_of(2) { -1.0 / 3.0 } else { 1.0 / 3.0 };
+        graph(cuts[i], cuts[i + 1], move |x| {
+            [sign * x * (4.0 * x * x - 3.0), sign * (12.0 * x * x - 3.0)]
+        })
+    };
+    let load = 0.3;
+    let contact = on_flat(join((0..4).map(side).collect()));
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    let contacts = intervals(&solution);
+    assert_eq!(contacts.len(), 3);
+    let angle = (PI * load / 2.0).asin() / 3.0;
+    for (i, on) in contacts.iter().enumerate() {
+        let middle = PI * (2.0 * i as f64 + 1.0) / 6.0;
+        assert_relative_eq!(on.left, -(middle - angle).cos(), epsilon = 1e-13);
+        assert_relative_eq!(on.right, -(middle + angle).cos(), epsilon = 1e-13);
+    }
+}
