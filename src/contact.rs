@@ -29,7 +29,7 @@ use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{
     ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
 };
-use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Solver};
+use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Side, Solver};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::ops::ControlFlow;
@@ -183,16 +183,17 @@ impl<T: Real> ContactState<T> {
         }
     }
 
-    /// A corner that is said to hold the contact, and would have to pull at it.
+    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
     fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
-        let mean = T::of(0.5) * self.load.abs() / self.interval.half_width();
-        let rounding = T::epsilon().sqrt() * mean;
-        edges.zip(self.strengths).into_iter().find_map(|(edge, strength)| match edge {
-            Edge::Fixed(x) if strength < -rounding => {
-                let (interval, load) = (self.interval, self.load);
-                Some(ContactError::LiftsOff { x, strength, interval, load })
-            }
-            _ => None,
+        let (interval, load, rounding) = (self.interval, self.load, T::epsilon().sqrt());
+        let mean = T::of(0.5) * load.abs() / interval.half_width();
+        Side::BOTH.into_iter().find_map(|side| {
+            let (Edge::Fixed(x), strength) = (edges[side], self.strengths[side]) else {
+                return None;
+            };
+            let pulls = strength < -rounding * mean;
+            let away = (interval[side] - x).abs() > rounding * interval.half_width();
+            (pulls || away).then_some(ContactError::LiftsOff { x, strength, interval, load })
         })
     }
 }
@@ -471,10 +472,9 @@ impl<'b, T: Real> Contact<'b, T> {
         let stiffness = friction * self.kappa / T::frac_pi_2();
         let turn = T::of(0.5) * tension / stiffness;
         let turn = if force < T::zero() { turn } else { -turn };
-        let let_go = |edge| if let Edge::Fixed(x) = edge { Edge::FreeUntil(x) } else { edge };
         let scene = Self {
             gap: self.gap.tilted(normal.tilt() + turn),
-            edges: self.edges.map(let_go),
+            edges: self.edges.map(Edge::let_go),
             start: None,
             certified: false,
             ..self.clone()
@@ -603,6 +603,9 @@ impl<'b, T: Real> Contact<'b, T> {
         if panels::several(integrator).is_none() {
             integrator.prepare(&gap, found.interval)?;
         }
+        if found.is_doubtful() {
+            workspace.report.doubt();
+        }
         if self.certified {
             certify(&gap, self.kappa, &found, integrator)?;
         }
@@ -631,9 +634,9 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The conditions of a given load.
     fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
-        let sought = edges.into_iter().any(|edge| edge.is_free());
-        let adhesive = edges.are_adhesive();
-        if sought && !adhesive {
+        // Adhesion bears a pull, and so does an interval that nothing is checked of.
+        let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
+        if !may_pull {
             check_positive("load", load)?;
         } else if !load.is_finite() {
             return Err(ContactError::InvalidLoad { quantity: "load", value: load });
@@ -666,6 +669,17 @@ impl<'b, T: Real> Contact<'b, T> {
                     return Err(ContactError::InvalidLimits { interval: Interval { left, right } });
                 }
                 _ => {}
+            }
+        }
+        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
+            check(Interval { left, right })?;
+        }
+        let range = self.gap.range();
+        for edge in self.edges {
+            if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
+                && !(x >= range[0] && x <= range[1])
+            {
+                return Err(ContactError::OutsideBodies { x, range });
             }
         }
         Ok(self.edges)

@@ -45,6 +45,11 @@ impl<T: Real> Edge<T> {
         }
     }
 
+    /// Lets go of a corner where it does not press.
+    pub(super) fn let_go(self) -> Self {
+        if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }
+    }
+
     pub(super) fn is_free(&self) -> bool {
         matches!(self, Self::Free | Self::FreeUntil(_))
     }

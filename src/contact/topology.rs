@@ -1,7 +1,7 @@
 //! Which intervals the bodies touch in.
 //!
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
-//! [checked](super::signorini_check): nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
+//! [checked](super::signorini_check): corners press, nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
 //! coarse [active set](super::active_set) says in how many intervals the bodies touch and about where, and
 //! Newton's method finds [all limits](super::newton_several) at once; and where that leads to an end of the bodies, the
 //! load under which a limit just comes there. Without adhesion a contact problem has one
@@ -124,14 +124,10 @@ pub(super) fn find<T: Real>(
         has_run_out: false,
     };
     let turns = search.turns();
-    if contact.single_interval || given {
+    if contact.single_interval {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Outcome::Unchecked);
-        let found = found?;
-        // Between two given limits a load leaves nothing to be sought: that is the equation's solution, whatever it
-        // is. Bodies that turn have a contact.
-        let fault = found.lifts_off(edges).filter(|_| turns && !contact.single_interval);
-        return fault.map_or(Ok(found), Err);
+        return found;
     }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
@@ -142,7 +138,7 @@ pub(super) fn find<T: Real>(
                 found => return found,
             }
         }
-        let (start, found) = search.one(!convex && !turns);
+        let (start, found) = search.one(!convex && !turns && !given);
         match found {
             Ok(found) => match search.checked(&found, convex)? {
                 None => {
@@ -154,7 +150,7 @@ pub(super) fn find<T: Real>(
                     fault = Some(error);
                 }
             },
-            Err(error) if !error.may_be_several() => return Err(error),
+            Err(error) if given || !error.may_be_several() => return Err(error),
             // Of bodies that turn, one contact may be hard to find too.
             Err(error)
                 if !turns && (convex || search.workspace.look(gap, search.cost)?.bulges()) =>
@@ -282,7 +278,8 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Whether the gap has several low places, and nothing else says where to start.
     fn has_valleys(&mut self, convex: bool) -> Result<bool, ContactError<T>> {
-        let told = self.contact.start.is_some() || !self.workspace.last.is_empty();
+        let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
+        let told = given || !self.workspace.last.is_empty();
         if convex || told || !self.may_be_several() {
             return Ok(false);
         }
@@ -326,7 +323,8 @@ impl<T: Real> Search<'_, '_, T> {
         let mut fault = fault;
         let ends = self.contact.ends();
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
-        let fixed = edges.map(|edge| matches!(edge, Edge::Fixed(_)));
+        // Whether a corner presses is seen of the contacts that are there without it.
+        let conditions = Conditions { edges: edges.map(Edge::let_go), ..conditions };
         let last = &self.workspace.last;
         let is_near = last.len() > 1 && self.end.is_none();
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
@@ -355,8 +353,8 @@ impl<T: Real> Search<'_, '_, T> {
             before.clone_from(on);
             let last = on.len() - 1;
             let corners = Ends {
-                left: fixed.left || at_corner.left && on[0].left <= ends.left,
-                right: fixed.right || at_corner.right && on[last].right >= ends.right,
+                left: at_corner.left && on[0].left <= ends.left,
+                right: at_corner.right && on[last].right >= ends.right,
             };
             let found = match self.converge(&conditions, corners, ends) {
                 Ok(found) => found,

@@ -30,6 +30,7 @@ mod edges;
 mod errors;
 mod estimates;
 mod fuzz_regressions;
+mod held_corners;
 mod held_widths;
 mod invariants;
 mod limits;

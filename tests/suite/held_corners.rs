@@ -1,0 +1,289 @@
+//! Punches that are held at both corners: both must press, and nothing may pull between them.
+#![allow(missing_docs)]
+
+use crate::boundary_elements::{Oracle, solve};
+use crate::common::{Profile, Shares, graph, intervals, on_flat};
+use approx::assert_relative_eq;
+use linecontact::profile::Ellipse;
+use linecontact::quadrature::Quadrature;
+use linecontact::search::Brent;
+use linecontact::{Contact, ContactError, Control, Cost, Edge, Flat, Midpoint, Outcome, Panels};
+use std::f64::consts::PI;
+
+fn fixed<'b>(contact: &Contact<'b, f64>, half: f64) -> Contact<'b, f64> {
+    contact.clone().edges(Edge::Fixed(-half), Edge::Fixed(half))
+}
+
+/// Three crests between two corners.
+fn wavy() -> Contact<'static, f64> {
+    let k = 4.0 * PI;
+    on_flat(graph(-1.5, 1.5, move |x| [-0.01 * (k * x).cos(), 0.01 * k * (k * x).sin()]))
+}
+
+/// Hertz: the contact is far narrower than the corners are apart.
+#[test]
+fn a_roller_held_beyond_its_contact_lifts_off() {
+    let roller = Ellipse::circle(10.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &roller).unwrap().contact_modulus(115e3);
+    let held = contact.edges(Edge::Fixed(-5.0), Edge::Fixed(5.0));
+    let midpoint = Midpoint::DEFAULT;
+    let quadratures: [&dyn Quadrature<f64>; 2] = [&Panels::FULL, &midpoint];
+    for quadrature in quadratures {
+        let held = held.clone().quadrature(quadrature);
+        let error = held.solve(Control::Load(500.0)).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+        let alone = held.single_interval(true).solve(Control::Load(500.0)).unwrap();
+        assert!(!alone.report().is_checked() && alone.edge_singularities().left < 0.0);
+        assert!(alone.to_string().contains(", not checked"), "{alone}");
+    }
+}
+
+#[test]
+fn a_wavy_punch_touches_in_several_places_between_its_corners() {
+    let contact = wavy();
+    let until = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
+    for load in [0.03, 0.1] {
+        let load = Control::Load(load);
+        let [found, known] = [&fixed(&contact, 0.5), &until].map(|contact| {
+            contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"))
+        });
+        assert!(found.report().is_checked() && found.intervals().len() == 3, "{found}");
+        assert_eq!(found.hull().left, -0.5);
+        for (found, known) in found.intervals().iter().zip(known.intervals()) {
+            assert_relative_eq!(found.left, known.left, epsilon = 1e-12);
+            assert_relative_eq!(found.right, known.right, epsilon = 1e-12);
+        }
+        // As one it would be a solution of the equation that pulls.
+        let alone = fixed(&contact, 0.5).single_interval(true).solve(load).unwrap();
+        let pressure = alone.pressure().unwrap();
+        assert!(pressure.at(0.25).unwrap() < 0.0 && !alone.report().is_checked());
+        assert_eq!(alone.report().attempts().last().unwrap().outcome, Outcome::Unchecked);
+        // The paper's rule, and a strategy of one's own, know but one contact.
+        let (rule, brent) = (Midpoint::DEFAULT, Brent::DEFAULT);
+        for one in [
+            fixed(&contact, 0.5).quadrature(&rule),
+            fixed(&contact, 0.5).limit_search(&brent),
+        ] {
+            let error = one.solve(load).map(|s| s.hull()).unwrap_err();
+            assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+        }
+    }
+}
+
+/// P = (F - κ m x)/(π sqrt(l² - x²)) of a tilted flat, by any quadrature.
+#[test]
+fn a_tilted_punch_holds_at_both_corners_up_to_its_tilt() {
+    let midpoint = Midpoint::DEFAULT;
+    let quadratures: [&dyn Quadrature<f64>; 2] = [&Panels::FULL, &midpoint];
+    for (quadrature, m) in quadratures.into_iter().flat_map(|q| [(q, 0.3), (q, -0.3)]) {
+        let contact = on_flat(graph(-1.0, 1.0, move |x| [m * x, m])).quadrature(quadrature);
+        for (load, holds) in [(0.151, true), (0.149, false), (1e-3, false), (10.0, true)] {
+            let found = fixed(&contact, 0.5).solve(Control::Load(load));
+            match found {
+                Ok(solution) => {
+                    assert!(holds && solution.report().is_checked(), "{load}");
+                    let exact = load / (PI * 0.5);
+                    assert_relative_eq!(solution.pressure().unwrap().at(0.0).unwrap(), exact, max_relative = 1e-9);
+                }
+                Err(ContactError::LiftsOff { x, .. }) => {
+                    assert!(!holds);
+                    assert_eq!(x, 0.5 * m.signum());
+                }
+                Err(error) => panic!("{load}: {error}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn only_a_load_that_presses_makes_sense_unless_one_interval_is_asked_for() {
+    let flat = on_flat(graph(-1.0, 1.0, |_| [0.0, 0.0]));
+    for load in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
+        let error = fixed(&flat, 0.5).solve(Control::Load(load)).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidLoad { .. }), "{load}: {error}");
+        let alone = fixed(&flat, 0.5).single_interval(true).solve(Control::Load(load));
+        assert_eq!(alone.is_ok(), load.is_finite(), "{load}");
+    }
+}
+
+/// A solver that has several contacts at hand takes no corner beyond the bodies for their end.
+#[test]
+fn corners_beyond_the_bodies_are_named_by_a_solver_too() {
+    let contact = wavy();
+    let mut solver = linecontact::Solver::new();
+    let load = Control::Load(0.03);
+    for edges in [[Edge::Fixed(-0.5), Edge::Fixed(2.0)], [Edge::FreeUntil(-0.5), Edge::Fixed(2.0)]] {
+        assert_eq!(solver.solve(&fixed(&contact, 0.5), load).unwrap().intervals().len(), 3);
+        let beyond = contact.clone().edges(edges[0], edges[1]);
+        let error = solver.solve(&beyond, load).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::OutsideBodies { x: 2.0, .. }), "{error}");
+    }
+}
+
+/// The next load takes no evaluation of the curves, of several contacts neither.
+#[test]
+fn a_second_solve_takes_no_evaluations() {
+    let tilted = on_flat(graph(-1.0, 1.0, |x| [0.1 * x - x * x / 8.0 + 0.01 * (5.0 * x).sin(), 0.1 - x / 4.0 + 0.05 * (5.0 * x).cos()]));
+    for (contact, loads) in [(tilted, [1.0, 1.1, 2.0]), (wavy(), [0.1, 0.101, 0.102])] {
+        let mut solver = linecontact::Solver::new();
+        for (i, load) in loads.into_iter().enumerate() {
+            let solution = solver.solve(&fixed(&contact, 0.5), Control::Load(load)).unwrap();
+            assert!(solution.report().is_checked());
+            assert_eq!(solution.cost().evaluations == 0, i > 0, "{load}: {}", solution.cost());
+        }
+    }
+}
+
+/// A punch between two corners: flat, tilted, crowned or hollow, wavy.
+struct Punch {
+    tilt: f64,
+    crown: f64,
+    waves: Vec<[f64; 3]>,
+    ends: [f64; 2],
+    beyond: f64,
+    kappa: f64,
+    load: f64,
+}
+
+impl Punch {
+    fn random(seed: u64) -> Self {
+        let mut random = Shares(seed);
+        (0..8).for_each(|_| _ = random.between(0.0, 1.0));
+        let mut any = |from, to| random.between(from, to);
+        let half = 10f64.powf(any(-1.0, 1.0));
+        let centre = half * any(-2.0, 2.0);
+        let kind = (any(0.0, 6.0)) as usize;
+        let slope = 10f64.powf(any(-3.0, -0.5));
+        let tilt = if kind % 2 == 1 { slope * any(-1.0, 1.0) } else { 0.0 };
+        let crown = if kind >= 2 { slope / half * any(-1.0, 1.0) } else { 0.0 };
+        let count = if kind >= 3 { 1 + any(0.0, 3.0) as usize } else { 0 };
+        let wave = |_| {
+            let k = PI / half * any(0.5, 5.0);
+            [slope / k * any(0.1, 1.0), k, any(0.0, 2.0 * PI)]
+        };
+        let waves = (0..count).map(wave).collect();
+        let kappa = 10f64.powf(any(-2.0, 5.0));
+        let load = kappa * slope * half * 10f64.powf(any(-2.0, 1.0));
+        let beyond = half * if any(0.0, 1.0) < 0.5 { 0.0 } else { any(0.1, 1.0) };
+        Self { tilt, crown, waves, ends: [centre - half, centre + half], beyond, kappa, load }
+    }
+
+    fn at(&self, x: f64) -> [f64; 2] {
+        let z = x - 0.5 * (self.ends[0] + self.ends[1]);
+        let mut at = [
+            self.tilt * z + 0.5 * self.crown * z * z,
+            self.tilt + self.crown * z,
+        ];
+        for &[size, k, phase] in &self.waves {
+            at[0] += size * (k * z + phase).sin();
+            at[1] += size * k * (k * z + phase).cos();
+        }
+        at
+    }
+
+    fn body(&self) -> Profile {
+        let Self { tilt, crown, ref waves, ends, beyond, kappa, load } = *self;
+        let copy = Self { tilt, crown, waves: waves.clone(), ends, beyond, kappa, load };
+        graph(ends[0] - beyond, ends[1] + beyond, move |x| copy.at(x))
+    }
+}
+
+/// What became of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Right,
+    /// The oracle cannot tell whether a corner presses.
+    Open,
+    Refused,
+    Wrong,
+}
+
+/// How far a corner is from pressing, or from not doing so: the width of the outermost contact by that of its cells,
+/// negative where it does not reach the corner.
+fn presses(oracle: &Oracle, right: bool) -> Option<bool> {
+    let last = oracle.x.len() - 1;
+    let (corner, i) = if right { (oracle.x[last], last) } else { (oracle.x[0], 0) };
+    let on = if right { oracle.contacts.last()? } else { oracle.contacts.first()? };
+    let [errors_left, errors_right] = *if right { oracle.errors.last()? } else { oracle.errors.first()? };
+    if oracle.pressure[i] > 0.0 {
+        // A punch that presses has a singularity there; next to none and a free edge are alike.
+        let inward = if right { oracle.pressure[last - 1] } else { oracle.pressure[1] };
+        return (oracle.pressure[i] > inward).then_some(true);
+    }
+    let (away, error) = if right { (corner - on.right, errors_right) } else { (on.left - corner, errors_left) };
+    (away > error).then_some(false)
+}
+
+/// Whether a solution is the contact: limits, signs of P, the load.
+fn fault(punch: &Punch, oracle: &Oracle, solution: &linecontact::Solution<f64>) -> Option<String> {
+    let contacts = intervals(solution);
+    // The last node is the corner to rounding.
+    let mut oracle = oracle.clone();
+    if let Some(on) = oracle.contacts.last_mut()
+        && (on.right - punch.ends[1]).abs() < 1e-12 * (punch.ends[1] - punch.ends[0])
+    {
+        on.right = punch.ends[1];
+    }
+    if let Some([x, error]) = oracle.disagreement(&contacts) {
+        return Some(format!("limit {x:?} not within {error:.1e}: {contacts:?}, {:?}", oracle.contacts));
+    }
+    if !solution.report().is_checked() {
+        return Some("not checked".to_owned());
+    }
+    let pressure = solution.pressure().unwrap();
+    let (mut sum, mut mean) = (0.0, 0.0);
+    let count = 600;
+    for on in &contacts {
+        for i in 0..count {
+            let angle = PI * (f64::from(i) + 0.5) / f64::from(count);
+            let x = on.at_angle(angle);
+            let p = pressure.estimate(x, &mut Cost::default()).unwrap();
+            mean = f64::max(mean, p.value.abs());
+            if p.value < -4.0 * p.error - 1e-9 * punch.load / on.half_width() {
+                return Some(format!("P({x:?}) = {:e}", p.value));
+            }
+            sum += PI / f64::from(count) * on.half_width() * angle.sin() * p.value;
+        }
+    }
+    ((sum / punch.load - 1.0).abs() > 1e-4).then(|| format!("the pressures add up to {sum} of {}", punch.load))
+}
+
+/// Judges a random punch by boundary elements, with a word on what is not right.
+pub fn judge(seed: u64) -> (Verdict, String) {
+    let punch = Punch::random(seed);
+    let [left, right] = punch.ends;
+    let Some(oracle) = solve(&|x| punch.at(x)[0], punch.kappa, punch.load, punch.ends, &[]) else {
+        return (Verdict::Open, String::new());
+    };
+    let contact = on_flat(punch.body()).kappa(punch.kappa);
+    let found = contact.edges(Edge::Fixed(left), Edge::Fixed(right)).solve(Control::Load(punch.load));
+    let (at_left, at_right) = (presses(&oracle, false), presses(&oracle, true));
+    let (Some(at_left), Some(at_right)) = (at_left, at_right) else {
+        return (Verdict::Open, String::new());
+    };
+    match found {
+        Ok(_) if !(at_left && at_right) => (Verdict::Wrong, "a corner does not press".to_owned()),
+        Ok(solution) => match fault(&punch, &oracle, &solution) {
+            Some(fault) => (Verdict::Wrong, fault),
+            None => (Verdict::Right, format!("{} contacts", solution.intervals().len())),
+        },
+        Err(ContactError::LiftsOff { x, .. }) => {
+            let lifts = if x == left { !at_left } else { !at_right };
+            let word = format!("LiftsOff at {x:?}");
+            (if lifts { Verdict::Right } else { Verdict::Wrong }, word)
+        }
+        Err(error) => (Verdict::Refused, format!("{error} (corners press: {at_left}, {at_right})")),
+    }
+}
+
+#[test]
+fn random_punches_between_two_corners() {
+    let mut counts = [0; 4];
+    for seed in 0..60 {
+        let (verdict, word) = judge(seed);
+        counts[verdict as usize] += 1;
+        assert!(matches!(verdict, Verdict::Right | Verdict::Open), "{seed}: {verdict:?}: {word}");
+    }
+    println!("right, open, refused, wrong: {counts:?}");
+    assert!(counts[0] > 45, "{counts:?}");
+}
