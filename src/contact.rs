@@ -183,17 +183,26 @@ impl<T: Real> ContactState<T> {
         }
     }
 
+    /// Whether the contact ends at those corners that are said to hold it, to rounding.
+    fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
+        let rounding = T::epsilon().sqrt() * self.interval.half_width();
+        let ends = Ends { left: self.interval.left, right: self.interval.right };
+        let is_near = |(edge, end): (Edge<T>, T)| {
+            edge.limit().is_none_or(|corner| (end - corner).abs() <= rounding)
+        };
+        edges.zip(ends).map(is_near)
+    }
+
     /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
     fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
-        let (interval, load, rounding) = (self.interval, self.load, T::epsilon().sqrt());
+        let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
         let mean = T::of(0.5) * load.abs() / interval.half_width();
-        Side::BOTH.into_iter().find_map(|side| {
-            let (Edge::Fixed(x), strength) = (edges[side], self.strengths[side]) else {
-                return None;
-            };
-            let pulls = strength < -rounding * mean;
-            let away = (interval[side] - x).abs() > rounding * interval.half_width();
-            (pulls || away).then_some(ContactError::LiftsOff { x, strength, interval, load })
+        let rounding = T::epsilon().sqrt() * mean;
+        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
+            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
+                Some(ContactError::LiftsOff { x, strength, interval, load })
+            }
+            _ => None,
         })
     }
 }

@@ -5,7 +5,7 @@
 //! between the loaded bodies is looked at where their heights are known.
 
 use super::exterior_field::{ExteriorField, POINTS};
-use crate::gap::{Cost, Gap, LowPoint, Sampler};
+use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
@@ -23,8 +23,8 @@ const MOST_POINTS: usize = 1024;
 
 /// The share of the load that the series of its pressures may leave open before more of them are taken; and the share
 /// of that, where it hides whether the bodies overlap.
-pub(super) const OPEN: f64 = 1e-3;
-pub(super) const LESS_OPEN: f64 = 0.01;
+const OPEN: f64 = 1e-3;
+const LESS_OPEN: f64 = 0.01;
 
 /// Places between two heights that are looked at where these may hide a wave.
 const PLACES: usize = 8;
@@ -96,11 +96,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Takes more pressures of those contacts whose series leaves more than a share of the load open: they hide many
     /// waves, or kinks. Whether there were any.
-    pub fn resolve(
-        &self,
-        fields: &mut [ExteriorField<T>],
-        share: T,
-    ) -> Result<bool, ContactError<T>> {
+    fn resolve(&self, fields: &mut [ExteriorField<T>], share: T) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
         for field in fields {
             let mut count = field.coefficients().len();
@@ -292,9 +288,66 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(left + share * (right - left))
     }
 
+    /// Whether one contact leaves nothing of the bodies outside.
+    pub fn covers(&self, ends: Ends<T>) -> bool {
+        let Interval { left, right } = self.found.interval;
+        panels::several(self.integrator).is_none() && left <= ends.left && right >= ends.right
+    }
+
+    /// Where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there.
+    pub fn overlap(
+        &self,
+        fields: &mut Vec<ExteriorField<T>>,
+        look: &CoarseHeights<T>,
+        ends: Ends<T>,
+        cost: &mut Cost,
+    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        if fields.is_empty() {
+            self.fields(fields)?;
+        }
+        let corners = [self.corner(Side::Left, ends, cost)?, self.corner(Side::Right, ends, cost)?];
+        let within = |low: LowPoint<T>| {
+            let height = self.gap.turned(low.x, low.height);
+            let [from, to] = low.between.unwrap_or([low.x; 2]);
+            let (from, to) = (from.max(ends.left), to.min(ends.right));
+            let between = low.between.map(|_| [from, to]);
+            (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
+        };
+        let mut share = T::of(OPEN);
+        self.resolve(fields, share)?;
+        loop {
+            let [first, last] = corners;
+            let heights = first.into_iter().chain(look.low_points().filter_map(within)).chain(last);
+            let (overlap, is_hidden) = self.overlap_at(fields, heights, cost)?;
+            share *= T::of(LESS_OPEN);
+            if overlap.is_some() || !is_hidden || !self.resolve(fields, share)? {
+                return Ok(overlap);
+            }
+        }
+    }
+
+    /// A corner before the end of the bodies that the contacts do not reach: where the gap falls towards it, no height
+    /// before it is as low.
+    fn corner(
+        &self,
+        side: Side,
+        ends: Ends<T>,
+        cost: &mut Cost,
+    ) -> Result<Option<LowPoint<T>>, ContactError<T>> {
+        let x = ends[side];
+        let reached = [self.gap.range()[side as usize], self.found.interval[side]];
+        if reached.contains(&x) {
+            return Ok(None);
+        }
+        let mut sampler = Sampler::default();
+        let height = sampler.height(self.gap, x)?;
+        cost.heights += sampler.cost.evaluations;
+        Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
+    }
+
     /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
     /// the gap before loading show it, by rising x; and whether they may overlap by no more than the series leave open.
-    pub fn overlap(
+    fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
         heights: impl Iterator<Item = LowPoint<T>>,

@@ -12,10 +12,10 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{LESS_OPEN, OPEN, SignoriniCheck, TensionSpans};
+use super::signorini_check::{SignoriniCheck, TensionSpans};
 use super::single_contact::Single;
 use super::{Contact, peak};
-use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
+use crate::gap::{CoarseHeights, Cost, Gap, Sampler};
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
@@ -145,6 +145,10 @@ pub(super) fn find<T: Real>(
                     search.workspace.report.add(start, Outcome::Passed);
                     return Ok(found);
                 }
+                // Of bodies that turn, more contacts may press at the corner.
+                Some(error @ ContactError::LiftsOff { .. }) if convex || !turns => {
+                    return Err(error);
+                }
                 Some(error) => {
                     search.workspace.report.add(start, Outcome::of(&error));
                     fault = Some(error);
@@ -221,11 +225,10 @@ impl<T: Real> Search<'_, '_, T> {
         found: &ContactState<T>,
         convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        if let Some(error) = found.lifts_off(self.contact.edges) {
-            return Err(error);
-        }
-        if convex {
-            return Ok(None);
+        // More contacts may press at a corner that is not reached.
+        let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
+        if convex || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+            return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
@@ -239,10 +242,9 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        self.workspace.look(gap, self.cost)?;
-        let Workspace { look, fields, tension_spans, .. } = &mut *self.workspace;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
         let (interval, load) = (found.interval, found.load);
+        let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -250,30 +252,20 @@ impl<T: Real> Search<'_, '_, T> {
             }
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
-        let mut overlap = None;
-        if !look.bulges() {
-            if fields.is_empty() {
-                check.fields(fields)?;
+        let (mut overlap, ends) = (None, self.contact.ends());
+        // From end to end nothing lies outside.
+        if !check.covers(ends) {
+            self.workspace.look(gap, self.cost)?;
+            let Workspace { look, fields, .. } = &mut *self.workspace;
+            if !look.bulges() {
+                overlap = check.overlap(fields, look, ends, self.cost)?;
             }
-            let Ends { left, right } = self.contact.ends();
-            let within = |low: &LowPoint<T>| low.x >= left && low.x <= right;
-            let turned =
-                |low: LowPoint<T>| LowPoint { height: gap.turned(low.x, low.height), ..low };
-            let mut share = T::of(OPEN);
-            check.resolve(fields, share)?;
-            overlap = loop {
-                let heights = look.low_points().map(turned).filter(within);
-                let (overlap, is_hidden) = check.overlap(fields, heights, self.cost)?;
-                share *= T::of(LESS_OPEN);
-                if overlap.is_some() || !is_hidden || !check.resolve(fields, share)? {
-                    break overlap;
-                }
-            };
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
         }
-        Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
+        let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
+        Ok(overlap.or(lifts_off))
     }
 
     /// Whether the gap has several low places, and nothing else says where to start.
@@ -371,6 +363,7 @@ impl<T: Real> Search<'_, '_, T> {
                         self.workspace.report.add(start, Outcome::Passed);
                         return Ok(found);
                     }
+                    Some(error @ ContactError::LiftsOff { .. }) => return Err(error),
                     Some(error) => {
                         self.workspace.report.add(start, Outcome::of(&error));
                         // Where one overlap follows another, cells see all of them at once.

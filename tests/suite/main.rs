@@ -69,4 +69,5 @@ mod starts;
 mod stress;
 mod tilt;
 mod undeclared;
+mod what_is_checked;
 mod wrong_answers;
