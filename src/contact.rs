@@ -24,12 +24,12 @@ use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::panels;
-use crate::quadrature::{Integrator, Moments, Panels, Quadrature};
+use crate::quadrature::{Integrator, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{
     ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
 };
-use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Side, Solver};
+use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Solver};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::ops::ControlFlow;
@@ -149,62 +149,6 @@ pub enum Control<T> {
         /// x̄, a length.
         at: T,
     },
-}
-
-impl<T: Real> ContactState<T> {
-    fn new(
-        conditions: &Conditions<T>,
-        interval: Interval<T>,
-        load: T,
-        error: Option<T>,
-        m: &Moments<T>,
-    ) -> Self {
-        let kappa = conditions.kappa;
-        let mean_pressure = load / interval.half_width();
-        let tilt = conditions.tilt(interval, m);
-        let mean = m.m0 + tilt;
-        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
-        let free = conditions.edges.map(|edge| edge.is_free());
-        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
-        let ends = Ends { left: interval.left, right: interval.right };
-        Self {
-            interval,
-            load,
-            strengths,
-            free,
-            adhesive,
-            error,
-            error_by_load: None,
-            force: None,
-            trend: m.derivatives,
-            tilt,
-            ends,
-        }
-    }
-
-    /// Whether the contact ends at those corners that are said to hold it, to rounding.
-    fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
-        let rounding = T::epsilon().sqrt() * self.interval.half_width();
-        let ends = Ends { left: self.interval.left, right: self.interval.right };
-        let is_near = |(edge, end): (Edge<T>, T)| {
-            edge.limit().is_none_or(|corner| (end - corner).abs() <= rounding)
-        };
-        edges.zip(ends).map(is_near)
-    }
-
-    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
-    fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
-        let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
-        let mean = T::of(0.5) * load.abs() / interval.half_width();
-        let rounding = T::epsilon().sqrt() * mean;
-        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
-            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
-                Some(ContactError::LiftsOff { x, strength, interval, load })
-            }
-            _ => None,
-        })
-    }
 }
 
 impl<'b, T: Real> Contact<'b, T> {
@@ -383,9 +327,9 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of the
-    /// equations, with tension inside or overlap outside if that is what solves them, and
-    /// [`Outcome::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
-    /// or several.
+    /// equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is what solves them, and
+    /// [`Outcome::Unchecked`]. Between two corners any load will do, one that pulls too. Default: no; then the contact
+    /// of the bodies is found, in one interval or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }
