@@ -233,7 +233,7 @@ impl Pushed {
 /// Whether a solution is the contact, which is the only one that presses everywhere, bears the load, closes the gap
 /// to one height in all contacts, and leaves more of it elsewhere.
 fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> {
-    const COUNT: usize = 256;
+    const COUNT: usize = 512;
     if !solution.report().is_checked() {
         return Some("not checked".to_owned());
     }
