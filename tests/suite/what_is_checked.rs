@@ -19,8 +19,11 @@ const LOAD: f64 = L * L / 2.0;
 /// Limits in more doubt than this say nothing of the contact.
 const OPEN: f64 = 1.0 / 1600.0;
 
-fn searches() -> Vec<(String, Option<Box<dyn LimitSearch<f64>>>)> {
-    let mut all: Vec<(String, Option<Box<dyn LimitSearch<f64>>>)> = vec![
+type Named<T> = Vec<(String, T)>;
+type Search = Option<Box<dyn LimitSearch<f64>>>;
+
+fn searches() -> Named<Search> {
+    let mut all: Named<Search> = vec![
         ("default".to_owned(), None),
         ("bisection".to_owned(), Some(Box::new(Bisection::DEFAULT))),
     ];
@@ -47,8 +50,8 @@ fn searches() -> Vec<(String, Option<Box<dyn LimitSearch<f64>>>)> {
     all
 }
 
-fn quadratures() -> Vec<(String, Box<dyn Quadrature<f64>>)> {
-    let mut all: Vec<(String, Box<dyn Quadrature<f64>>)> = Vec::new();
+fn quadratures() -> Named<Box<dyn Quadrature<f64>>> {
+    let mut all: Named<Box<dyn Quadrature<f64>>> = Vec::new();
     all.push(("panels".to_owned(), Box::new(Panels::FULL)));
     for segments in [4, 32] {
         let rule = Midpoint { segments, ..Midpoint::DEFAULT };
