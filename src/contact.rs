@@ -326,10 +326,10 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { certified, ..self }
     }
 
-    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of the
-    /// equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is what solves them, and
-    /// [`Outcome::Unchecked`]. Between two corners any load will do, one that pulls too. Default: no; then the contact
-    /// of the bodies is found, in one interval or several.
+    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of
+    /// the equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is
+    /// what solves them, and [`Outcome::Unchecked`]. Between two corners any load will do, one that
+    /// pulls too. Default: no; then the contact of the bodies is found, in one interval or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }

@@ -27,10 +27,10 @@ pub enum Edge<T> {
     /// A smooth body: the limit is where the pressure ends at zero.
     Free,
     /// A sharp corner at this `x`, from which the contact does not part. The pressure may be
-    /// infinite there; where it would have to pull, or the contact ends before the corner, the body lifts off
-    /// ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such corners the load must be
-    /// positive, and the contacts may be several, unless
-    /// [a single interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
+    /// infinite there; where it would have to pull, or the contact ends before the corner, the body
+    /// lifts off ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such
+    /// corners the load must be positive, and the contacts may be several, unless [a single
+    /// interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
     Fixed(T),
     /// A smooth body with a sharp corner at this `x`: free as long as the contact does not reach
     /// the corner, fixed from then on.

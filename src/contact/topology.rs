@@ -1,11 +1,12 @@
 //! Which intervals the bodies touch in.
 //!
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
-//! [checked](super::signorini_check): corners press, nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
-//! coarse [active set](super::active_set) says in how many intervals the bodies touch and about where, and
-//! Newton's method finds [all limits](super::newton_several) at once; and where that leads to an end of the bodies, the
-//! load under which a limit just comes there. Without adhesion a contact problem has one
-//! solution: what passes the checks is it, whatever the way there.
+//! [checked](super::signorini_check): corners press, nothing pulls inside, nothing overlaps
+//! outside. Where the search or a check fails, a coarse [active set](super::active_set) says in how
+//! many intervals the bodies touch and about where, and Newton's method finds [all
+//! limits](super::newton_several) at once; and where that leads to an end of the bodies, the load
+//! under which a limit just comes there. Without adhesion a contact problem has one solution: what
+//! passes the checks is it, whatever the way there.
 
 use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
 use super::capacity::{Capacity, capacity};

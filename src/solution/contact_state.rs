@@ -3,7 +3,8 @@
 use crate::quadrature::MomentDerivatives;
 use crate::{Ends, Interval, Real};
 
-/// By how many of the estimated errors of the limits a pressure or a gap may be missed, as a share of its size.
+/// By how many of the estimated errors of the limits a pressure or a gap may be missed, as a share
+/// of its size.
 const ERRORS: f64 = 16.0;
 
 /// The largest share of what is usual in the contacts that is taken for nothing.
@@ -41,8 +42,8 @@ impl<T: Real> ContactState<T> {
         Self::rounding().max(self.open()).min(T::of(MOST))
     }
 
-    /// Whether the limits leave more open than any check allows for, so that none says anything: a search has stopped
-    /// early, or a quadrature is coarse.
+    /// Whether the limits leave more open than any check allows for, so that none says anything: a
+    /// search has stopped early, or a quadrature is coarse.
     pub fn is_doubtful(&self) -> bool {
         // NaN is in doubt too.
         let is_sure = self.open() <= T::of(MOST);

@@ -199,7 +199,8 @@ pub enum Verdict {
     Wrong,
 }
 
-/// What contacts push: of each its interval, and the coefficients of `P sin θ L` as a cosine series.
+/// What contacts push: of each its interval, and the coefficients of `P sin θ L` as a cosine
+/// series.
 struct Pushed(Vec<(Interval<f64>, Vec<f64>)>);
 
 impl Pushed {
@@ -230,8 +231,8 @@ impl Pushed {
     }
 }
 
-/// Whether a solution is the contact, which is the only one that presses everywhere, bears the load, closes the gap
-/// to one height in all contacts, and leaves more of it elsewhere.
+/// Whether a solution is the contact, which is the only one that presses everywhere, bears the
+/// load, closes the gap to one height in all contacts, and leaves more of it elsewhere.
 fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> {
     const COUNT: usize = 512;
     if !solution.report().is_checked() {
@@ -280,7 +281,8 @@ fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> 
     let nothing = |x| Interval { left: x, right: x };
     let all = [vec![nothing(left)], contacts, vec![nothing(right)]].concat();
     for pair in all.windows(2).filter(|pair| pair[0].right < pair[1].left) {
-        // Squared: close to one another where the gap opens. Next to a limit the potential has half of its digits.
+        // Squared: close to one another where the gap opens. Next to a limit the potential has half
+        // of its digits.
         for i in 10..=200 {
             let share = (f64::from(i) / 200.0).powi(2);
             let [from, to] = [pair[0].right, pair[1].left];
@@ -307,8 +309,8 @@ fn alike(one: &Solution<f64>, other: &Solution<f64>) -> bool {
     one.len() == other.len() && one.iter().zip(&other).all(both)
 }
 
-/// What is wrong with other ways to a contact that is right: corners that may be let go, the load where it acts, and the
-/// paper's rule, which knows but one contact.
+/// What is wrong with other ways to a contact that is right: corners that may be let go, the load
+/// where it acts, and the paper's rule, which knows but one contact.
 fn other_ways(
     punch: &Punch,
     held: &Contact<'static, f64>,
@@ -335,7 +337,8 @@ fn other_ways(
     }
 }
 
-/// Judges a random punch by what makes a contact, with a word on it: where a corner lifts, the contact without it.
+/// Judges a random punch by what makes a contact, with a word on it: where a corner lifts, the
+/// contact without it.
 pub fn judge(seed: u64) -> (Verdict, String) {
     let punch = Punch::random(seed);
     let [left, right] = punch.ends;

@@ -1,5 +1,5 @@
-//! What a solution says of its checks, for every search, quadrature and control: no contact that is far from the
-//! known one is said to be checked, and none that is near to it not to be.
+//! What a solution says of its checks, for every search, quadrature and control: no contact that is
+//! far from the known one is said to be checked, and none that is near to it not to be.
 #![allow(missing_docs)]
 
 use crate::common::{Strategy, graph, on_flat};

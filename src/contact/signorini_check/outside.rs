@@ -1,4 +1,5 @@
-//! Whether the loaded bodies overlap beside their contacts, where their heights are known and at their corners.
+//! Whether the loaded bodies overlap beside their contacts, where their heights are known and at
+//! their corners.
 
 use super::SignoriniCheck;
 use crate::contact::exterior_field::ExteriorField;
@@ -6,8 +7,8 @@ use crate::gap::{CoarseHeights, Cost, LowPoint, Sampler};
 use crate::quadrature::panels;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The share of the load that the series of its pressures may leave open before more of them are taken; and the share
-/// of that, where it hides whether the bodies overlap.
+/// The share of the load that the series of its pressures may leave open before more of them are
+/// taken; and the share of that, where it hides whether the bodies overlap.
 const OPEN: f64 = 1e-3;
 const LESS_OPEN: f64 = 0.01;
 
@@ -37,8 +38,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok([lowest - step, lowest + step])
     }
 
-    /// About where the loaded gap is lowest between two places, at the first of which it falls and at the
-    /// second rises.
+    /// About where the loaded gap is lowest between two places, at the first of which it falls and
+    /// at the second rises.
     fn lowest_between(
         &self,
         fields: &[ExteriorField<T>],
@@ -71,7 +72,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         panels::several(self.integrator).is_none() && left <= ends.left && right >= ends.right
     }
 
-    /// Where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there.
+    /// Where the loaded bodies would overlap outside the contacts, up to their ends, and the gap
+    /// there.
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
@@ -103,8 +105,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
     }
 
-    /// A corner before the end of the bodies that the contacts do not reach: where the gap falls towards it, no height
-    /// before it is as low.
+    /// A corner before the end of the bodies that the contacts do not reach: where the gap falls
+    /// towards it, no height before it is as low.
     fn corner(
         &self,
         side: Side,
@@ -122,8 +124,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
     }
 
-    /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as heights of
-    /// the gap before loading show it, by rising x; and whether they may overlap by no more than the series leave open.
+    /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as
+    /// heights of the gap before loading show it, by rising x; and whether they may overlap by no
+    /// more than the series leave open.
     fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
@@ -137,8 +140,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
-        // The edge from which the gap is followed to x, the height of the gap there, and what the pressure
-        // takes off it.
+        // The edge from which the gap is followed to x, the height of the gap there, and what the
+        // pressure takes off it.
         let mut from: Option<(usize, T, T)> = None;
         let mut next = 0;
         for LowPoint { x, height, between, doubt: hidden } in heights {
