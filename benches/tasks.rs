@@ -27,7 +27,9 @@ type Result<T> = std::result::Result<T, ContactError<f64>>;
 fn scene<'a>(task: &Task, bodies: &'a [Body; 2], panels: &'a Panels) -> Result<Contact<'a, f64>> {
     let contact = Contact::new(&*bodies[0], &*bodies[1])?.kappa(task.kappa).quadrature(panels);
     Ok(match task.fixed {
-        Some([left, right]) => contact.edges(Edge::Fixed(left), Edge::Fixed(right)),
+        Some([left, right]) => {
+            contact.edges(Edge::Fixed(left), Edge::Fixed(right)).single_interval(true)
+        }
         None => contact.start(Interval { left: -0.3, right: 0.3 }),
     })
 }

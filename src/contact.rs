@@ -24,7 +24,7 @@ use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::panels;
-use crate::quadrature::{Integrator, Moments, Panels, Quadrature};
+use crate::quadrature::{Integrator, Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::solution::{
     ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
@@ -149,52 +149,6 @@ pub enum Control<T> {
         /// x̄, a length.
         at: T,
     },
-}
-
-impl<T: Real> ContactState<T> {
-    fn new(
-        conditions: &Conditions<T>,
-        interval: Interval<T>,
-        load: T,
-        error: Option<T>,
-        m: &Moments<T>,
-    ) -> Self {
-        let kappa = conditions.kappa;
-        let mean_pressure = load / interval.half_width();
-        let tilt = conditions.tilt(interval, m);
-        let mean = m.m0 + tilt;
-        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
-        let free = conditions.edges.map(|edge| edge.is_free());
-        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
-        let ends = Ends { left: interval.left, right: interval.right };
-        Self {
-            interval,
-            load,
-            strengths,
-            free,
-            adhesive,
-            error,
-            error_by_load: None,
-            force: None,
-            trend: m.derivatives,
-            tilt,
-            ends,
-        }
-    }
-
-    /// A corner that is said to hold the contact, and would have to pull at it.
-    fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
-        let mean = T::of(0.5) * self.load.abs() / self.interval.half_width();
-        let rounding = T::epsilon().sqrt() * mean;
-        edges.zip(self.strengths).into_iter().find_map(|(edge, strength)| match edge {
-            Edge::Fixed(x) if strength < -rounding => {
-                let (interval, load) = (self.interval, self.load);
-                Some(ContactError::LiftsOff { x, strength, interval, load })
-            }
-            _ => None,
-        })
-    }
 }
 
 impl<'b, T: Real> Contact<'b, T> {
@@ -372,10 +326,10 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { certified, ..self }
     }
 
-    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of the
-    /// equations, with tension inside or overlap outside if that is what solves them, and
-    /// [`Outcome::Unchecked`]. Default: no; then the contact of the bodies is found, in one interval
-    /// or several.
+    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of
+    /// the equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is
+    /// what solves them, and [`Outcome::Unchecked`]. Between two corners any load will do, one that
+    /// pulls too. Default: no; then the contact of the bodies is found, in one interval or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }
@@ -471,10 +425,9 @@ impl<'b, T: Real> Contact<'b, T> {
         let stiffness = friction * self.kappa / T::frac_pi_2();
         let turn = T::of(0.5) * tension / stiffness;
         let turn = if force < T::zero() { turn } else { -turn };
-        let let_go = |edge| if let Edge::Fixed(x) = edge { Edge::FreeUntil(x) } else { edge };
         let scene = Self {
             gap: self.gap.tilted(normal.tilt() + turn),
-            edges: self.edges.map(let_go),
+            edges: self.edges.map(Edge::let_go),
             start: None,
             certified: false,
             ..self.clone()
@@ -603,6 +556,9 @@ impl<'b, T: Real> Contact<'b, T> {
         if panels::several(integrator).is_none() {
             integrator.prepare(&gap, found.interval)?;
         }
+        if found.is_doubtful() {
+            workspace.report.doubt();
+        }
         if self.certified {
             certify(&gap, self.kappa, &found, integrator)?;
         }
@@ -631,9 +587,9 @@ impl<'b, T: Real> Contact<'b, T> {
     /// The conditions of a given load.
     fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
-        let sought = edges.into_iter().any(|edge| edge.is_free());
-        let adhesive = edges.are_adhesive();
-        if sought && !adhesive {
+        // Adhesion bears a pull, and so does an interval that nothing is checked of.
+        let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
+        if !may_pull {
             check_positive("load", load)?;
         } else if !load.is_finite() {
             return Err(ContactError::InvalidLoad { quantity: "load", value: load });
@@ -666,6 +622,17 @@ impl<'b, T: Real> Contact<'b, T> {
                     return Err(ContactError::InvalidLimits { interval: Interval { left, right } });
                 }
                 _ => {}
+            }
+        }
+        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
+            check(Interval { left, right })?;
+        }
+        let range = self.gap.range();
+        for edge in self.edges {
+            if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
+                && !(x >= range[0] && x <= range[1])
+            {
+                return Err(ContactError::OutsideBodies { x, range });
             }
         }
         Ok(self.edges)

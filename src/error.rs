@@ -333,7 +333,8 @@ pub enum ContactError<T: Real> {
         /// The load per unit length of that.
         load: T,
     },
-    /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative.
+    /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative,
+    /// or the contact ends before the corner.
     #[error(
         "the contact is said to end at the corner x = {x}, but under the load {load} the body lifts off there (the \
          strength of the singularity is {strength}): use Edge::FreeUntil, for a corner that is free until it is reached",
@@ -342,7 +343,8 @@ pub enum ContactError<T: Real> {
     LiftsOff {
         /// The corner.
         x: T,
-        /// K, see [`Solution::edge_singularities`](crate::Solution::edge_singularities).
+        /// K, see [`Solution::edge_singularities`](crate::Solution::edge_singularities): zero to
+        /// rounding where the contact ends before the corner.
         strength: T,
         /// What solves the equations with it.
         interval: Interval<T>,

@@ -56,8 +56,9 @@ use thiserror::Error;
 /// [`find_with_slope`](Self::find_with_slope) if it can use the derivative. The solver relies on
 /// this much: the root lies in the bracket; it is a point that was evaluated (the inversion takes
 /// `Root::x`, and is cheaper if it is the last one; the search for the limits takes the best of
-/// the contacts tried); a value that is not finite ends the search with an error. How closely
-/// the root was found shows in the solution's error estimate.
+/// the contacts tried); a value that is not finite ends the search with an error. How closely the
+/// root was found shows in the solution's error estimate; a solution that leaves much open is not
+/// said to be checked ([`Outcome::Doubtful`](crate::Outcome::Doubtful)).
 pub trait LimitSearch<T: Real>: Send + Sync {
     /// Finds a zero of `f` in the bracket.
     ///

@@ -78,7 +78,10 @@ pub fn table1() -> Result<Vec<Entry>, ContactError<f64>> {
     };
     let Example { lower, upper, c } = curves::one();
     let on = Interval { left: -1.0, right: 1.0 };
-    let contact = Contact::new(&lower, &upper)?.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
+    // It pulls, and bears any load.
+    let contact = Contact::new(&lower, &upper)?
+        .edges(Edge::Fixed(on.left), Edge::Fixed(on.right))
+        .single_interval(true);
     table(1, &contact, Control::Load(c / PI), SEGMENTS_1, &TABLE_1, exact)
 }
 
@@ -90,7 +93,8 @@ pub fn table2() -> Result<Vec<Entry>, ContactError<f64>> {
     let on = Interval { left: -b, right: a };
     let contact = Contact::new(&lower, &upper)?
         .kappa(FRAC_PI_2)
-        .edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
+        .edges(Edge::Fixed(on.left), Edge::Fixed(on.right))
+        .single_interval(true);
     table(2, &contact, Control::Load(c / PI), SEGMENTS_2, &TABLE_2, exact)
 }
 

@@ -42,7 +42,7 @@ fn solve(
 ) -> Result<Answer, ContactError<f64>> {
     let mut contact = Contact::new(&*bodies[0], &*bodies[1])?.kappa(wanted.kappa);
     if let (Kind::Fixed, Some(on)) = (wanted.kind, wanted.limits) {
-        contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right));
+        contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right)).single_interval(true);
     }
     if let Some(Several { corners, .. }) = wanted.several {
         let edge = |corner, x| if corner { Edge::Fixed(x) } else { Edge::Free };

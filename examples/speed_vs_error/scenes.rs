@@ -36,7 +36,10 @@ impl Scene {
         let contact = Contact::new(&*self.lower, &*self.upper)?.kappa(self.kappa);
         let Interval { left, right } = self.limits;
         let fixed = [Edge::Fixed(left), Edge::Fixed(right)];
-        Ok(if self.fixed { contact.edges(fixed[0], fixed[1]) } else { contact })
+        Ok(match self.fixed {
+            true => contact.edges(fixed[0], fixed[1]).single_interval(true),
+            false => contact,
+        })
     }
 
     pub fn load(&self) -> Control<f64> {

@@ -36,6 +36,7 @@ fn outcome(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Passed => "passed",
         Outcome::Unchecked => "unchecked",
+        Outcome::Doubtful => "doubtful",
         Outcome::Tension => "tension",
         Outcome::Overlap => "overlap",
         Outcome::Merged => "merged",

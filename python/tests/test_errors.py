@@ -289,6 +289,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"load": -1.0},
     ),
     (
+        lambda: contact(edges=(lc.Edge.fixed(-0.5), lc.Edge.fixed(0.5))).solve(load=0.0),
+        "InvalidLoadError",
+        {"quantity": "load", "value": 0.0},
+    ),
+    (
         lambda: contact(edges=(lc.Edge.fixed(-0.5), lc.Edge.free())).solve(load=1e-3),
         "LiftsOffError",
         {"load": 1e-3},

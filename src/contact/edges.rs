@@ -1,7 +1,8 @@
 //! What has to hold at the edges of a contact.
 
 use crate::quadrature::Moments;
-use crate::{Ends, Interval, Real, Side};
+use crate::solution::ContactState;
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// What becomes of one edge of the contact.
 ///
@@ -26,7 +27,10 @@ pub enum Edge<T> {
     /// A smooth body: the limit is where the pressure ends at zero.
     Free,
     /// A sharp corner at this `x`, from which the contact does not part. The pressure may be
-    /// infinite there.
+    /// infinite there; where it would have to pull, or the contact ends before the corner, the body
+    /// lifts off ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such
+    /// corners the load must be positive, and the contacts may be several, unless [a single
+    /// interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
     Fixed(T),
     /// A smooth body with a sharp corner at this `x`: free as long as the contact does not reach
     /// the corner, fixed from then on.
@@ -43,6 +47,11 @@ impl<T: Real> Edge<T> {
             Self::Fixed(x) => Some(x),
             _ => None,
         }
+    }
+
+    /// Lets go of a corner where it does not press.
+    pub(super) fn let_go(self) -> Self {
+        if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }
     }
 
     pub(super) fn is_free(&self) -> bool {
@@ -190,5 +199,61 @@ impl<T: Real> Conditions<T> {
             }
             _ => None,
         }
+    }
+}
+
+impl<T: Real> ContactState<T> {
+    pub(super) fn new(
+        conditions: &Conditions<T>,
+        interval: Interval<T>,
+        load: T,
+        error: Option<T>,
+        m: &Moments<T>,
+    ) -> Self {
+        let kappa = conditions.kappa;
+        let mean_pressure = load / interval.half_width();
+        let tilt = conditions.tilt(interval, m);
+        let mean = m.m0 + tilt;
+        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
+        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
+        let free = conditions.edges.map(|edge| edge.is_free());
+        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
+        let ends = Ends { left: interval.left, right: interval.right };
+        Self {
+            interval,
+            load,
+            strengths,
+            free,
+            adhesive,
+            error,
+            error_by_load: None,
+            force: None,
+            trend: m.derivatives,
+            tilt,
+            ends,
+        }
+    }
+
+    /// Whether the contact ends at those corners that are said to hold it, to rounding.
+    pub(super) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
+        let rounding = T::epsilon().sqrt() * self.interval.half_width();
+        let ends = Ends { left: self.interval.left, right: self.interval.right };
+        let is_near = |(edge, end): (Edge<T>, T)| {
+            edge.limit().is_none_or(|corner| (end - corner).abs() <= rounding)
+        };
+        edges.zip(ends).map(is_near)
+    }
+
+    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
+    pub(super) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
+        let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
+        let mean = T::of(0.5) * load.abs() / interval.half_width();
+        let rounding = T::epsilon().sqrt() * mean;
+        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
+            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
+                Some(ContactError::LiftsOff { x, strength, interval, load })
+            }
+            _ => None,
+        })
     }
 }

@@ -179,6 +179,12 @@ impl<T: Real> NewtonSeveral<T> {
             if beyond_right {
                 self.on[last].right = half * hull.right + half * ends.right;
             }
+            // Nothing is left of a contact that was cut short time and again.
+            if let Some(i) = place.filter(|place| place % 2 == 0).map(|place| place / 2)
+                && self.on[i].left >= self.on[i].right
+            {
+                return Ok(SeveralOutcome::Lost(i));
+            }
             // A contact may have left the bodies as a whole.
             let ordered = |pair: [T; 2]| pair[0] < pair[1];
             if !self.on.iter().all(|on| ordered([on.left, on.right]))

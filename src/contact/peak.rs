@@ -78,16 +78,10 @@ fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>>
     if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
         return Err(ContactError::BothLimitsGiven { interval: Interval { left, right } });
     }
-    let range = contact.gap.range();
-    for edge in edges {
-        match edge {
-            Edge::Free => {}
-            Edge::FreeUntil(x) if x >= range[0] && x <= range[1] => {}
-            Edge::FreeUntil(x) => return Err(ContactError::OutsideBodies { x, range }),
-            Edge::Fixed(_) | Edge::Adhesive(_) => return Err(ContactError::PeakEdge { edge }),
-        }
+    match edges.into_iter().find(|edge| !edge.is_free()) {
+        Some(edge) => Err(ContactError::PeakEdge { edge }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Finds the contact with a given peak pressure.

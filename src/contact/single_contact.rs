@@ -77,15 +77,11 @@ impl<T: Real> Single<'_, '_, T> {
         let corners = self.conditions.edges;
         // A corner holds the contact as long as it presses there; a width may be had without it, unless
         // it held the last one. It cannot hold both edges.
-        let range = self.contact.gap.range();
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         let mut one_held = false;
         for side in Side::BOTH {
             let edge = &mut self.conditions.edges[side];
             if let Edge::FreeUntil(x) = *edge {
-                if !(x >= range[0] && x <= range[1]) {
-                    return Err(ContactError::OutsideBodies { x, range });
-                }
                 let touched = last.map(|on| on[side] == x);
                 let held = touched.unwrap_or(by_load) && (by_load || !one_held);
                 one_held |= held;
@@ -149,13 +145,7 @@ impl<T: Real> Single<'_, '_, T> {
         if let Some(on) = self.conditions.both_limits() {
             return self.given(on);
         }
-        let limits = self.conditions.limits();
-        for x in limits.into_iter().flatten() {
-            if !(x >= range[0] && x <= range[1]) {
-                return Err(ContactError::OutsideBodies { x, range });
-            }
-        }
-        self.integrator.prescribe_limits(gap, limits);
+        self.integrator.prescribe_limits(gap, self.conditions.limits());
         let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
         // A search of one limit at a time knows no tilt.
         let turns = matches!(self.conditions.given, Given::Centre { .. });

@@ -1,21 +1,22 @@
 //! Which intervals the bodies touch in.
 //!
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
-//! [checked](super::signorini_check): nothing pulls inside, nothing overlaps outside. Where the search or a check fails, a
-//! coarse [active set](super::active_set) says in how many intervals the bodies touch and about where, and
-//! Newton's method finds [all limits](super::newton_several) at once; and where that leads to an end of the bodies, the
-//! load under which a limit just comes there. Without adhesion a contact problem has one
-//! solution: what passes the checks is it, whatever the way there.
+//! [checked](super::signorini_check): corners press, nothing pulls inside, nothing overlaps
+//! outside. Where the search or a check fails, a coarse [active set](super::active_set) says in how
+//! many intervals the bodies touch and about where, and Newton's method finds [all
+//! limits](super::newton_several) at once; and where that leads to an end of the bodies, the load
+//! under which a limit just comes there. Without adhesion a contact problem has one solution: what
+//! passes the checks is it, whatever the way there.
 
 use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{LESS_OPEN, OPEN, SignoriniCheck, TensionSpans};
+use super::signorini_check::{SignoriniCheck, TensionSpans};
 use super::single_contact::Single;
 use super::{Contact, peak};
-use crate::gap::{CoarseHeights, Cost, Gap, LowPoint, Sampler};
+use crate::gap::{CoarseHeights, Cost, Gap, Sampler};
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
@@ -124,14 +125,10 @@ pub(super) fn find<T: Real>(
         has_run_out: false,
     };
     let turns = search.turns();
-    if contact.single_interval || given {
+    if contact.single_interval {
         let (start, found) = search.one(false);
         search.workspace.report.add(start, Outcome::Unchecked);
-        let found = found?;
-        // Between two given limits a load leaves nothing to be sought: that is the equation's solution, whatever it
-        // is. Bodies that turn have a contact.
-        let fault = found.lifts_off(edges).filter(|_| turns && !contact.single_interval);
-        return fault.map_or(Ok(found), Err);
+        return found;
     }
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
@@ -142,7 +139,7 @@ pub(super) fn find<T: Real>(
                 found => return found,
             }
         }
-        let (start, found) = match search.one(!convex && !turns) {
+        let (start, found) = match search.one(!convex && !turns && !given) {
             // Without a look at the bodies.
             (
                 start,
@@ -160,12 +157,16 @@ pub(super) fn find<T: Real>(
                     search.workspace.report.add(start, Outcome::Passed);
                     return Ok(found);
                 }
+                // Of bodies that turn, more contacts may press at the corner.
+                Some(error @ ContactError::LiftsOff { .. }) if convex || !turns => {
+                    return Err(error);
+                }
                 Some(error) => {
                     search.workspace.report.add(start, Outcome::of(&error));
                     fault = Some(error);
                 }
             },
-            Err(error) if !error.may_be_several() => return Err(error),
+            Err(error) if given || !error.may_be_several() => return Err(error),
             // Of bodies that turn, one contact may be hard to find too.
             Err(error)
                 if !turns && (convex || search.workspace.look(gap, search.cost)?.bulges()) =>
@@ -236,11 +237,10 @@ impl<T: Real> Search<'_, '_, T> {
         found: &ContactState<T>,
         convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        if let Some(error) = found.lifts_off(self.contact.edges) {
-            return Err(error);
-        }
-        if convex {
-            return Ok(None);
+        // More contacts may press at a corner that is not reached.
+        let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
+        if convex || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+            return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
@@ -254,10 +254,9 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        self.workspace.look(gap, self.cost)?;
-        let Workspace { look, fields, tension_spans, .. } = &mut *self.workspace;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
         let (interval, load) = (found.interval, found.load);
+        let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -265,35 +264,26 @@ impl<T: Real> Search<'_, '_, T> {
             }
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
-        let mut overlap = None;
-        if !look.bulges() {
-            if fields.is_empty() {
-                check.fields(fields)?;
+        let (mut overlap, ends) = (None, self.contact.ends());
+        // From end to end nothing lies outside.
+        if !check.covers(ends) {
+            self.workspace.look(gap, self.cost)?;
+            let Workspace { look, fields, .. } = &mut *self.workspace;
+            if !look.bulges() {
+                overlap = check.overlap(fields, look, ends, self.cost)?;
             }
-            let Ends { left, right } = self.contact.ends();
-            let within = |low: &LowPoint<T>| low.x >= left && low.x <= right;
-            let turned =
-                |low: LowPoint<T>| LowPoint { height: gap.turned(low.x, low.height), ..low };
-            let mut share = T::of(OPEN);
-            check.resolve(fields, share)?;
-            overlap = loop {
-                let heights = look.low_points().map(turned).filter(within);
-                let (overlap, is_hidden) = check.overlap(fields, heights, self.cost)?;
-                share *= T::of(LESS_OPEN);
-                if overlap.is_some() || !is_hidden || !check.resolve(fields, share)? {
-                    break overlap;
-                }
-            };
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
         }
-        Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
+        let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
+        Ok(overlap.or(lifts_off))
     }
 
     /// Whether the gap has several low places, and nothing else says where to start.
     fn has_valleys(&mut self, convex: bool) -> Result<bool, ContactError<T>> {
-        let told = self.contact.start.is_some() || !self.workspace.last.is_empty();
+        let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
+        let told = given || !self.workspace.last.is_empty();
         if convex || told || !self.may_be_several() {
             return Ok(false);
         }
@@ -337,7 +327,8 @@ impl<T: Real> Search<'_, '_, T> {
         let mut fault = fault;
         let ends = self.contact.ends();
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
-        let fixed = edges.map(|edge| matches!(edge, Edge::Fixed(_)));
+        // Whether a corner presses is seen of the contacts that are there without it.
+        let conditions = Conditions { edges: edges.map(Edge::let_go), ..conditions };
         let last = &self.workspace.last;
         let is_near = last.len() > 1 && self.end.is_none();
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
@@ -366,8 +357,8 @@ impl<T: Real> Search<'_, '_, T> {
             before.clone_from(on);
             let last = on.len() - 1;
             let corners = Ends {
-                left: fixed.left || at_corner.left && on[0].left <= ends.left,
-                right: fixed.right || at_corner.right && on[last].right >= ends.right,
+                left: at_corner.left && on[0].left <= ends.left,
+                right: at_corner.right && on[last].right >= ends.right,
             };
             let found = match self.converge(&conditions, corners, ends) {
                 Ok(found) => found,
@@ -384,6 +375,7 @@ impl<T: Real> Search<'_, '_, T> {
                         self.workspace.report.add(start, Outcome::Passed);
                         return Ok(found);
                     }
+                    Some(error @ ContactError::LiftsOff { .. }) => return Err(error),
                     Some(error) => {
                         self.workspace.report.add(start, Outcome::of(&error));
                         // Where one overlap follows another, cells see all of them at once.

@@ -3,6 +3,13 @@
 use crate::quadrature::MomentDerivatives;
 use crate::{Ends, Interval, Real};
 
+/// By how many of the estimated errors of the limits a pressure or a gap may be missed, as a share
+/// of its size.
+const ERRORS: f64 = 16.0;
+
+/// The largest share of what is usual in the contacts that is taken for nothing.
+const MOST: f64 = 0.01;
+
 /// A contact that was found.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactState<T> {
@@ -32,8 +39,20 @@ pub(crate) struct ContactState<T> {
 impl<T: Real> ContactState<T> {
     /// What is taken for nothing beside what is usual in the contacts.
     pub fn nothing(&self) -> T {
-        let error = self.error_by_load.or(self.error).unwrap_or(T::zero());
-        Self::rounding().max(T::of(16.0) * error).min(T::of(0.01))
+        Self::rounding().max(self.open()).min(T::of(MOST))
+    }
+
+    /// Whether the limits leave more open than any check allows for, so that none says anything: a
+    /// search has stopped early, or a quadrature is coarse.
+    pub fn is_doubtful(&self) -> bool {
+        // NaN is in doubt too.
+        let is_sure = self.open() <= T::of(MOST);
+        !is_sure
+    }
+
+    /// The share of a pressure that the errors of the limits leave open.
+    fn open(&self) -> T {
+        T::of(ERRORS) * self.error_by_load.or(self.error).unwrap_or(T::zero())
     }
 
     /// The same without what is in doubt of the limits.

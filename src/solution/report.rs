@@ -46,8 +46,9 @@ pub struct Attempt {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Start {
-    /// From the middle of the bodies towards their lowest gap: they say that they bulge towards each other, or
-    /// [a single interval](crate::Contact::single_interval) was asked for.
+    /// From the middle of the bodies towards their lowest gap: they say that they bulge towards
+    /// each other, or [a single interval](crate::Contact::single_interval) was asked for. Or
+    /// between two corners, where nothing is to be sought.
     Middle,
     /// At the lowest gap between the bodies.
     LowestGap,
@@ -68,12 +69,18 @@ pub enum Start {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
-    /// It is the contact: the pressure is nowhere negative and the bodies do not overlap, as far as they
-    /// were looked at. Bodies that [bulge](crate::profile::Convexity) towards each other need no look.
+    /// It is the contact: corners press, the pressure is nowhere negative and the bodies do not
+    /// overlap, as far as they were looked at. Bodies that [bulge](crate::profile::Convexity)
+    /// towards each other need no look, and where an edge is adhesive they may pull.
     Passed,
-    /// It solves the equations, and nobody asked for more: both limits are given, or the edges are by the
-    /// paper's Eq. (6), or [a single interval](crate::Contact::single_interval) was asked for.
+    /// It solves the equations, and nobody asked for more: the edges are by the paper's Eq. (6), or
+    /// [a single interval](crate::Contact::single_interval) was asked for.
     Unchecked,
+    /// It meets the conditions of the contact so roughly that no check says anything: a limit is in
+    /// doubt by more than a 1600th of the half-width
+    /// ([`Solution::limits_error`](crate::Solution::limits_error)), as from a search that stops
+    /// early or from a coarse quadrature.
+    Doubtful,
     /// The bodies would pull at each other inside.
     Tension,
     /// The bodies would overlap outside.
@@ -107,6 +114,15 @@ impl Report {
     pub(crate) fn add(&mut self, start: Start, outcome: Outcome) {
         self.count = (self.count + 1).min(MOST);
         self.attempts[self.count - 1] = Attempt { start, outcome };
+    }
+
+    /// Takes back that the last attempt has passed.
+    pub(crate) fn doubt(&mut self) {
+        if let Some(Attempt { outcome, .. }) = self.attempts[..self.count].last_mut()
+            && *outcome == Outcome::Passed
+        {
+            *outcome = Outcome::Doubtful;
+        }
     }
 
     /// The attempts, the last of which has led to the solution.

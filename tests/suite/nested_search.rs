@@ -332,7 +332,7 @@ fn pressures_missed_are_those_of_the_best_contact() {
     };
     let (best, by) = missed(wanted);
     let fixed = contact.clone().edges(Edge::Fixed(best.left), Edge::Fixed(best.right));
-    let fixed = fixed.solve(Control::Load(load)).unwrap();
+    let fixed = fixed.single_interval(true).solve(Control::Load(load)).unwrap();
     let pressure = fixed.pressure().unwrap();
     let at = |x| pressure.estimate(x, &mut Default::default()).unwrap().value;
     let exact = [at(best.right - distances[0]) - at_a, at(best.left + distances[1]) - at_b];

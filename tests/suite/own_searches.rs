@@ -18,6 +18,7 @@ fn a_sloppy_search_for_the_limits_shows() {
         let solution = contact.solve(Control::Load(0.03)).unwrap();
         let error = (solution.a() - exact).abs() / solution.hull().half_width();
         assert!(error <= 2.0 * solution.limits_error().unwrap(), "{relative}: {error:e}");
+        assert_eq!(solution.report().is_checked(), relative < 1e-2, "{relative}: {solution}");
     }
 }
 
@@ -37,6 +38,7 @@ fn a_sloppy_inversion_shows() {
     let solution = sloppy.solve(Control::Load(0.02)).unwrap();
     let error = (solution.a() / 0.2 - 1.0).abs();
     assert!(error > 0.05 && error <= 2.0 * solution.limits_error().unwrap(), "{error}");
+    assert!(!solution.report().is_checked(), "{solution}");
 
     for astray in [
         Strategy(|f, b| Strategy::take(5.0 * b.hi, f, b)),

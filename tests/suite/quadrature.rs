@@ -31,6 +31,7 @@ fn pressure(example: usize, rule: Midpoint, xs: &[f64]) -> Vec<f64> {
     };
     let contact = Contact::new(&*scene.lower, &*scene.upper).unwrap().kappa(kappa);
     let contact = contact.edges(Edge::Fixed(on.left), Edge::Fixed(on.right)).quadrature(&rule);
+    let contact = contact.single_interval(true);
     let solution = contact.solve(Control::Load(scene.c / PI)).unwrap();
     let pressure = solution.pressure().unwrap();
     xs.iter().map(|&x| pressure.at(x).unwrap()).collect()

@@ -251,8 +251,7 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let reached = [0, last].map(|i| oracle.pressure[i] > 0.0);
     let cornered = scene.kind == Kind::Cornered;
     let edge = |i: usize| match cornered {
-        // Two fixed edges are two given limits.
-        true if scene.fixed && reached[i] && !reached[1 - i] => Edge::Fixed(scene.range[i]),
+        true if scene.fixed && reached[i] => Edge::Fixed(scene.range[i]),
         true => Edge::FreeUntil(scene.range[i]),
         false => Edge::Free,
     };

@@ -138,7 +138,7 @@ class Edge(NamedTuple):
 
     @classmethod
     def fixed(cls, x: float) -> Edge:
-        """A sharp corner at this x, a length, from which the contact does not part."""
+        """A sharp corner at this x, a length, from which the contact does not part; it must press there."""
         return cls("fixed", as_number(x, "x"))
 
     @classmethod
@@ -439,7 +439,8 @@ class Contact(Unchanging):
     certified : bool
         Whether each solve is proved to be a contact, too: see `Solution.certify`.
     single_interval : bool
-        Whether one contact is to be found whatever the bodies do, as in the paper.
+        Whether one contact is to be found whatever the bodies do, as in the paper. Between two fixed edges it takes any
+        load, one that pulls too.
 
     Examples
     --------

@@ -455,7 +455,7 @@ class TensionError(SolveError):
 
 
 class LiftsOffError(SolveError):
-    """A fixed edge at which the body lifts off: the singularity of the pressure there is negative.
+    """A fixed edge at which the body lifts off: the singularity of the pressure there is negative, or none.
 
     Attributes
     ----------
