@@ -31,6 +31,7 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
+use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, compare};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
@@ -113,10 +114,10 @@ impl<T: Real> Quadrature<T> for Panels {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(ContactError::InvalidTolerance { tolerance: T::of(self.tolerance) });
         }
-        let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
+        let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
-        let (moments, over, fall, is_several) = (None, None, None, false);
+        let (moments, over, fall, is_noise, is_several) = (None, None, None, false, false);
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set,
@@ -124,6 +125,7 @@ impl<T: Real> Quadrature<T> for Panels {
             moments,
             over,
             fall,
+            is_noise,
             several,
             is_several,
         }))
@@ -153,6 +155,8 @@ struct PanelIntegrator<T> {
     over: Option<Series<T>>,
     /// Of a first estimate: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
+    /// Whether the samples have been taken anew, and have left hardly less open for that: the noise of the formulas.
+    is_noise: bool,
     /// Several contacts at once, and whether they are what was last turned to.
     several: Several<T>,
     is_several: bool,
@@ -206,20 +210,19 @@ impl<T: Real> PanelIntegrator<T> {
 
     /// The number of nodes that should do, by how the coefficients of the first estimate fall.
     fn expected_size(&self, on: Interval<T>) -> usize {
-        let Some([fall, half_width]) = self.fall else { return 8 };
+        let Some([fall, half_width]) = self.fall else { return LEAST };
         let shrunk = on.half_width() / half_width;
         let fall = fall * shrunk * shrunk;
         let mut expected = T::one();
         for n in (2..=MOST).step_by(2) {
             expected *= fall;
-            // Coefficients may fall more slowly than the first of them. Four do not show the noise.
-            let left = expected * if n < 8 { T::of(20.0) } else { T::of(20.0) * fall };
-            let enough = n >= 8 || self.panel_set.tolerance >= T::of(400.0) * T::epsilon();
-            if enough && SIZES.contains(&n) && left <= self.panel_set.tolerance {
+            // Coefficients may fall more slowly than the first of them.
+            let left = expected * T::of(20.0) * fall;
+            if n > LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
-        8
+        LEAST
     }
 }
 
@@ -239,7 +242,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             self.panel_set.initial = self.expected_size(on);
         }
         self.panel_set.coarse = coarse;
-        self.moments = None;
+        (self.moments, self.is_noise) = (None, false);
         self.panel_set.clear(true);
         self.panel_set.extend(gap, on)?;
         self.fall = coarse.then(|| {
@@ -282,10 +285,13 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         let m = self.remember(on);
         // What is good enough for a wide span may be nothing to a narrow one in its middle.
         let reach = self.panel_set.interval().map_or(T::zero(), |have| have.half_width());
-        if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
-            return self.sample_anew(gap, on);
+        let narrow = on.half_width() / reach;
+        if self.is_noise || !self.is_poor(&m) || narrow >= T::of(0.8) {
+            return Ok(m);
         }
-        Ok(m)
+        let anew = self.sample_anew(gap, on)?;
+        self.is_noise = anew.error > narrow.sqrt() * m.error;
+        Ok(anew)
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
@@ -379,8 +385,8 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 
     fn clear_samples(&mut self) {
         self.panel_set.clear(true);
-        (self.fall, self.moments) = (None, None);
-        self.panel_set.initial = 8;
+        (self.fall, self.moments, self.is_noise) = (None, None, false);
+        self.panel_set.initial = LEAST;
     }
 
     fn reset(&mut self, same_bodies: bool) {
@@ -390,7 +396,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.is_several = false;
         if !same_bodies {
             self.panel_set.clear(false);
-            (self.fall, self.moments) = (None, None);
+            (self.fall, self.moments, self.is_noise) = (None, None, false);
         }
     }
 }

@@ -68,4 +68,5 @@ mod starts;
 mod stress;
 mod tilt;
 mod undeclared;
+mod unseen;
 mod wrong_answers;

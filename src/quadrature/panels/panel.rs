@@ -172,9 +172,15 @@ pub(super) enum Resolution<T> {
 
 /// Looks at the larger one of each two coefficients, since a series may be odd or even.
 ///
-/// Errors up to `allowed` are good enough. `rounded` is what a unit of rounding makes of the bodies'
-/// slopes on this panel.
-pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Resolution<T> {
+/// Errors up to `allowed` are good enough, `is_loose` if more of them would be without a tolerance. `rounded` is
+/// what a unit of rounding makes of the bodies' slopes on this panel.
+pub(super) fn judge<T: Real>(
+    n: usize,
+    series: &Row<T>,
+    allowed: T,
+    is_loose: bool,
+    rounded: T,
+) -> Resolution<T> {
     let pairs = n / 2;
     let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
@@ -187,7 +193,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         levels = fall > T::of(10.0) * fell;
         fall = fall.max(fell);
     }
-    if last <= T::of(8.0) * rounded && pairs >= 4 {
+    if last <= T::of(8.0) * rounded {
         return Resolution::Good(last.max(rounded));
     }
     let error = if levels {
@@ -198,12 +204,9 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         // They may fall like a power only: the rest adds up.
         last * T::count(n)
     };
-    // Four coefficients are little to go by, and do not show the noise.
-    let doubt = T::of(if pairs < 4 { 10.0 } else { 1.0 });
-    let enough = pairs >= 4 || allowed >= T::of(400.0) * rounded;
-    if error * doubt <= allowed && enough {
-        // Nor do they fall on for ever as they have: a large constant may stand before a series.
-        let seen = if pairs < 4 { T::of(0.25) * last } else { rounded };
+    if error <= allowed {
+        // Nor do they fall on for ever as they have: what is smooth may stand before a root.
+        let seen = if is_loose { T::of(0.25) * last } else { rounded };
         return Resolution::Good(error.max(rounded).max(seen));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
@@ -218,10 +221,9 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         return Resolution::Noise(plateau);
     }
     if faint && n < 24 {
-        return Resolution::Take(if n < 8 { 8 } else { 24 }, last);
+        return Resolution::Take(24, last);
     }
-    let mut expected = error * doubt;
-    let mut have = n;
+    let (mut expected, mut have) = (error, n);
     for more in SIZES.into_iter().filter(|&more| more > n) {
         while have < more {
             (expected, have) = (expected * fall, have + 2);

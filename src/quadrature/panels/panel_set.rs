@@ -14,6 +14,13 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
 use sampling::SampledBody;
 
+/// The fewest nodes of a panel that is more than a first estimate: on a span a little wider than a contact the
+/// outermost of them lie beyond its limits, as of four they would not.
+pub(super) const LEAST: usize = 8;
+
+/// The least tolerance, in units in the last place.
+pub(super) const FINEST: f64 = 16.0;
+
 /// How often a span between two breakpoints may be split.
 const MOST_SPLITS: usize = 4096;
 
@@ -80,7 +87,7 @@ impl<T: Real> PanelSet<T> {
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
             size: T::zero(),
-            initial: 8,
+            initial: LEAST,
             coarse: false,
             tolerance,
             cost: Cost::default(),
@@ -212,7 +219,7 @@ impl<T: Real> PanelSet<T> {
             let right = right.min(half * on.right.max(have.right) + half * range[1]);
             return self.sample_anew(gap, Interval { left, right });
         }
-        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
+        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(LEAST);
         // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
         // breakpoint is between them.
         if on.right > have.right {
@@ -236,14 +243,14 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Covers an interval and nothing else, with eight nodes or more between two breakpoints.
+    /// Covers an interval and nothing else, with [`LEAST`] nodes or more between two breakpoints.
     pub fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<(), ContactError<T>> {
         self.clear(true);
-        self.initial = 8;
+        self.initial = LEAST;
         self.extend(gap, on)
     }
 
@@ -379,7 +386,7 @@ impl<T: Real> PanelSet<T> {
     /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
     /// either: something lies between their last nodes.
     fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
-        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
+        let finest = T::of(FINEST) * T::epsilon() / self.tolerance;
         let missed = missed(left, right);
         let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
         if missed > least && missed <= most {

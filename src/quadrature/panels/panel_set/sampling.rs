@@ -1,7 +1,7 @@
 //! One panel: sampled, with as many nodes as it takes, and judged.
 
 use super::candidate::Candidate;
-use super::{EndProbe, PanelSet};
+use super::{EndProbe, FINEST, PanelSet};
 use crate::gap::{Gap, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
@@ -60,7 +60,8 @@ impl<T: Real> PanelSet<T> {
             // Next to a singularity the slope may be large, or noisy, beyond all that counts
             // elsewhere.
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
+            let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
+            let verdict = judge(n, &panel.series, allowed, is_loose, T::epsilon() * bodies);
             let (tail, next, split) = match verdict {
                 // The first sign of a tip looks like noise.
                 Resolution::Good(tail) | Resolution::Noise(tail)
@@ -72,8 +73,11 @@ impl<T: Real> PanelSet<T> {
                     let more = SIZES.into_iter().find(|&more| more > n);
                     (tail.max(off), more, true)
                 }
-                // What only a loose tolerance lets pass is an error.
-                Resolution::Good(tail) => (tail.max(off).max(at_limit), None, false),
+                // What only a loose tolerance lets pass is an error, and so is a kink beside a limit.
+                Resolution::Good(tail) => {
+                    let missed = if at_limit > T::of(64.0) * tail { at_limit } else { tail };
+                    (tail.max(off).max(missed), None, false)
+                }
                 Resolution::Noise(size) => {
                     panel.drop_noise(size);
                     (size, None, false)
@@ -125,12 +129,11 @@ impl<T: Real> PanelSet<T> {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
-    /// By how much it misses the slope at a limit that is given, if that is more than rounding.
+    /// By how much it misses the slope at a limit that is given.
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
-        let rounding = T::epsilon().sqrt() * self.size;
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
-            Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
+            Some((panel.value(held.x) - held.slope).abs())
         };
         self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
@@ -150,7 +153,7 @@ impl<T: Real> PanelSet<T> {
             let size = largest.max(seen.slope);
             let allowed = (self.tolerance * size).max(seen.noise);
             let series = panel.series.map(|a| a.component(i + 1));
-            match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
+            match judge(panel.n, &series, allowed, false, T::epsilon() * seen.bodies) {
                 Resolution::Good(_) if seen.off > allowed => {
                     next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
                 }
