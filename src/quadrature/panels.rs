@@ -117,7 +117,7 @@ impl<T: Real> Quadrature<T> for Panels {
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
-        let (moments, over, fall, is_noise, is_several) = (None, None, None, false, false);
+        let (moments, over, fall, is_several) = (None, None, None, false);
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set,
@@ -125,7 +125,6 @@ impl<T: Real> Quadrature<T> for Panels {
             moments,
             over,
             fall,
-            is_noise,
             several,
             is_several,
         }))
@@ -155,8 +154,6 @@ struct PanelIntegrator<T> {
     over: Option<Series<T>>,
     /// Of a first estimate: by how much two more coefficients are smaller, and the half-width covered.
     fall: Option<[T; 2]>,
-    /// Whether the samples have been taken anew, and have left hardly less open for that: the noise of the formulas.
-    is_noise: bool,
     /// Several contacts at once, and whether they are what was last turned to.
     several: Several<T>,
     is_several: bool,
@@ -185,14 +182,17 @@ pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Severa
 
 impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
+        self.panel_set.own_up_alone();
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
         self.moments = Some((on, m));
         m
     }
 
-    /// Whether the panels leave more of the integrals open than they may.
+    /// Whether the panels leave more of the integrals open than they may, and than the rounding of the bodies' slopes,
+    /// which other samples do not lower.
     fn is_poor(&self, m: &Moments<T>) -> bool {
-        m.error > T::of(4.0) * self.panel_set.tolerance * m.l1_norm
+        let PanelSet { tolerance, least, .. } = self.panel_set;
+        m.error > T::of(4.0) * (tolerance * m.l1_norm).max(T::epsilon() * least)
     }
 
     /// The edge integrals from panels on that interval and no more.
@@ -218,7 +218,7 @@ impl<T: Real> PanelIntegrator<T> {
             expected *= fall;
             // Coefficients may fall more slowly than the first of them.
             let left = expected * T::of(20.0) * fall;
-            if n > LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
+            if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
@@ -242,7 +242,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             self.panel_set.initial = self.expected_size(on);
         }
         self.panel_set.coarse = coarse;
-        (self.moments, self.is_noise) = (None, false);
+        self.moments = None;
         self.panel_set.clear(true);
         self.panel_set.extend(gap, on)?;
         self.fall = coarse.then(|| {
@@ -285,13 +285,10 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         let m = self.remember(on);
         // What is good enough for a wide span may be nothing to a narrow one in its middle.
         let reach = self.panel_set.interval().map_or(T::zero(), |have| have.half_width());
-        let narrow = on.half_width() / reach;
-        if self.is_noise || !self.is_poor(&m) || narrow >= T::of(0.8) {
-            return Ok(m);
+        if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
+            return self.sample_anew(gap, on);
         }
-        let anew = self.sample_anew(gap, on)?;
-        self.is_noise = anew.error > narrow.sqrt() * m.error;
-        Ok(anew)
+        Ok(m)
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
@@ -385,7 +382,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 
     fn clear_samples(&mut self) {
         self.panel_set.clear(true);
-        (self.fall, self.moments, self.is_noise) = (None, None, false);
+        (self.fall, self.moments) = (None, None);
         self.panel_set.initial = LEAST;
     }
 
@@ -396,7 +393,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.is_several = false;
         if !same_bodies {
             self.panel_set.clear(false);
-            (self.fall, self.moments, self.is_noise) = (None, None, false);
+            (self.fall, self.moments) = (None, None);
         }
     }
 }

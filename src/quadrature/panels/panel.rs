@@ -172,15 +172,9 @@ pub(super) enum Resolution<T> {
 
 /// Looks at the larger one of each two coefficients, since a series may be odd or even.
 ///
-/// Errors up to `allowed` are good enough, `is_loose` if more of them would be without a tolerance. `rounded` is
-/// what a unit of rounding makes of the bodies' slopes on this panel.
-pub(super) fn judge<T: Real>(
-    n: usize,
-    series: &Row<T>,
-    allowed: T,
-    is_loose: bool,
-    rounded: T,
-) -> Resolution<T> {
+/// Errors up to `allowed` are good enough. `rounded` is what a unit of rounding makes of the bodies'
+/// slopes on this panel.
+pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Resolution<T> {
     let pairs = n / 2;
     let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
@@ -205,9 +199,7 @@ pub(super) fn judge<T: Real>(
         last * T::count(n)
     };
     if error <= allowed {
-        // Nor do they fall on for ever as they have: what is smooth may stand before a root.
-        let seen = if is_loose { T::of(0.25) * last } else { rounded };
-        return Resolution::Good(error.max(rounded).max(seen));
+        return Resolution::Good(error.max(rounded));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
     // one third of them to the next.

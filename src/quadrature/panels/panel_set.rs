@@ -60,6 +60,8 @@ pub(crate) struct PanelSet<T> {
     traces: [SampleCache<T>; 2],
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
+    /// The least sum of the slopes of both bodies at any node.
+    pub least: T,
     /// Nodes to start a panel with.
     pub initial: usize,
     /// No more than a first estimate is wanted: four nodes, whatever they say.
@@ -87,6 +89,7 @@ impl<T: Real> PanelSet<T> {
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
             size: T::zero(),
+            least: T::one() / T::zero(),
             initial: LEAST,
             coarse: false,
             tolerance,
@@ -103,7 +106,7 @@ impl<T: Real> PanelSet<T> {
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
         self.is_cut_up = false;
-        self.size = T::zero();
+        (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
         if !same_bodies {
             self.traces.iter_mut().for_each(SampleCache::clear);

@@ -60,8 +60,7 @@ impl<T: Real> PanelSet<T> {
             // Next to a singularity the slope may be large, or noisy, beyond all that counts
             // elsewhere.
             let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
-            let verdict = judge(n, &panel.series, allowed, is_loose, T::epsilon() * bodies);
+            let verdict = judge(n, &panel.series, allowed, T::epsilon() * bodies);
             let (tail, next, split) = match verdict {
                 // The first sign of a tip looks like noise.
                 Resolution::Good(tail) | Resolution::Noise(tail)
@@ -73,11 +72,7 @@ impl<T: Real> PanelSet<T> {
                     let more = SIZES.into_iter().find(|&more| more > n);
                     (tail.max(off), more, true)
                 }
-                // What only a loose tolerance lets pass is an error, and so is a kink beside a limit.
-                Resolution::Good(tail) => {
-                    let missed = if at_limit > T::of(64.0) * tail { at_limit } else { tail };
-                    (tail.max(off).max(missed), None, false)
-                }
+                Resolution::Good(tail) => (tail.max(off), None, false),
                 Resolution::Noise(size) => {
                     panel.drop_noise(size);
                     (size, None, false)
@@ -129,11 +124,28 @@ impl<T: Real> PanelSet<T> {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
+    /// Owns up to what panels leave open that are good enough: they may miss the slope at a given limit; and where a
+    /// tolerance lets them pass the last coefficients may not fall on as they have, as of a root that comes after what
+    /// is smooth. (Not before neighbours have been compared, which a doubt would let pass.)
+    pub fn own_up_alone(&mut self) {
+        let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
+        for i in 0..self.panels.len() {
+            let at_limit = self.missed_at_limits(&self.panels[i]);
+            let panel = &mut self.panels[i];
+            if at_limit > T::of(64.0) * panel.tail {
+                panel.tail = at_limit;
+            }
+            if let ([.., before, last], true) = (&panel.series[..panel.n], is_loose) {
+                panel.tail = panel.tail.max(T::of(0.25) * before.abs().max(last.abs()));
+            }
+        }
+    }
+
     /// By how much it misses the slope at a limit that is given.
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
-            Some((panel.value(held.x) - held.slope).abs())
+            Some((panel.value(held.x) - self.tilt - held.slope).abs())
         };
         self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
@@ -153,7 +165,7 @@ impl<T: Real> PanelSet<T> {
             let size = largest.max(seen.slope);
             let allowed = (self.tolerance * size).max(seen.noise);
             let series = panel.series.map(|a| a.component(i + 1));
-            match judge(panel.n, &series, allowed, false, T::epsilon() * seen.bodies) {
+            match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
                 Resolution::Good(_) if seen.off > allowed => {
                     next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
                 }
@@ -195,6 +207,8 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        let sums = lower.iter().zip(&upper).map(|(lower, upper)| lower.abs() + upper.abs());
+        self.least = sums.fold(self.least, T::min);
         for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
             kept[..N].copy_from_slice(slopes);
         }
