@@ -272,8 +272,8 @@ impl<T: Real> CoarseHeights<T> {
         if height <= least + rounding(height, least) { middle } else { from }
     }
 
-    /// Of one that bulges the chord from sample to sample is no less steep than the gap where it starts, nor steeper
-    /// than where it ends: what the slopes of waves longer than their distance might hide, the heights tell.
+    /// Tells whether the slopes rise from sample to sample, and the chord between two is as steep as something between
+    /// both: the slopes of a wave as long as the samples are apart rise as those of no wave, its heights do not.
     fn find_bulging(nodes: &[GapNode<T>]) -> bool {
         let chords = nodes.windows(2).map(|pair| {
             let [from, to] = [&pair[0], &pair[1]];
