@@ -31,6 +31,7 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
+use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, compare};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
@@ -137,7 +138,7 @@ impl<T: Real> Quadrature<T> for Panels {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(ContactError::InvalidTolerance { tolerance: T::of(self.tolerance) });
         }
-        let tolerance = T::of(self.tolerance).max(T::of(16.0) * T::epsilon());
+        let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
         let (moments, over, fall, is_several) = (None, None, None, false);
@@ -205,14 +206,17 @@ pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Severa
 
 impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
+        self.panel_set.own_up_alone();
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
         self.moments = Some((on, m));
         m
     }
 
-    /// Whether the panels leave more of the integrals open than they may.
+    /// Whether the panels leave more of the integrals open than they may, and than the rounding of the bodies' slopes,
+    /// which other samples do not lower.
     fn is_poor(&self, m: &Moments<T>) -> bool {
-        m.error > T::of(4.0) * self.panel_set.tolerance * m.l1_norm
+        let PanelSet { tolerance, least, .. } = self.panel_set;
+        m.error > T::of(4.0) * (tolerance * m.l1_norm).max(T::epsilon() * least)
     }
 
     /// The edge integrals from panels on that interval and no more.
@@ -230,20 +234,19 @@ impl<T: Real> PanelIntegrator<T> {
 
     /// The number of nodes that should do, by how the coefficients of the first estimate fall.
     fn expected_size(&self, on: Interval<T>) -> usize {
-        let Some([fall, half_width]) = self.fall else { return 8 };
+        let Some([fall, half_width]) = self.fall else { return LEAST };
         let shrunk = on.half_width() / half_width;
         let fall = fall * shrunk * shrunk;
         let mut expected = T::one();
         for n in (2..=MOST).step_by(2) {
             expected *= fall;
-            // Coefficients may fall more slowly than the first of them. Four do not show the noise.
-            let left = expected * if n < 8 { T::of(20.0) } else { T::of(20.0) * fall };
-            let enough = n >= 8 || self.panel_set.tolerance >= T::of(400.0) * T::epsilon();
-            if enough && SIZES.contains(&n) && left <= self.panel_set.tolerance {
+            // Coefficients may fall more slowly than the first of them.
+            let left = expected * T::of(20.0) * fall;
+            if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
-        8
+        LEAST
     }
 }
 
@@ -404,7 +407,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     fn clear_samples(&mut self) {
         self.panel_set.clear(true);
         (self.fall, self.moments) = (None, None);
-        self.panel_set.initial = 8;
+        self.panel_set.initial = LEAST;
     }
 
     fn reset(&mut self, same_bodies: bool) {

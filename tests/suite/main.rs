@@ -74,5 +74,6 @@ mod starts;
 mod stress;
 mod tilt;
 mod undeclared;
+mod unseen;
 mod what_is_checked;
 mod wrong_answers;

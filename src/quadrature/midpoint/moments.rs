@@ -75,10 +75,8 @@ pub(super) fn moments<T: Real>(
         }
     }
     let [mean, first, size] = [0, 1, 2].map(|i| total(&panels, |panel| panel.sums[i]));
-    // Where even the finest rule has changed much, at a kink, what the coefficients leave adds up.
-    let left_open = |panel: &Segment<T>| {
-        panel.plateau() * T::of(if panel.change > small * size { 4.0 } else { 1.0 })
-    };
+    // At a kink what the coefficients leave adds up, however little the last rule has changed.
+    let left_open = |panel: &Segment<T>| panel.plateau() * T::of(4.0);
     let error = total(&panels, left_open).max(T::of(4.0) * T::epsilon() * size);
     Ok(Moments {
         m0: mean,

@@ -187,7 +187,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         levels = fall > T::of(10.0) * fell;
         fall = fall.max(fell);
     }
-    if last <= T::of(8.0) * rounded && pairs >= 4 {
+    if last <= T::of(8.0) * rounded {
         return Resolution::Good(last.max(rounded));
     }
     let error = if levels {
@@ -198,13 +198,8 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         // They may fall like a power only: the rest adds up.
         last * T::count(n)
     };
-    // Four coefficients are little to go by, and do not show the noise.
-    let doubt = T::of(if pairs < 4 { 10.0 } else { 1.0 });
-    let enough = pairs >= 4 || allowed >= T::of(400.0) * rounded;
-    if error * doubt <= allowed && enough {
-        // Nor do they fall on for ever as they have: a large constant may stand before a series.
-        let seen = if pairs < 4 { T::of(0.25) * last } else { rounded };
-        return Resolution::Good(error.max(rounded).max(seen));
+    if error <= allowed {
+        return Resolution::Good(error.max(rounded));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
     // one third of them to the next.
@@ -218,10 +213,9 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         return Resolution::Noise(plateau);
     }
     if faint && n < 24 {
-        return Resolution::Take(if n < 8 { 8 } else { 24 }, last);
+        return Resolution::Take(24, last);
     }
-    let mut expected = error * doubt;
-    let mut have = n;
+    let (mut expected, mut have) = (error, n);
     for more in SIZES.into_iter().filter(|&more| more > n) {
         while have < more {
             (expected, have) = (expected * fall, have + 2);

@@ -15,6 +15,13 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
 use sampling::SampledBody;
 
+/// The fewest nodes of a panel that is more than a first estimate: on a span a little wider than a contact the
+/// outermost of them lie beyond its limits, as of four they would not.
+pub(super) const LEAST: usize = 8;
+
+/// The least tolerance, in units in the last place.
+pub(super) const FINEST: f64 = 16.0;
+
 /// How often a span between two breakpoints may be split.
 const MOST_SPLITS: usize = 4096;
 
@@ -61,6 +68,8 @@ pub(crate) struct PanelSet<T> {
     has_measured: bool,
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
+    /// The least sum of the slopes of both bodies at any node.
+    pub least: T,
     /// Nodes to start a panel with.
     pub initial: usize,
     /// No more than a first estimate is wanted: four nodes, whatever they say.
@@ -90,7 +99,8 @@ impl<T: Real> PanelSet<T> {
             noise: None,
             has_measured: false,
             size: T::zero(),
-            initial: 8,
+            least: T::one() / T::zero(),
+            initial: LEAST,
             coarse: false,
             tolerance,
             cost: Cost::default(),
@@ -106,7 +116,7 @@ impl<T: Real> PanelSet<T> {
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
         self.is_cut_up = false;
-        self.size = T::zero();
+        (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
         if !same_bodies {
             self.traces.iter_mut().for_each(SampleCache::clear);
@@ -222,7 +232,7 @@ impl<T: Real> PanelSet<T> {
             let right = right.min(half * on.right.max(have.right) + half * range[1]);
             return self.sample_anew(gap, Interval { left, right });
         }
-        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(8);
+        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(LEAST);
         // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
         // breakpoint is between them.
         if on.right > have.right {
@@ -246,14 +256,14 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Covers an interval and nothing else, with eight nodes or more between two breakpoints.
+    /// Covers an interval and nothing else, with [`LEAST`] nodes or more between two breakpoints.
     pub fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<(), ContactError<T>> {
         self.clear(true);
-        self.initial = 8;
+        self.initial = LEAST;
         self.extend(gap, on)
     }
 

@@ -1,7 +1,7 @@
 //! One panel: sampled, with as many nodes as it takes, and judged.
 
 use super::candidate::Candidate;
-use super::{EndProbe, PanelSet};
+use super::{EndProbe, FINEST, PanelSet};
 use crate::gap::{CurveSample, Gap, Noise, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
@@ -75,8 +75,7 @@ impl<T: Real> PanelSet<T> {
                     let more = SIZES.into_iter().find(|&more| more > n);
                     (tail.max(off), more, true)
                 }
-                // What only a loose tolerance lets pass is an error.
-                Resolution::Good(tail) => (tail.max(off).max(at_limit), None, false),
+                Resolution::Good(tail) => (tail.max(off), None, false),
                 Resolution::Noise(size) => {
                     panel.drop_noise(size);
                     (size, None, false)
@@ -131,12 +130,28 @@ impl<T: Real> PanelSet<T> {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
-    /// By how much it misses the slope at a limit that is given, if that is more than rounding.
+    /// Owns up to what panels leave open that are good enough: they may miss the slope at a given limit; and where a
+    /// tolerance lets them pass the last coefficients may not fall on as they have, as of a root that comes after what
+    /// is smooth. (Not before neighbours have been compared, which a doubt would let pass.)
+    pub fn own_up_alone(&mut self) {
+        let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
+        for i in 0..self.panels.len() {
+            let at_limit = self.missed_at_limits(&self.panels[i]);
+            let panel = &mut self.panels[i];
+            if at_limit > T::of(64.0) * panel.tail {
+                panel.tail = at_limit;
+            }
+            if let ([.., before, last], true) = (&panel.series[..panel.n], is_loose) {
+                panel.tail = panel.tail.max(T::of(0.25) * before.abs().max(last.abs()));
+            }
+        }
+    }
+
+    /// By how much it misses the slope at a limit that is given.
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
-        let rounding = T::epsilon().sqrt() * self.size;
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
-            Some((panel.value(held.x) - held.slope).abs()).filter(|&missed| missed > rounding)
+            Some((panel.value(held.x) - self.tilt - held.slope).abs())
         };
         self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
@@ -200,6 +215,8 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
+        let sums = lower.iter().zip(&upper).map(|(lower, upper)| lower.abs() + upper.abs());
+        self.least = sums.fold(self.least, T::min);
         for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
             kept[..N].copy_from_slice(slopes);
         }

@@ -1,6 +1,6 @@
 //! Whether two neighbouring panels meet: what lies between the last nodes of either shows there only.
 
-use super::PanelSet;
+use super::{FINEST, PanelSet};
 use crate::Real;
 use crate::numerics::chebyshev::value_at;
 use crate::quadrature::panels::panel::Panel;
@@ -14,7 +14,7 @@ impl<T: Real> PanelSet<T> {
     /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
     /// either: something lies between their last nodes.
     pub(super) fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
-        let finest = T::of(16.0) * T::epsilon() / self.tolerance;
+        let finest = T::of(FINEST) * T::epsilon() / self.tolerance;
         let missed = missed(left, right);
         let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
         if missed > least && missed <= most {
