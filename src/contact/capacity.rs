@@ -19,7 +19,7 @@ const LEFT_OUT: [f64; 4] = [0.0, 4.0, 4e3, 4e6];
 
 /// The error, as a share, to which contacts are sampled until the largest is between two of them: the whole of the
 /// bodies may be hard to sample, and all that counts is which way it would move.
-const ROUGH: f64 = 1e-2;
+const ROUGH: f64 = 3e-2;
 
 /// The share of its load by which a contact that was sampled so must be out of balance.
 const SURE: f64 = 0.1;
