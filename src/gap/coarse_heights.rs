@@ -331,29 +331,29 @@ impl<T: Real> CoarseHeights<T> {
         if height <= least + rounding(height, least) { middle } else { from }
     }
 
-    /// Tells whether the slopes rise from sample to sample, and the chord between two is as steep as something between
-    /// both: the slopes of a wave as long as the samples are apart rise as those of no wave, its heights do not.
+    /// Tells whether the slopes rise from sample to sample, and the chord between two is no less steep than the one
+    /// and no steeper than the other: the slopes of a wave as long as the samples are apart rise as those of no wave,
+    /// its heights do not.
     fn find_bulging(nodes: &[GapNode<T>]) -> bool {
-        let chords = nodes.windows(2).map(|pair| {
-            let [from, to] = [&pair[0], &pair[1]];
-            ((to.height - from.height) / (to.x - from.x), from.doubt.max(to.doubt))
-        });
-        let chords = chords.map(Some).chain([None]);
         let mut before: Option<(T, T)> = None;
-        for (node, chord) in nodes.iter().zip(chords) {
-            let own = node.slopes.map(|slope| (slope, node.doubt));
-            for (slope, doubt) in own.into_iter().chain(chord) {
-                let rises = |(last, other): (T, T)| slope >= last - doubt - other;
-                if !before.is_none_or(rises) {
-                    return false;
-                }
-                before = Some(match before {
-                    Some((last, other)) if last > slope => (last, other),
-                    _ => (slope, doubt),
-                });
+        for (slope, doubt) in
+            nodes.iter().flat_map(|node| [0, 1].map(|i| (node.slopes[i], node.doubt)))
+        {
+            let rises = |(last, other): (T, T)| slope >= last - doubt - other;
+            if !before.is_none_or(rises) {
+                return false;
             }
+            before = Some(match before {
+                Some((last, other)) if last > slope => (last, other),
+                _ => (slope, doubt),
+            });
         }
-        true
+        nodes.windows(2).all(|pair| {
+            let [from, to] = [&pair[0], &pair[1]];
+            let (rise, width) = (to.height - from.height, to.x - from.x);
+            let doubt = from.doubt + to.doubt;
+            rise >= (from.slopes[1] - doubt) * width && rise <= (to.slopes[0] + doubt) * width
+        })
     }
 
     /// The gap where either body was sampled, in the range of both and with its ends.

@@ -29,6 +29,8 @@ pub(super) struct SampledBody<T> {
     slope: T,
     /// The largest sum of the slopes of the two bodies.
     bodies: T,
+    /// The least of these sums.
+    least: T,
     /// What the rounding of x, or the noise of X, makes of the slope where the bodies bend sharply.
     noise: T,
     /// What the noise of X alone makes of it, where it was measured.
@@ -53,7 +55,7 @@ impl<T: Real> PanelSet<T> {
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
+            let SampledBody { slope, bodies, noise, measured, off, missed, .. } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -135,6 +137,9 @@ impl<T: Real> PanelSet<T> {
     /// is smooth. (Not before neighbours have been compared, which a doubt would let pass.)
     pub fn own_up_alone(&mut self) {
         let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
+        if !is_loose && self.held.into_iter().all(|held| held.is_none()) {
+            return;
+        }
         for i in 0..self.panels.len() {
             let at_limit = self.missed_at_limits(&self.panels[i]);
             let panel = &mut self.panels[i];
@@ -215,8 +220,7 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-        let sums = lower.iter().zip(&upper).map(|(lower, upper)| lower.abs() + upper.abs());
-        self.least = sums.fold(self.least, T::min);
+        self.least = self.least.min(seen.least);
         for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
             kept[..N].copy_from_slice(slopes);
         }
@@ -284,17 +288,13 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let mut seen = SampledBody {
-            slope: zero,
-            bodies: zero,
-            noise: zero,
-            measured: zero,
-            off,
-            missed: zero,
-        };
+        let least = upper[0].abs() + lower[0].abs();
+        let (slope, bodies, noise, measured, missed) = (zero, zero, zero, zero, zero);
+        let mut seen = SampledBody { slope, bodies, least, noise, measured, off, missed };
         for i in 0..N {
+            let sum = upper[i].abs() + lower[i].abs();
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
-            seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
+            (seen.bodies, seen.least) = (seen.bodies.max(sum), seen.least.min(sum));
         }
         let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
