@@ -68,7 +68,8 @@ pub(crate) struct PanelSet<T> {
     has_measured: bool,
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
-    /// The least sum of the slopes of both bodies at any node.
+    /// The least sum of the slopes of both bodies at any node, where all panels show them much steeper than the gap;
+    /// or zero.
     pub least: T,
     /// Nodes to start a panel with.
     pub initial: usize,

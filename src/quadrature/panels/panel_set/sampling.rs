@@ -22,6 +22,9 @@ const LEVELS_OF_A_STEP: usize = 12;
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
 
+/// How many times as steep as the gap bodies are whose slopes leave more rounding than the tolerance.
+const STEEP: f64 = 4.0;
+
 /// What a panel has met, in one part of its numbers.
 #[derive(Clone, Copy)]
 pub(super) struct SampledBody<T> {
@@ -29,8 +32,6 @@ pub(super) struct SampledBody<T> {
     slope: T,
     /// The largest sum of the slopes of the two bodies.
     bodies: T,
-    /// The least of these sums.
-    least: T,
     /// What the rounding of x, or the noise of X, makes of the slope where the bodies bend sharply.
     noise: T,
     /// What the noise of X alone makes of it, where it was measured.
@@ -55,7 +56,7 @@ impl<T: Real> PanelSet<T> {
         gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, measured, off, missed, .. } = seen;
+            let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
             if level == 0 {
                 self.size = self.size.max(slope);
             }
@@ -220,7 +221,10 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-        self.least = self.least.min(seen.least);
+        // Unless the bodies are much steeper than the gap their rounding is nothing beside the tolerance.
+        let steep = seen.bodies > T::of(STEEP) * seen.slope;
+        let sums = (0..if steep { N } else { 0 }).map(|i| upper[i].abs() + lower[i].abs());
+        self.least = sums.reduce(T::min).map_or(zero, |least| least.min(self.least));
         for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {
             kept[..N].copy_from_slice(slopes);
         }
@@ -288,13 +292,11 @@ impl<T: Real> PanelSet<T> {
         let off = [(lower, 0), (upper, 1)]
             .map(|(slopes, i)| left_open(nodes, &self.traces[i], reach, slopes, self.coarse));
         let off = off[0].max(off[1]);
-        let least = upper[0].abs() + lower[0].abs();
         let (slope, bodies, noise, measured, missed) = (zero, zero, zero, zero, zero);
-        let mut seen = SampledBody { slope, bodies, least, noise, measured, off, missed };
+        let mut seen = SampledBody { slope, bodies, noise, measured, off, missed };
         for i in 0..N {
-            let sum = upper[i].abs() + lower[i].abs();
             seen.slope = seen.slope.max((upper[i] - lower[i]).abs());
-            (seen.bodies, seen.least) = (seen.bodies.max(sum), seen.least.min(sum));
+            seen.bodies = seen.bodies.max(upper[i].abs() + lower[i].abs());
         }
         let bend = |slopes: &[T; N]| (slopes[N - 1] - slopes[0]).abs();
         let rounded = T::epsilon() * x[0].abs().max(x[1].abs());
