@@ -545,8 +545,8 @@ impl<T: Real> ActiveSet<T> {
             }
             forces
         };
-        // What is missed loses the level and the slope with which it makes up no forces: beside them the rest
-        // would be no more than rounding (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001, 1376).
+        // A level and a slope in what is missed make up no forces, but beside them the rest would be
+        // lost in rounding (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001, 1376).
         let balanced = |missed: &mut [T]| {
             let forces = made_up(missed);
             let [level, slope] = multiples(products, [sum(&forces), dot(&forces, arms)]);

@@ -217,7 +217,8 @@ fn contacts_in_single_precision_that_fail_as_yet() {
     assert_eq!(check(|name| FAILING.contains(&name)), FAILING.len());
 }
 
-/// Points of `x²/2` on [-1, 1], as rough as ground steel: each height is off by 0.9 of the one before, and some noise.
+/// Points of `x²/2` on [-1, 1], rough: each height is off by 0.9 of what the one before is, and some
+/// noise.
 fn rough_points(dice: &mut Shares) -> Vec<[f32; 2]> {
     let count = dice.between(400.0, 800.0) as u32;
     let amplitude = 1e-4 * dice.between(1.0, 9.0);
@@ -247,8 +248,8 @@ fn press<T: Real>(
     Ok((contacts.len(), places.iter().map(at).collect::<Result<_, ContactError<T>>>()?))
 }
 
-/// As in double precision, but for contacts that bear next to nothing, and the root with which a pressure ends at a
-/// limit that is off by rounding. Of many contacts the active set takes conjugate gradients.
+/// As in double precision, but for contacts that bear next to nothing. Of many contacts the active
+/// set takes conjugate gradients.
 #[test]
 fn rough_bodies_in_single_precision() {
     let mut dice = Shares(5);
@@ -272,12 +273,12 @@ fn rough_bodies_in_single_precision() {
                 continue;
             }
         };
-        let peak = due.iter().copied().fold(0.0, f64::max);
-        let off = got.iter().zip(&due).map(|(&got, due)| (f64::from(got) - due).abs() / peak);
-        worst = off.fold(worst, f64::nan_max);
-        assert!(worst < 1e-2, "{scene}: a pressure is off by {worst:e} of the peak");
+        let off = got.iter().zip(&due).map(|(&got, due)| (f64::from(got) - due).abs());
+        let share = off.sum::<f64>() / due.iter().sum::<f64>();
+        worst = f64::nan_max(worst, share);
+        assert!(worst < 1e-3, "{scene}: {worst:e} of the load acts elsewhere");
     }
-    println!("up to {most} contacts; pressures off by up to {worst:e}");
+    println!("up to {most} contacts, up to {worst:e} of the load elsewhere");
     assert!(most >= 40, "{most}");
     assert_eq!(refused, [""; 0]);
 }
