@@ -33,7 +33,7 @@
 //! let body = read(r#"{"radius": 2.0, "domain": [-1.0, 1.0]}"#)?;
 //! assert_eq!(body, Parabola::new(2.0, [-1.0, 1.0])?);
 //! let refused = read(r#"{"radius": 0.0, "domain": [-1.0, 1.0]}"#).unwrap_err();
-//! assert_eq!(refused.to_string(), "the radius is 0.0: it must be finite and not zero");
+//! assert_eq!(refused.to_string(), "the radius is 0: it must be finite and not zero");
 //! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

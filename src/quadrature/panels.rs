@@ -308,8 +308,8 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.extend(gap, sampled)?;
         let m = self.remember(on);
         // What is good enough for a wide span may be nothing to a narrow one in its middle.
-        let reach = self.panel_set.interval().map_or(T::zero(), |have| have.half_width());
-        if self.is_poor(&m) && reach > T::of(1.25) * on.half_width() {
+        let is_wide = |have: Interval<T>| have.half_width() > T::of(1.25) * on.half_width();
+        if self.is_poor(&m) && self.panel_set.interval().is_some_and(is_wide) {
             return self.sample_anew(gap, on);
         }
         Ok(m)
