@@ -539,29 +539,25 @@ impl<T: Real> ActiveSet<T> {
         };
         let [even, leaning] = [made_up(&vec![T::one(); on.len()]), made_up(arms)];
         let products = [sum(&even), dot(&even, arms), dot(&leaning, arms)];
-        let without = |mut forces: Vec<T>, [level, slope]: [T; 2]| {
+        let without = |mut forces: Vec<T>, excess: [T; 2]| {
+            let [level, slope] = multiples(products, excess);
             for (force, (&even, &leaning)) in forces.iter_mut().zip(even.iter().zip(&leaning)) {
                 *force -= level * even + slope * leaning;
             }
             forces
         };
-        // A level and a slope in what is missed make up no forces, but beside them the rest would be
-        // lost in rounding (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001, 1376).
-        let balanced = |missed: &mut [T]| {
+        let balanced = |missed: &[T]| {
             let forces = made_up(missed);
-            let [level, slope] = multiples(products, [sum(&forces), dot(&forces, arms)]);
-            for (missed, &arm) in missed.iter_mut().zip(arms) {
-                *missed -= level + slope * arm;
-            }
-            without(forces, [level, slope])
+            let excess = [sum(&forces), dot(&forces, arms)];
+            without(forces, excess)
         };
         let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
         let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
-        let mut forces = without(forces, multiples(products, excess));
+        let mut forces = without(forces, excess);
         let sunk = times(&forces);
         let mut missed: Vec<_> =
             on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
-        let mut next = balanced(&mut missed);
+        let mut next = balanced(&missed);
         let (mut way, mut size) = (next.clone(), dot(&missed, &next));
         for _ in 0..MOST_STEPS {
             if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
@@ -576,7 +572,7 @@ impl<T: Real> ActiveSet<T> {
                 forces[i] += step * way[i];
                 missed[i] -= step * product[i];
             }
-            next = balanced(&mut missed);
+            next = balanced(&missed);
             let before = std::mem::replace(&mut size, dot(&missed, &next));
             for (way, &next) in way.iter_mut().zip(&next) {
                 *way = next + size / before * *way;
