@@ -17,10 +17,12 @@
 //! where the contact is not yet seen well: they grow in number with the logarithm of how small it is.
 //! The runs of loaded cells are the contacts.
 
+mod balance;
 mod potential;
 
 use crate::numerics::dot;
 use crate::{ContactError, Ends, Interval, Real};
+use balance::Balance;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use potential::{CellPlace, Potential};
 use std::cmp::Ordering::Equal;
@@ -296,7 +298,8 @@ impl<T: Real> ActiveSet<T> {
             let loaded = self.cells.iter().filter(|cell| cell.loaded);
             loaded.map(|cell| self.arm(cell.centre()))
         };
-        self.at.is_none() || arms().any(|arm| arm <= T::zero()) && arms().any(|arm| arm > T::zero())
+        let turns = self.at.is_some();
+        arms().any(|arm| arm <= T::zero()) && (!turns || arms().any(|arm| arm > T::zero()))
     }
 
     /// How far open the gap is in a cell.
@@ -524,41 +527,16 @@ impl<T: Real> ActiveSet<T> {
             on.iter().map(|&i| sunk[i]).collect()
         };
         let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
-        let alone: Vec<_> = runs.map(|run| (run.len(), self.factor(run))).collect();
-        let made_up = |missed: &[T]| {
-            let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
-            for (count, factor) in &alone {
-                let (run, others) = rest.split_at(*count);
-                match factor {
-                    Some(factor) => forces.extend(&factor.solve(&DVector::from_column_slice(run))),
-                    None => forces.extend(run),
-                }
-                rest = others;
-            }
-            forces
-        };
-        let [even, leaning] = [made_up(&vec![T::one(); on.len()]), made_up(arms)];
-        let products = [sum(&even), dot(&even, arms), dot(&leaning, arms)];
-        let without = |mut forces: Vec<T>, excess: [T; 2]| {
-            let [level, slope] = multiples(products, excess);
-            for (force, (&even, &leaning)) in forces.iter_mut().zip(even.iter().zip(&leaning)) {
-                *force -= level * even + slope * leaning;
-            }
-            forces
-        };
-        let balanced = |missed: &[T]| {
-            let forces = made_up(missed);
-            let excess = [sum(&forces), dot(&forces, arms)];
-            without(forces, excess)
-        };
+        let alone = runs.map(|run| (run.len(), self.factor(run))).collect();
+        let balance = Balance::new(arms, alone);
         let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
         let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
-        let mut forces = without(forces, excess);
+        let mut forces = balance.without(forces, excess);
         let sunk = times(&forces);
         let mut missed: Vec<_> =
             on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
-        let mut next = balanced(&missed);
-        let (mut way, mut size) = (next.clone(), dot(&missed, &next));
+        let (mut next, mut size) = balance.step(&mut missed);
+        let mut way = next.clone();
         for _ in 0..MOST_STEPS {
             if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
                 break;
@@ -572,8 +550,8 @@ impl<T: Real> ActiveSet<T> {
                 forces[i] += step * way[i];
                 missed[i] -= step * product[i];
             }
-            next = balanced(&missed);
-            let before = std::mem::replace(&mut size, dot(&missed, &next));
+            let before = size;
+            (next, size) = balance.step(&mut missed);
             for (way, &next) in way.iter_mut().zip(&next) {
                 *way = next + size / before * *way;
             }
