@@ -195,11 +195,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
             };
             let height = sampler.height(self.gap, x)?;
             let gap = height - at_edge - (total(x) - taken) / self.kappa;
-            // Where the formulas are all rounding, heights do not go with slopes, and tell nothing.
+            // Where the formulas are all rounding, heights do not go with the slopes on both sides, and tell
+            // nothing.
             let aside = T::epsilon().sqrt() * hull.half_width();
             let beside = self.gap.nearest(x + aside);
-            let rise = sampler.height(self.gap, beside)? - height;
-            let due = sampler.slope(self.gap, x)? * (beside - x);
+            let [high, slope] = sampler.height_and_slope(self.gap, beside)?;
+            let rise = high - height;
+            let due = T::of(0.5) * (sampler.slope(self.gap, x)? + slope) * (beside - x);
             let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
             let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
             let noise = T::of(8.0) * (rise - due).abs();
