@@ -79,6 +79,16 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
+    /// The slope where the height was taken last, without another look at the bodies; it may be NaN where they end.
+    pub(crate) fn slope_again(&self, gap: &Gap<'_, T>, x: T) -> T {
+        let [lower, upper] = self.near.map(|near| match near {
+            Some(Near { point, .. }) if (point.x - x).abs() <= self.missed => point.dy / point.dx,
+            // Level bodies are not looked at for their height.
+            _ => T::zero(),
+        });
+        upper - lower + gap.tilt()
+    }
+
     /// The height of the gap `Y₂ - Y₁` between the bodies at `x`, on both of them, before they are
     /// loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
@@ -87,66 +97,29 @@ impl<T: Real> Sampler<T> {
 
     /// The height before the bodies are turned.
     pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
-        let lower = self.body_height(gap, Body::Lower, x)?.0;
-        let upper = self.body_height(gap, Body::Upper, x)?.0;
-        self.highest = self.highest.max(lower.abs()).max(upper.abs());
-        Ok(upper - lower)
-    }
-
-    /// The height of the gap at `x`, and its slope there, by one look at each body.
-    pub(crate) fn height_and_slope(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: T,
-    ) -> Result<[T; 2], ContactError<T>> {
-        let [mut heights, mut slopes] = [[T::zero(); 2]; 2];
-        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
-            let (height, at) = self.body_height(gap, body, x)?;
-            heights[i] = height;
-            // A level body has no slope.
-            if let Some((piece, near)) = at {
-                slopes[i] = match piece.curve.slope_at(x) {
-                    Some(slope) => slope,
-                    None => self.slope_near(&piece, near),
-                };
+        let mut heights = [T::zero(); 2];
+        for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
+            let (index, piece) = gap.piece_with(body, x, Side::Left)?;
+            // A level body is as high everywhere.
+            if piece.curve.convexity() == Convexity::Straight
+                && piece.curve.slope_at(x) == Some(T::zero())
+            {
+                *height = piece.ends[0].y;
+                continue;
+            }
+            let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+            // What the inversion has left, and what it may have left at an end.
+            let missed = x - point.x;
+            *height =
+                point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
+            if !height.is_finite() {
+                let source = ProfileError::NotFinite { quantity: "Y", k, value: *height };
+                return Err(ContactError::Profile { body, source });
             }
         }
-        Ok([gap.turned(x, heights[1] - heights[0]), slopes[1] - slopes[0] + gap.tilt()])
-    }
-
-    /// The height of one of the bodies, and where that is, unless its piece is level.
-    fn body_height<'g>(
-        &mut self,
-        gap: &'g Gap<'_, T>,
-        body: Body,
-        x: T,
-    ) -> Result<(T, Option<(Piece<'g, T>, Near<T>)>), ContactError<T>> {
-        let (index, piece) = gap.piece_with(body, x, Side::Left)?;
-        // A level body is as high everywhere.
-        if piece.curve.convexity() == Convexity::Straight
-            && piece.curve.slope_at(x) == Some(T::zero())
-        {
-            return Ok((piece.ends[0].y, None));
-        }
-        let near = self.invert(gap, body, index, piece, x)?;
-        let Near { k, point, .. } = near;
-        // What the inversion has left, and what it may have left at an end.
-        let missed = x - point.x;
-        let height = point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
-        if height.is_finite() {
-            Ok((height, Some((piece, near))))
-        } else {
-            let source = ProfileError::NotFinite { quantity: "Y", k, value: height };
-            Err(ContactError::Profile { body, source })
-        }
-    }
-
-    /// The slope of a body where `X(k) = x` was solved.
-    fn slope_near(&mut self, piece: &Piece<'_, T>, Near { k, point, .. }: Near<T>) -> T {
-        match piece.k.iter().position(|&end| end == k) {
-            Some(end) => piece.end_slope(end, &mut self.cost.evaluations),
-            None => point.dy / point.dx,
-        }
+        let [lower, upper] = heights;
+        self.highest = self.highest.max(lower.abs()).max(upper.abs());
+        Ok(upper - lower)
     }
 
     /// The slope of one of the bodies.
@@ -166,9 +139,12 @@ impl<T: Real> Sampler<T> {
             // Such a body is given by x itself.
             return if slope.is_finite() { Ok(slope) } else { fault("slope_at(x)", x, slope) };
         }
-        let near = self.invert(gap, body, index, piece, x)?;
-        let slope = self.slope_near(&piece, near);
-        if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", near.k, slope) }
+        let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+        let slope = match piece.k.iter().position(|&end| end == k) {
+            Some(end) => piece.end_slope(end, &mut self.cost.evaluations),
+            None => point.dy / point.dx,
+        };
+        if slope.is_finite() { Ok(slope) } else { fault("the slope Y'/X'", k, slope) }
     }
 
     /// Solves `X(k) = x` on a piece.

@@ -199,9 +199,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
             // nothing.
             let aside = T::epsilon().sqrt() * hull.half_width();
             let beside = self.gap.nearest(x + aside);
-            let [high, slope] = sampler.height_and_slope(self.gap, beside)?;
-            let rise = high - height;
-            let due = T::of(0.5) * (sampler.slope(self.gap, x)? + slope) * (beside - x);
+            let rise = sampler.height(self.gap, beside)? - height;
+            let slopes = sampler.slope_again(self.gap, beside) + sampler.slope(self.gap, x)?;
+            let due = T::of(0.5) * slopes * (beside - x);
             let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
             let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
             let noise = T::of(8.0) * (rise - due).abs();
