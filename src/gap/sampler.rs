@@ -79,7 +79,7 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
-    /// The slope where the height was taken last, without another look at the bodies; it may be NaN where they end.
+    /// Repeats no look at the bodies for the slope where the height was taken last; NaN at a cusp.
     pub(crate) fn slope_again(&self, gap: &Gap<'_, T>, x: T) -> T {
         let [lower, upper] = self.near.map(|near| match near {
             Some(Near { point, .. }) if (point.x - x).abs() <= self.missed => point.dy / point.dx,

@@ -217,8 +217,8 @@ fn contacts_in_single_precision_that_fail_as_yet() {
     assert_eq!(check(|name| FAILING.contains(&name)), FAILING.len());
 }
 
-/// Points of `x²/2` on [-1, 1], rough: each height is off by 0.9 of what the one before is, and some
-/// noise.
+/// Points of `x²/2` on [-1, 1], rough: each height is off by 0.9 of what the one before is, and
+/// some noise.
 fn rough_points(dice: &mut Shares) -> Vec<[f32; 2]> {
     let count = dice.between(400.0, 800.0) as u32;
     let amplitude = 1e-4 * dice.between(1.0, 9.0);

@@ -1,4 +1,5 @@
-//! Forces that make up for what is missed of closed gaps, and add nothing to the load: what conjugate gradients go by.
+//! Forces that make up for what is missed of closed gaps, and add nothing to the load: what
+//! conjugate gradients go by.
 
 use super::{multiples, sum};
 use crate::Real;
@@ -58,10 +59,11 @@ impl<'a, T: Real> Balance<'a, T> {
         forces
     }
 
-    /// The forces that make up for what is missed, and their product with it.
+    /// Makes up for what is missed by forces that add nothing; those, and their product with it.
     ///
-    /// What is missed loses the level and the slope with which it makes up no forces before the rest is lost in
-    /// rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001, 1376).
+    /// What is missed loses the level and the slope with which it makes up no forces before the rest
+    /// is lost in rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001,
+    /// 1376).
     pub fn step(&self, missed: &mut [T]) -> (Vec<T>, T) {
         let forces = self.made_up(missed);
         let excess = [sum(&forces), dot(&forces, self.arms)];

@@ -195,8 +195,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             };
             let height = sampler.height(self.gap, x)?;
             let gap = height - at_edge - (total(x) - taken) / self.kappa;
-            // Where the formulas are all rounding, heights do not go with the slopes on both sides, and tell
-            // nothing.
+            // Where the formulas are all rounding, heights do not go with the slopes on both
+            // sides, and tell nothing.
             let aside = T::epsilon().sqrt() * hull.half_width();
             let beside = self.gap.nearest(x + aside);
             let rise = sampler.height(self.gap, beside)? - height;
