@@ -61,9 +61,9 @@ impl<'a, T: Real> Balance<'a, T> {
 
     /// Makes up for what is missed by forces that add nothing; those, and their product with it.
     ///
-    /// What is missed loses the level and the slope with which it makes up no forces before the rest
-    /// is lost in rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001,
-    /// 1376).
+    /// What is missed loses the level and the slope with which it makes up no forces before the
+    /// rest is lost in rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23,
+    /// 2001, 1376).
     pub fn step(&self, missed: &mut [T]) -> (Vec<T>, T) {
         let forces = self.made_up(missed);
         let excess = [sum(&forces), dot(&forces, self.arms)];
