@@ -15,7 +15,7 @@ mod sample_near;
 mod sampler;
 
 pub(crate) use coarse_heights::{CoarseHeights, LowPoint};
-pub(crate) use sample_near::{CurveSample, Noise, SampleCache, sample_near};
+pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};

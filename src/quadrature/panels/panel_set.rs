@@ -8,8 +8,9 @@ mod seams;
 pub(crate) use derivative_check::compare;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, Noise, SampleCache, Sampler};
+use crate::gap::{Cost, Gap, SampleCache, Sampler};
 use crate::numerics::chebyshev::{MOST, Row, size_for};
+use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};

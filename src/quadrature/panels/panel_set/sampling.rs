@@ -2,10 +2,11 @@
 
 use super::candidate::Candidate;
 use super::{EndProbe, FINEST, PanelSet};
-use crate::gap::{CurveSample, Gap, Noise, SampleCache, sample_near};
+use crate::gap::{CurveSample, Gap, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
+use crate::profile::Noise;
 use crate::{Body, ContactError, Interval, Real, Side};
 
 /// By how much of the distance to the nearest other node a point may miss its own, and for a first estimate.
@@ -267,7 +268,7 @@ impl<T: Real> PanelSet<T> {
             }
             let CurveSample { k, x, y, .. } = samples[samples.len() / 2];
             let (_, piece) = gap.piece_at(body, x, Side::Left);
-            let measured = Noise::near(&piece, k, &mut self.cost);
+            let measured = Noise::near(piece.curve, piece.k, k, &mut self.cost.evaluations);
             let beyond_rounding = |noise: T, value: T| {
                 let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
                 if is_more { noise } else { T::zero() }

@@ -1,11 +1,13 @@
 //! The noise of a curve: what the rounding of its formula leaves of it.
 
-use crate::gap::Cost;
-use crate::profile::Piece;
-use crate::{CurvePoint, Real};
+use crate::{CurvePoint, ParametricProfile, Real};
 
-/// Points by which the noise is measured.
+/// Points by which the noise over one way is measured.
 const POINTS: usize = 12;
+
+/// The ways over which it is measured, as powers of the rounding unit: a third difference over any of them is
+/// less than rounding. Over the shortest all values may be rounded alike, as those of a cosine at 0.
+const WAYS: [f64; 3] = [1.0 / 2.0, 5.0 / 12.0, 1.0 / 3.0];
 
 /// How far values of `X` and `Y` may be off, by about three standard deviations: lengths.
 #[derive(Clone, Copy)]
@@ -15,12 +17,31 @@ pub(crate) struct Noise<T> {
 }
 
 impl<T: Real> Noise<T> {
-    /// Measures the noise near a parameter of a piece, as the median of divided third differences. Of what is
-    /// smooth they are nothing over so short a way, and an undeclared kink is in three of them.
-    pub fn near(piece: &Piece<'_, T>, k: T, cost: &mut Cost) -> Self {
-        let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
-        // A second difference over this is less than rounding, too.
-        let width = T::epsilon().sqrt() * (to - from);
+    /// Measures the noise near a parameter of a curve that is smooth between two, as the largest over several short
+    /// ways.
+    pub fn near(
+        curve: &dyn ParametricProfile<T>,
+        ends: [T; 2],
+        k: T,
+        evaluations: &mut usize,
+    ) -> Self {
+        let nothing = Self { x: T::zero(), y: T::zero() };
+        WAYS.into_iter().fold(nothing, |noise, power| {
+            *evaluations += POINTS;
+            noise.max(Self::over(curve, ends, k, T::epsilon().powf(T::of(power))))
+        })
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Self) -> Self {
+        Self { x: self.x.max(other.x), y: self.y.max(other.y) }
+    }
+
+    /// Measures it over a share of the curve, as the median of divided third differences. Of what is smooth they are
+    /// nothing over so short a way, and an undeclared kink is in three of them.
+    fn over(curve: &dyn ParametricProfile<T>, [one, other]: [T; 2], k: T, share: T) -> Self {
+        let [from, to] = [one.min(other), one.max(other)];
+        let width = share * (to - from);
         let start = (k - T::of(0.5) * width).min(to - width).max(from);
         // Unevenly, as multiples of one step may all be rounded alike.
         let share = |i: usize| T::count(i) * T::count(i).sqrt();
@@ -28,8 +49,7 @@ impl<T: Real> Noise<T> {
             std::array::from_fn(|i| start + width * (share(i) / share(POINTS)));
         let zero = T::zero();
         let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; POINTS];
-        piece.curve.at_many(&places, &mut points);
-        cost.evaluations += POINTS;
+        curve.at_many(&places, &mut points);
         let size = |of: fn(&CurvePoint<T>) -> T| {
             let mut sizes: [T; POINTS - 3] = std::array::from_fn(|first| {
                 let (mut sum, mut weights) = (zero, zero);
