@@ -26,10 +26,14 @@ impl<T: Real> Noise<T> {
         evaluations: &mut usize,
     ) -> Self {
         let nothing = Self { x: T::zero(), y: T::zero() };
-        WAYS.into_iter().fold(nothing, |noise, power| {
-            *evaluations += POINTS;
-            noise.max(Self::over(curve, ends, k, T::epsilon().powf(T::of(power))))
-        })
+        *evaluations += WAYS.len() * POINTS;
+        let shares = WAYS.map(|power| T::epsilon().powf(T::of(power)));
+        shares.iter().fold(nothing, |noise, &share| noise.max(Self::over(curve, ends, k, share)))
+    }
+
+    /// How far the height at an x may be off where the curve has this slope, which may be infinite at an end.
+    pub fn of_height(self, slope: T) -> T {
+        if slope.is_finite() { self.y + self.x * slope.abs() } else { self.y }
     }
 
     /// The larger of each.

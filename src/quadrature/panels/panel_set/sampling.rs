@@ -23,6 +23,9 @@ const LEVELS_OF_A_STEP: usize = 12;
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
 
+/// How often the noise is measured.
+const MOST_MEASURED: usize = 4;
+
 /// How many times as steep as the gap bodies are whose slopes leave more rounding than the tolerance.
 const STEEP: f64 = 4.0;
 
@@ -108,7 +111,7 @@ impl<T: Real> PanelSet<T> {
             } else if !split {
                 // The heights tell of what is too narrow for the nodes.
                 let mut heights = self.check_heights(panel, bodies);
-                if heights.is_err() && self.measure_noise(gap) {
+                if heights.is_err() && self.measured < MOST_MEASURED && self.measure_noise(gap, &[0.0, 0.5, 1.0]) {
                     heights = self.check_heights(panel, bodies);
                 }
                 if heights.is_err() {
@@ -250,34 +253,36 @@ impl<T: Real> PanelSet<T> {
         let is_other = |(trace, body): (&SampleCache<T>, Body)| {
             trace.piece() != Some(gap.piece_at(body, middle, Side::Left).0)
         };
-        self.has_measured && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
+        self.measured > 0 && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
     }
 
     /// Measures the noise of both bodies where they were sampled last, once on a piece. Whether it is more than
     /// rounding.
-    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>) -> bool {
-        if std::mem::replace(&mut self.has_measured, true) {
-            return false;
-        }
-        let mut noise = [Noise { x: T::zero(), y: T::zero() }; 2];
+    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, places: &[f64]) -> bool {
+        self.measured += 1;
+        let nothing = Noise { x: T::zero(), y: T::zero() };
+        let mut noise = self.noise.unwrap_or([nothing; 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
             let samples = self.traces[i].curve_samples();
             if self.traces[i].direct || samples.is_empty() {
                 continue;
             }
-            let CurveSample { k, x, y, .. } = samples[samples.len() / 2];
-            let (_, piece) = gap.piece_at(body, x, Side::Left);
-            let measured = Noise::near(piece.curve, piece.k, k, &mut self.cost.evaluations);
-            let beyond_rounding = |noise: T, value: T| {
-                let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
-                if is_more { noise } else { T::zero() }
-            };
-            noise[i] =
-                Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
-            counts |= noise[i].x + noise[i].y > T::zero();
+            for place in places {
+                let CurveSample { k, x, y, .. } = samples[(place * (samples.len() - 1) as f64) as usize];
+                let (_, piece) = gap.piece_at(body, x, Side::Left);
+                let measured = Noise::near(piece.curve, piece.k, k, &mut self.cost.evaluations);
+                let beyond_rounding = |noise: T, value: T| {
+                    let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
+                    if is_more { noise } else { T::zero() }
+                };
+                let measured =
+                    Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
+                counts |= measured.x > noise[i].x || measured.y > noise[i].y;
+                noise[i] = noise[i].max(measured);
+            }
         }
-        self.noise = counts.then_some(noise);
+        if counts { self.noise = Some(noise) };
         counts
     }
 
