@@ -254,8 +254,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             let [from, to] = self.piece.x();
             let beyond = missed.abs() - T::of(5.0) * self.room[i];
             let rounding = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
-            let Piece { curve, k, .. } = self.piece;
-            let mut noise = || Noise::near(curve, k, found.k, &mut cost.evaluations).x;
+            let mut noise = || Noise::near(&self.piece, found.k, &mut cost.evaluations).x;
             if beyond > rounding && beyond > T::of(4.0) * noise() {
                 let source = SearchError::NotConverged { x: found.k, residual: missed };
                 return Err(ContactError::Inversion { body: self.body, x: target, source });

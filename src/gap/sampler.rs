@@ -117,7 +117,8 @@ impl<T: Real> Sampler<T> {
             if !is_level(piece, x) {
                 let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
                 let evaluations = &mut self.cost.evaluations;
-                sum += Noise::near(piece.curve, piece.k, k, evaluations).of_height(point.dy / point.dx);
+                let noise = Noise::of_rounding(&piece, k, evaluations);
+                sum += noise.of_height(point.dy / point.dx);
             }
         }
         Ok(sum)

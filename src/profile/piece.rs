@@ -132,7 +132,7 @@ impl<'a, T: Real> Piece<'a, T> {
         let (piece, points) = Self::scanned(curve)?;
         let [from, to] = curve.domain();
         for place in [0.2763, 0.7236] {
-            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
+            check_derivatives(&piece, &points, from + (to - from) * T::of(place))?;
         }
         Ok((piece, points))
     }
@@ -174,11 +174,11 @@ impl<'a, T: Real> Piece<'a, T> {
 
 /// Compares the derivatives at `k` with central differences.
 fn check_derivatives<T: Real>(
-    curve: &dyn ParametricProfile<T>,
+    piece: &Piece<'_, T>,
     points: &[CurvePoint<T>],
     k: T,
-    length: T,
 ) -> Result<(), ProfileError<T>> {
+    let (curve, length) = (piece.curve, (piece.k[1] - piece.k[0]).abs());
     let largest = |of: fn(&CurvePoint<T>) -> T| {
         points.iter().map(of).fold(T::zero(), |max, value| max.max(value.abs()))
     };
@@ -203,7 +203,7 @@ fn check_derivatives<T: Real>(
     // a wave or a kink is finer than that, a shorter one settles it.
     compared(rounding, 1.0).or_else(|_| compared(rounding, 1.0 / 32.0)).or_else(|_| {
         // Heights may be the rounding of larger terms.
-        let Noise { x, y } = Noise::near(curve, curve.domain(), k, &mut 0);
+        let Noise { x, y } = Noise::of_rounding(piece, k, &mut 0);
         compared([rounding[0].max(x), rounding[1].max(y)], 1.0)
     })
 }

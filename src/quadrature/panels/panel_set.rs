@@ -334,7 +334,7 @@ impl<T: Real> PanelSet<T> {
                 let is_stuck = |half: &Candidate<T>| {
                     half.split && half.panel.tail >= T::of(STUCK) * trial.panel.tail
                 };
-                if faint && is_stuck(&one) && is_stuck(&other) && self.measured == 0 && self.measure_noise(gap, &[0.5]) {
+                if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap, false) {
                     self.try_out(gap, &mut trial)?;
                     continue;
                 }

@@ -111,8 +111,10 @@ impl<T: Real> PanelSet<T> {
             } else if !split {
                 // The heights tell of what is too narrow for the nodes.
                 let mut heights = self.check_heights(panel, bodies);
-                if heights.is_err() && self.measured < MOST_MEASURED && self.measure_noise(gap, &[0.0, 0.5, 1.0]) {
-                    heights = self.check_heights(panel, bodies);
+                for by_rounding in [false, true] {
+                    if heights.is_err() && self.measure_noise(gap, by_rounding) {
+                        heights = self.check_heights(panel, bodies);
+                    }
                 }
                 if heights.is_err() {
                     // Beside a step in them any difference is large.
@@ -258,10 +260,14 @@ impl<T: Real> PanelSet<T> {
 
     /// Measures the noise of both bodies where they were sampled last, once on a piece. Whether it is more than
     /// rounding.
-    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, places: &[f64]) -> bool {
+    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, by_rounding: bool) -> bool {
+        if self.measured > if by_rounding { MOST_MEASURED } else { 0 } {
+            return false;
+        }
         self.measured += 1;
-        let nothing = Noise { x: T::zero(), y: T::zero() };
-        let mut noise = self.noise.unwrap_or([nothing; 2]);
+        let places = if by_rounding { &[0.0, 0.5, 1.0][..] } else { &[0.5][..] };
+        let measure = if by_rounding { Noise::of_rounding } else { Noise::near };
+        let mut noise = self.noise.unwrap_or([Noise::nothing(); 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
             let samples = self.traces[i].curve_samples();
@@ -271,7 +277,7 @@ impl<T: Real> PanelSet<T> {
             for place in places {
                 let CurveSample { k, x, y, .. } = samples[(place * (samples.len() - 1) as f64) as usize];
                 let (_, piece) = gap.piece_at(body, x, Side::Left);
-                let measured = Noise::near(piece.curve, piece.k, k, &mut self.cost.evaluations);
+                let measured = measure(&piece, k, &mut self.cost.evaluations);
                 let beyond_rounding = |noise: T, value: T| {
                     let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
                     if is_more { noise } else { T::zero() }
