@@ -76,8 +76,8 @@ impl<T: Real> Noise<T> {
                 T::of(8.0) * (sum / weights).abs()
             });
             sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
-            let median = sizes[sizes.len() / 2];
-            if median.is_finite() { median } else { zero }
+            let fourth = sizes[sizes.len() - 4];
+            if fourth.is_finite() { fourth } else { zero }
         };
         Self { x: size(|point| point.x), y: size(|point| point.y) }
     }
