@@ -3,13 +3,10 @@
 use super::{CurvePoint, Piece};
 use crate::Real;
 
-/// Points by which the noise over one way is measured.
-const POINTS: usize = 12;
-
-/// The ways over which it is measured, as powers of the rounding unit: a third difference over any of them is
-/// less than rounding. Over the shortest all values may be rounded alike, as those of a cosine at 0.
+/// The ways over which it is measured, as shares of a piece by powers of the rounding unit. Over the shortest all
+/// values may be rounded alike, as those of a cosine at 0.
 const SHORTEST: f64 = 1.0 / 2.0;
-const LONGER: [f64; 2] = [5.0 / 12.0, 1.0 / 3.0];
+const LONGER: [f64; 3] = [5.0 / 12.0, 1.0 / 3.0, 1.0 / 4.0];
 
 /// How far values of `X` and `Y` may be off, by about three standard deviations: lengths.
 #[derive(Clone, Copy, PartialEq)]
@@ -25,13 +22,13 @@ impl<T: Real> Noise<T> {
 
     /// Measures the noise near a parameter of a piece.
     pub fn near(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
-        Self::over(piece, k, SHORTEST, evaluations)
+        Self::over::<12>(piece, k, SHORTEST, 3, evaluations)
     }
 
     /// The same more thoroughly, as the largest over several ways. A curve that is another when it is asked again
     /// has none: that is a fault, and no rounding.
     pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
-        let mut over = |power| Self::over(piece, k, power, evaluations);
+        let mut over = |power| Self::over::<16>(piece, k, power, 5, evaluations);
         let [noise, again] = [over(SHORTEST), over(SHORTEST)];
         if noise != again {
             return Self::nothing();
@@ -49,9 +46,15 @@ impl<T: Real> Noise<T> {
         Self { x: self.x.max(other.x), y: self.y.max(other.y) }
     }
 
-    /// Measures it over a share of the curve, as the median of divided third differences. Of what is smooth they are
-    /// nothing over so short a way, and an undeclared kink is in three of them.
-    fn over(piece: &Piece<'_, T>, k: T, power: f64, evaluations: &mut usize) -> Self {
+    /// Measures it over a share of a piece by divided differences of an order: of what is smooth they are nothing over
+    /// so short a way. An undeclared kink, or a step, is in as many of them as their order says; the next counts.
+    fn over<const POINTS: usize>(
+        piece: &Piece<'_, T>,
+        k: T,
+        power: f64,
+        order: usize,
+        evaluations: &mut usize,
+    ) -> Self {
         let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
         let width = T::epsilon().powf(T::of(power)) * (to - from);
         let start = (k - T::of(0.5) * width).min(to - width).max(from);
@@ -64,20 +67,21 @@ impl<T: Real> Noise<T> {
         piece.curve.at_many(&places, &mut points);
         *evaluations += POINTS;
         let size = |of: fn(&CurvePoint<T>) -> T| {
-            let mut sizes: [T; POINTS - 3] = std::array::from_fn(|first| {
-                let (mut sum, mut weights) = (zero, zero);
-                for i in first..first + 4 {
-                    let others = (first..first + 4).filter(|&j| j != i);
-                    let product = others.fold(T::one(), |all, j| all * (share(i) - share(j)));
-                    sum += (of(&points[i]) - of(&points[first])).component(0) / product;
-                    weights += product.abs().recip();
+            let mut sizes = [zero; POINTS];
+            for (first, size) in sizes[order..].iter_mut().enumerate() {
+                let (mut sum, mut squares) = (zero, zero);
+                for i in first..=first + order {
+                    let others = (first..=first + order).filter(|&j| j != i);
+                    let weight = others.fold(T::one(), |all, j| all / (share(i) - share(j)));
+                    sum += (of(&points[i]) - of(&points[first])).component(0) * weight;
+                    squares += weight * weight;
                 }
-                // As of even steps, whose weights are 1, 3, 3 and 1.
-                T::of(8.0) * (sum / weights).abs()
-            });
+                // The median of sizes is two thirds of a standard deviation.
+                *size = T::of(4.5) * sum.abs() / squares.sqrt();
+            }
             sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
-            let fourth = sizes[sizes.len() - 4];
-            if fourth.is_finite() { fourth } else { zero }
+            let next = sizes[POINTS - 1 - order];
+            if next.is_finite() { next } else { zero }
         };
         Self { x: size(|point| point.x), y: size(|point| point.y) }
     }
