@@ -8,6 +8,11 @@ use crate::Real;
 const SHORTEST: f64 = 1.0 / 2.0;
 const LONGER: [f64; 3] = [5.0 / 12.0, 1.0 / 3.0, 1.0 / 4.0];
 
+/// The order of divided differences, and what makes about three standard deviations of their median, as a share of
+/// what they add up: of even steps third ones have the weights 1, 3, 3 and 1.
+const THIRD: (usize, f64) = (3, 8.0);
+const FIFTH: (usize, f64) = (5, 9.0);
+
 /// How far values of `X` and `Y` may be off, by about three standard deviations: lengths.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Noise<T> {
@@ -22,18 +27,21 @@ impl<T: Real> Noise<T> {
 
     /// Measures the noise near a parameter of a piece.
     pub fn near(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
-        Self::over::<12>(piece, k, SHORTEST, 3, evaluations)
+        Self::over::<12>(piece, k, SHORTEST, THIRD, evaluations)
     }
 
-    /// The same more thoroughly, as the largest over several ways. A curve that is another when it is asked again
-    /// has none: that is a fault, and no rounding.
+    /// Measures it more thoroughly, as the largest over several ways. A curve that is another when it is asked again
+    /// has none, nor one whose noise is no rounding beside its size: those are faults.
     pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
-        let mut over = |power| Self::over::<16>(piece, k, power, 5, evaluations);
+        let mut over = |power| Self::over::<16>(piece, k, power, FIFTH, evaluations);
         let [noise, again] = [over(SHORTEST), over(SHORTEST)];
         if noise != again {
             return Self::nothing();
         }
-        LONGER.into_iter().fold(noise, |noise, power| noise.max(over(power)))
+        let noise = LONGER.into_iter().fold(noise, |noise, power| noise.max(over(power)));
+        let sizes = piece.ends.iter().flat_map(|end| [end.x.abs(), end.y.abs()]);
+        let size = sizes.filter(|size| size.is_finite()).fold(T::zero(), T::max);
+        if noise.x.max(noise.y) > T::epsilon().cbrt() * size { Self::nothing() } else { noise }
     }
 
     /// How far the height at an x may be off where the curve has this slope, which may be infinite at an end.
@@ -46,13 +54,13 @@ impl<T: Real> Noise<T> {
         Self { x: self.x.max(other.x), y: self.y.max(other.y) }
     }
 
-    /// Measures it over a share of a piece by divided differences of an order: of what is smooth they are nothing over
-    /// so short a way. An undeclared kink, or a step, is in as many of them as their order says; the next counts.
+    /// Measures it over a share of a piece, as the median of divided differences. Of what is smooth they are nothing
+    /// over so short a way, and an undeclared kink, or a step, is in fewer than half of them.
     fn over<const POINTS: usize>(
         piece: &Piece<'_, T>,
         k: T,
         power: f64,
-        order: usize,
+        (order, scale): (usize, f64),
         evaluations: &mut usize,
     ) -> Self {
         let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
@@ -69,19 +77,18 @@ impl<T: Real> Noise<T> {
         let size = |of: fn(&CurvePoint<T>) -> T| {
             let mut sizes = [zero; POINTS];
             for (first, size) in sizes[order..].iter_mut().enumerate() {
-                let (mut sum, mut squares) = (zero, zero);
+                let (mut sum, mut weights) = (zero, zero);
                 for i in first..=first + order {
                     let others = (first..=first + order).filter(|&j| j != i);
-                    let weight = others.fold(T::one(), |all, j| all / (share(i) - share(j)));
-                    sum += (of(&points[i]) - of(&points[first])).component(0) * weight;
-                    squares += weight * weight;
+                    let product = others.fold(T::one(), |all, j| all * (share(i) - share(j)));
+                    sum += (of(&points[i]) - of(&points[first])).component(0) / product;
+                    weights += product.abs().recip();
                 }
-                // The median of sizes is two thirds of a standard deviation.
-                *size = T::of(4.5) * sum.abs() / squares.sqrt();
+                *size = T::of(scale) * (sum / weights).abs();
             }
             sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
-            let next = sizes[POINTS - 1 - order];
-            if next.is_finite() { next } else { zero }
+            let median = sizes[order + (POINTS - order) / 2];
+            if median.is_finite() { median } else { zero }
         };
         Self { x: size(|point| point.x), y: size(|point| point.y) }
     }

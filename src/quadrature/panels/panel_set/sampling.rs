@@ -4,9 +4,9 @@ use super::candidate::Candidate;
 use super::{EndProbe, FINEST, PanelSet};
 use crate::gap::{CurveSample, Gap, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
+use crate::profile::Noise;
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
-use crate::profile::Noise;
 use crate::{Body, ContactError, Interval, Real, Side};
 
 /// By how much of the distance to the nearest other node a point may miss its own, and for a first estimate.
@@ -275,7 +275,8 @@ impl<T: Real> PanelSet<T> {
                 continue;
             }
             for place in places {
-                let CurveSample { k, x, y, .. } = samples[(place * (samples.len() - 1) as f64) as usize];
+                let CurveSample { k, x, y, .. } =
+                    samples[(place * (samples.len() - 1) as f64) as usize];
                 let (_, piece) = gap.piece_at(body, x, Side::Left);
                 let measured = measure(&piece, k, &mut self.cost.evaluations);
                 let beyond_rounding = |noise: T, value: T| {
@@ -288,7 +289,9 @@ impl<T: Real> PanelSet<T> {
                 noise[i] = noise[i].max(measured);
             }
         }
-        if counts { self.noise = Some(noise) };
+        if counts {
+            self.noise = Some(noise)
+        };
         counts
     }
 
