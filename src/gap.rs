@@ -11,6 +11,7 @@
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
 mod coarse_heights;
+mod noise;
 mod sample_near;
 mod sampler;
 

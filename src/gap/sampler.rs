@@ -5,7 +5,7 @@
 //! two or three evaluations each.
 
 use super::{Cost, Gap};
-use crate::profile::{Convexity, Noise, Piece};
+use crate::profile::{Convexity, Piece};
 use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 
@@ -117,7 +117,7 @@ impl<T: Real> Sampler<T> {
             if !is_level(piece, x) {
                 let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
                 let evaluations = &mut self.cost.evaluations;
-                let noise = Noise::of_rounding(&piece, k, evaluations);
+                let noise = gap.noise(body, &piece, k, evaluations);
                 sum += noise.of_height(point.dy / point.dx);
             }
         }

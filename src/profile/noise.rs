@@ -30,18 +30,18 @@ impl<T: Real> Noise<T> {
         Self::over::<12>(piece, k, SHORTEST, THIRD, evaluations)
     }
 
-    /// Measures it more thoroughly, as the largest over several ways. A curve that is another when it is asked again
-    /// has none, nor one whose noise is no rounding beside its size: those are faults.
-    pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
+    /// Measures it more thoroughly, as the largest over several ways. None of a curve that is another when it is
+    /// asked again, or whose noise is no rounding beside its size: those are faults.
+    pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Option<Self> {
         let mut over = |power| Self::over::<16>(piece, k, power, FIFTH, evaluations);
         let [noise, again] = [over(SHORTEST), over(SHORTEST)];
         if noise != again {
-            return Self::nothing();
+            return None;
         }
         let noise = LONGER.into_iter().fold(noise, |noise, power| noise.max(over(power)));
         let sizes = piece.ends.iter().flat_map(|end| [end.x.abs(), end.y.abs()]);
         let size = sizes.filter(|size| size.is_finite()).fold(T::zero(), T::max);
-        if noise.x.max(noise.y) > T::epsilon().cbrt() * size { Self::nothing() } else { noise }
+        (noise.x.max(noise.y) <= T::epsilon().cbrt() * size).then_some(noise)
     }
 
     /// How far the height at an x may be off where the curve has this slope, which may be infinite at an end.

@@ -23,7 +23,7 @@ const LEVELS_OF_A_STEP: usize = 12;
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
 
-/// How often the noise is measured.
+/// How often the noise is measured on a span where heights contradict the slopes, after a first look.
 const MOST_MEASURED: usize = 4;
 
 /// How many times as steep as the gap bodies are whose slopes leave more rounding than the tolerance.
@@ -110,12 +110,7 @@ impl<T: Real> PanelSet<T> {
                 continue;
             } else if !split {
                 // The heights tell of what is too narrow for the nodes.
-                let mut heights = self.check_heights(panel, bodies);
-                for by_rounding in [false, true] {
-                    if heights.is_err() && self.measure_noise(gap, by_rounding) {
-                        heights = self.check_heights(panel, bodies);
-                    }
-                }
+                let heights = self.check_heights_beside_noise(gap, panel, bodies);
                 if heights.is_err() {
                     // Beside a step in them any difference is large.
                     if !trial.hides {
@@ -131,6 +126,22 @@ impl<T: Real> PanelSet<T> {
             (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
             return Ok(());
         }
+    }
+
+    /// Checks the heights, and measures the noise where they contradict the slopes.
+    fn check_heights_beside_noise(
+        &mut self,
+        gap: &Gap<'_, T>,
+        panel: &Panel<T>,
+        steepest: T,
+    ) -> Result<(), ContactError<T>> {
+        let mut heights = self.check_heights(panel, steepest);
+        for by_rounding in [false, true] {
+            if heights.is_err() && self.measure_noise(gap, by_rounding) {
+                heights = self.check_heights(panel, steepest);
+            }
+        }
+        heights
     }
 
     /// Whether what a panel misses at a breakpoint is more than the noise there: a tip much narrower than
@@ -266,7 +277,6 @@ impl<T: Real> PanelSet<T> {
         }
         self.measured += 1;
         let places = if by_rounding { &[0.0, 0.5, 1.0][..] } else { &[0.5][..] };
-        let measure = if by_rounding { Noise::of_rounding } else { Noise::near };
         let mut noise = self.noise.unwrap_or([Noise::nothing(); 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
@@ -278,7 +288,12 @@ impl<T: Real> PanelSet<T> {
                 let CurveSample { k, x, y, .. } =
                     samples[(place * (samples.len() - 1) as f64) as usize];
                 let (_, piece) = gap.piece_at(body, x, Side::Left);
-                let measured = measure(&piece, k, &mut self.cost.evaluations);
+                let evaluations = &mut self.cost.evaluations;
+                let measured = if by_rounding {
+                    gap.noise(body, &piece, k, evaluations)
+                } else {
+                    Noise::near(&piece, k, evaluations)
+                };
                 let beyond_rounding = |noise: T, value: T| {
                     let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
                     if is_more { noise } else { T::zero() }
