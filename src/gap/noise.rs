@@ -17,7 +17,7 @@ impl<T: Real> Gap<'_, T> {
         let surface = &self.bodies[body as usize];
         let ends = [surface.piece(0).ends[0].y, surface.piece(surface.len() - 1).ends[1].y];
         let highest = ends.map(|y| y.abs()).into_iter().filter(|y| y.is_finite());
-        let y = T::of(8.0) * T::epsilon() * highest.fold(T::zero(), T::max);
+        let y = T::of(2.0) * T::epsilon() * highest.fold(T::zero(), T::max);
         let measured = Noise::of_rounding(piece, k, evaluations);
         measured.map_or(Noise::nothing(), |noise| noise.max(Noise { x: T::zero(), y }))
     }
