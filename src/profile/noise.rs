@@ -21,6 +21,7 @@ pub(crate) struct Noise<T> {
 }
 
 impl<T: Real> Noise<T> {
+    /// Says that there is none.
     pub fn nothing() -> Self {
         Self { x: T::zero(), y: T::zero() }
     }

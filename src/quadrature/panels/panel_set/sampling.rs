@@ -276,7 +276,7 @@ impl<T: Real> PanelSet<T> {
             return false;
         }
         self.measured += 1;
-        let places = if by_rounding { &[0.0, 0.5, 1.0][..] } else { &[0.5][..] };
+        let halves = if by_rounding { 0..=2 } else { 1..=1 };
         let mut noise = self.noise.unwrap_or([Noise::nothing(); 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
@@ -284,9 +284,9 @@ impl<T: Real> PanelSet<T> {
             if self.traces[i].direct || samples.is_empty() {
                 continue;
             }
-            for place in places {
+            for half in halves.clone() {
                 let CurveSample { k, x, y, .. } =
-                    samples[(place * (samples.len() - 1) as f64) as usize];
+                    samples[(half * samples.len() / 2).min(samples.len() - 1)];
                 let (_, piece) = gap.piece_at(body, x, Side::Left);
                 let evaluations = &mut self.cost.evaluations;
                 let measured = if by_rounding {
@@ -305,8 +305,8 @@ impl<T: Real> PanelSet<T> {
             }
         }
         if counts {
-            self.noise = Some(noise)
-        };
+            self.noise = Some(noise);
+        }
         counts
     }
 
