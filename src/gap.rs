@@ -11,11 +11,12 @@
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
 mod coarse_heights;
+mod noise;
 mod sample_near;
 mod sampler;
 
 pub(crate) use coarse_heights::{CoarseHeights, LowPoint};
-pub(crate) use sample_near::{CurveSample, Noise, SampleCache, sample_near};
+pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
 
 use crate::profile::{Convexity, Piece};

@@ -12,13 +12,11 @@
 
 mod curve_samples;
 mod inverse_hermite;
-mod noise;
 
 pub(crate) use curve_samples::CurveSample;
-pub(crate) use noise::Noise;
 
 use super::{Cost, Gap};
-use crate::profile::{Piece, first_turn};
+use crate::profile::{Noise, Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
@@ -256,8 +254,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             let [from, to] = self.piece.x();
             let beyond = missed.abs() - T::of(5.0) * self.room[i];
             let rounding = T::of(1e3) * T::epsilon() * from.abs().max(to.abs());
-            if beyond > rounding && beyond > T::of(4.0) * Noise::near(&self.piece, found.k, cost).x
-            {
+            let mut noise = || Noise::near(&self.piece, found.k, &mut cost.evaluations).x;
+            if beyond > rounding && beyond > T::of(4.0) * noise() {
                 let source = SearchError::NotConverged { x: found.k, residual: missed };
                 return Err(ContactError::Inversion { body: self.body, x: target, source });
             }

@@ -100,10 +100,7 @@ impl<T: Real> Sampler<T> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
-            // A level body is as high everywhere.
-            if piece.curve.convexity() == Convexity::Straight
-                && piece.curve.slope_at(x) == Some(T::zero())
-            {
+            if is_level(piece, x) {
                 *height = piece.ends[0].y;
                 continue;
             }
@@ -120,6 +117,21 @@ impl<T: Real> Sampler<T> {
         let [lower, upper] = heights;
         self.highest = self.highest.max(lower.abs()).max(upper.abs());
         Ok(upper - lower)
+    }
+
+    /// How far the height of the gap at the place nearest to `x` may be off by the noise of the bodies.
+    pub(crate) fn noise_of_height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+        let (x, mut sum) = (gap.nearest(x), T::zero());
+        for body in [Body::Lower, Body::Upper] {
+            let (index, piece) = gap.piece_with(body, x, Side::Left)?;
+            if !is_level(piece, x) {
+                let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+                let evaluations = &mut self.cost.evaluations;
+                let noise = gap.noise(body, &piece, k, evaluations);
+                sum += noise.of_height(point.dy / point.dx);
+            }
+        }
+        Ok(sum)
     }
 
     /// The slope of one of the bodies.
@@ -221,4 +233,9 @@ impl<T: Real> Sampler<T> {
         self.near[body as usize] = Some(found);
         Ok(found)
     }
+}
+
+/// Whether a piece is as high everywhere.
+fn is_level<T: Real>(piece: Piece<'_, T>, x: T) -> bool {
+    piece.curve.convexity() == Convexity::Straight && piece.curve.slope_at(x) == Some(T::zero())
 }

@@ -1,6 +1,6 @@
 //! One smooth piece of a profile, checked.
 
-use super::{CurvePoint, ParametricProfile, ProfileError, interval};
+use super::{CurvePoint, Noise, ParametricProfile, ProfileError, interval};
 use crate::Real;
 use std::fmt;
 
@@ -132,7 +132,7 @@ impl<'a, T: Real> Piece<'a, T> {
         let (piece, points) = Self::scanned(curve)?;
         let [from, to] = curve.domain();
         for place in [0.2763, 0.7236] {
-            check_derivatives(curve, &points, from + (to - from) * T::of(place), to - from)?;
+            check_derivatives(&piece, &points, from + (to - from) * T::of(place))?;
         }
         Ok((piece, points))
     }
@@ -174,38 +174,39 @@ impl<'a, T: Real> Piece<'a, T> {
 
 /// Compares the derivatives at `k` with central differences.
 fn check_derivatives<T: Real>(
-    curve: &dyn ParametricProfile<T>,
+    piece: &Piece<'_, T>,
     points: &[CurvePoint<T>],
     k: T,
-    length: T,
 ) -> Result<(), ProfileError<T>> {
+    let (curve, length) = (piece.curve, (piece.k[1] - piece.k[0]).abs());
     let largest = |of: fn(&CurvePoint<T>) -> T| {
         points.iter().map(of).fold(T::zero(), |max, value| max.max(value.abs()))
     };
     let scales = [largest(|point| point.x), largest(|point| point.y)];
     let at = curve.at(k);
-    let mut wrong = Ok(());
-    // The cube root of the rounding unit balances truncation and rounding of the difference. Where
-    // a wave or a kink is finer than that, a shorter one settles it.
-    for share in [1.0, 1.0 / 32.0] {
+    let compared = |noise: [T; 2], share: f64| {
         let h = T::epsilon().cbrt() * length * T::of(share);
         let (before, after) = (curve.at(k - h), curve.at(k + h));
         let changes = [("X'", at.dx, after.x - before.x), ("Y'", at.dy, after.y - before.y)];
-        wrong = Ok(());
-        for ((quantity, given, change), scale) in changes.into_iter().zip(scales) {
+        for ((quantity, given, change), noise) in changes.into_iter().zip(noise) {
             let difference = change / (T::of(2.0) * h);
             // A tenth: a wrong sign or factor, not a formula that is merely hard to evaluate.
-            let noise = T::of(1e3) * T::epsilon() * scale / h;
-            let allowed = T::of(0.1) * given.abs().max(difference.abs()) + noise;
+            let allowed = T::of(0.1) * given.abs().max(difference.abs()) + noise / h;
             if (given - difference).abs() > allowed {
-                wrong = Err(ProfileError::Derivative { quantity, k, given, difference });
+                return Err(ProfileError::Derivative { quantity, k, given, difference });
             }
         }
-        if wrong.is_ok() {
-            break;
-        }
-    }
-    wrong
+        Ok(())
+    };
+    let rounding = scales.map(|scale| T::of(1e3) * T::epsilon() * scale);
+    // The cube root of the rounding unit balances truncation and rounding of the difference. Where
+    // a wave or a kink is finer than that, a shorter one settles it.
+    compared(rounding, 1.0).or_else(|_| compared(rounding, 1.0 / 32.0)).or_else(|_| {
+        // Heights may be the rounding of larger terms.
+        let noise = Noise::of_rounding(piece, k, &mut 0);
+        let Noise { x, y } = noise.unwrap_or(Noise::nothing());
+        compared([rounding[0].max(x), rounding[1].max(y)], 1.0)
+    })
 }
 
 /// The first place, outward from the middle of the domain, where `X'` changes its sign: what lies

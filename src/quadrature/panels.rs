@@ -32,7 +32,7 @@ use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
-pub(crate) use panel_set::{PanelSet, compare};
+pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
 

@@ -29,22 +29,25 @@ impl Flank {
         if upper { Box::new(involute) } else { Box::new(Placed::new(involute, turned).unwrap()) }
     }
 
-    /// The same with X by coordinates about the centre of the circle, which is far off; Y has no noise.
-    fn noisy(&self, upper: bool, centre: f64) -> Profile {
+    /// The same with X by coordinates about the centre of the circle, which is far off, and Y as well or without
+    /// noise.
+    fn noisy(&self, upper: bool, centre: f64, in_y: bool) -> Profile {
         let (Self { radius: r, at, angles }, exact) = (*self, self.exact(upper));
         let (sin, cos) = at.sin_cos();
         let sign = if upper { 1.0 } else { -1.0 };
         Box::new(Curve::new(angles, move |t: f64| {
             let [u, v] = [r * (t.sin() - t * t.cos()), r * (t.cos() + t * t.sin())];
             let x = (sin * u + cos * v + centre) - (centre + r);
-            CurvePoint { x: sign * x, ..exact.at(t - at) }
+            let y = (cos * u - sin * v + centre) - (centre - r * at);
+            let point = exact.at(t - at);
+            CurvePoint { x: sign * x, y: if in_y { sign * y } else { point.y }, ..point }
         }))
     }
 }
 
 /// A pair of flanks, or one on a flat: the bodies, the radius of curvature of the gap, and the length over which
 /// that changes.
-fn pair(dice: &mut Dice) -> ([Profile; 2], f64, f64) {
+fn pair(dice: &mut Dice, in_y: bool) -> ([Profile; 2], f64, f64) {
     let mut flank = || {
         let (radius, at) = (dice.power_of_ten(1.3, 2.0), dice.power_of_ten(-1.7, -0.2));
         let long = at * dice.power_of_ten(-1.0, 0.0);
@@ -53,21 +56,22 @@ fn pair(dice: &mut Dice) -> ([Profile; 2], f64, f64) {
     let [upper, lower] = [flank(), flank()];
     let centre = dice.power_of_ten(0.0, 2.5);
     let length = |flank: Flank| flank.curvature_radius() * flank.at;
-    let upper_body = upper.noisy(true, centre);
+    let upper_body = upper.noisy(true, centre, in_y);
     if dice.uniform() < 0.3 {
         return ([Box::new(Flat), upper_body], upper.curvature_radius(), length(upper));
     }
     let sum = 1.0 / upper.curvature_radius() + 1.0 / lower.curvature_radius();
-    let bodies = [lower.noisy(false, centre), upper_body];
+    let bodies = [lower.noisy(false, centre, in_y), upper_body];
     (bodies, 1.0 / sum, length(upper).min(length(lower)))
 }
 
-#[test]
-fn random_flanks_with_noise_in_x_are_solved_and_certified() {
-    let (scenes, mut refused, mut wrong) = (300, Vec::new(), Vec::new());
+/// `SCENES=n` in the environment solves n scenes.
+fn solve_and_certify(in_y: bool) {
+    let scenes = std::env::var("SCENES").map_or(300, |n| n.parse().unwrap());
+    let (mut refused, mut wrong) = (Vec::new(), Vec::new());
     for seed in 0..scenes {
         let mut dice = Dice::new(seed);
-        let ([lower, upper], radius, length) = pair(&mut dice);
+        let ([lower, upper], radius, length) = pair(&mut dice, in_y);
         let half_width = dice.power_of_ten(-7.0, -3.5);
         let load = half_width * half_width / (2.0 * radius);
         let contact = Contact::new(&*lower, &*upper).unwrap();
@@ -86,12 +90,23 @@ fn random_flanks_with_noise_in_x_are_solved_and_certified() {
     assert!(wrong.is_empty(), "{:?}", wrong[0]);
 }
 
+#[test]
+fn random_flanks_with_noise_in_x_are_solved_and_certified() {
+    solve_and_certify(false);
+}
+
+/// Contacts that are no deeper than the noise of the heights.
+#[test]
+fn random_flanks_with_noise_in_x_and_y_are_solved_and_certified() {
+    solve_and_certify(true);
+}
+
 /// Noise in X is no excuse for a strategy that does not do its work.
 #[test]
 fn a_strategy_that_stops_in_the_middle_is_refused_beside_noise() {
     let middle = Strategy(|f, b| Strategy::take(0.5 * b.lo + 0.5 * b.hi, f, b));
     let flank = Flank { radius: 47.0, at: 0.03, angles: [0.0, 0.9] };
-    let body = flank.noisy(true, 90.0);
+    let body = flank.noisy(true, 90.0, false);
     let contact = Contact::new(&Flat, &*body).unwrap().inversion(&middle);
     let error = contact.solve(Control::Load(1e-12)).map(|_| ()).unwrap_err();
     let source = SearchError::NotConverged { x: 0.0, residual: 0.0 };
@@ -112,7 +127,7 @@ fn overloaded(dice: &mut Dice, radius: f64, noisy: bool, times: f64) -> Result<f
     let to_left = dice.uniform() < 0.5;
     let angles = if to_left { [at - reach.min(at), at + long] } else { [at - long, at + reach] };
     let flank = Flank { radius, at, angles };
-    let body = if noisy { flank.noisy(true, 90.0) } else { flank.exact(true) };
+    let body = if noisy { flank.noisy(true, 90.0, false) } else { flank.exact(true) };
     let count = AtomicUsize::new(0);
     let body = Counting(body, &count);
     let contact = Contact::new(&Flat, &body).unwrap();

@@ -78,6 +78,29 @@ impl Punch {
         Self::of(parts, arcs, radii, flat.tan(), 0.0, true)
     }
 
+    /// Corners that are parabolas, in a frame that leans: heights near zero are the rounding of what is taken off for
+    /// that, and added by running sums. The slopes have no noise.
+    fn leaning(half: f64, radii: [f64; 2], slope: f64, bow: f64, tilt: f64) -> Self {
+        let reach = half.max(0.3);
+        let [from, to] = [-half - reach, half + reach];
+        let mut start = reach * reach / (2.0 * radii[0]);
+        let mut part = |[left, right]: [f64; 2], slope: f64, c: f64| -> Part {
+            let (y, dy) = (start, tilt + slope);
+            let rise = move |t: f64| t * (dy + c * t / 2.0);
+            start += rise(right - left);
+            graph(left, right, move |x| {
+                [y - tilt * (x - from) + rise(x - left), slope + c * (x - left)]
+            })
+        };
+        let [on_left, on_right] = radii.map(|radius| bow + 1.0 / radius);
+        let parts = vec![
+            part([from, -half], slope - bow * half - on_left * reach, on_left),
+            part([-half, half], slope - bow * half, bow),
+            part([half, to], slope + bow * half, on_right),
+        ];
+        Self::of(parts, 1, radii, slope, bow, false)
+    }
+
     fn of(
         parts: Vec<Part>,
         flat: usize,
@@ -209,4 +232,31 @@ fn random_flats() {
     }
     assert!(overloaded < 250, "{overloaded}");
     assert_eq!(refused, 0);
+}
+
+/// `SCENES=n` in the environment solves n scenes.
+#[test]
+fn random_flats_with_heights_that_are_rounding_are_solved_and_certified() {
+    let scenes = std::env::var("SCENES").map_or(300, |n| n.parse().unwrap());
+    let (mut shares, mut refused) = (Shares(29), Vec::new());
+    for scene in 0..scenes {
+        let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
+        let radii = [power(-3.0, -0.5), power(-3.0, -0.5)];
+        let half = if scene % 2 == 0 { 1.0 } else { power(-0.7, 0.7) };
+        let (rounding, lean, bow) = (power(-17.0, -12.0), power(-12.0, -3.0), power(-16.0, -2.0));
+        let (load, tilt) = (power(-7.0, -1.0), power(-2.0, 0.5));
+        let sign = if shares.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
+        let slope = sign * [0.0, rounding, rounding, lean][scene / 2 % 4];
+        let bow = if scene / 8 % 2 == 0 { 0.0 } else { bow };
+        let punch = Punch::leaning(half, radii, slope, bow, tilt);
+        let contact = Contact::new(&Flat, &punch.body).unwrap();
+        let found = contact.solve(Control::Load(load)).and_then(|solution| {
+            let missed = punch.missed(solution.hull(), load);
+            assert!(missed < 1.0, "{scene}: {missed} {:?}", solution.hull());
+            solution.certify()
+        });
+        refused.extend(found.err().map(|error| (scene, error)));
+    }
+    println!("{} of {scenes} refused: {refused:?}", refused.len());
+    assert!(200 * refused.len() <= scenes, "{}: {}", refused[0].0, refused[0].1);
 }

@@ -5,11 +5,12 @@ mod derivative_check;
 mod sampling;
 mod seams;
 
-pub(crate) use derivative_check::compare;
+pub(crate) use derivative_check::Rises;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, Noise, SampleCache, Sampler};
+use crate::gap::{Cost, Gap, SampleCache, Sampler};
 use crate::numerics::chebyshev::{MOST, Row, size_for};
+use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
@@ -65,7 +66,7 @@ pub(crate) struct PanelSet<T> {
     /// The noise of both bodies on the span that is sampled, if it is more than rounding; and whether it was
     /// measured there.
     noise: Option<[Noise<T>; 2]>,
-    has_measured: bool,
+    measured: usize,
     /// The largest slope of the gap, as far as a first look has shown.
     pub size: T,
     /// The least sum of the slopes of both bodies at any node, where all panels show them much steeper than the gap;
@@ -98,7 +99,7 @@ impl<T: Real> PanelSet<T> {
             waiting: Vec::new(),
             traces: [SampleCache::new(), SampleCache::new()],
             noise: None,
-            has_measured: false,
+            measured: 0,
             size: T::zero(),
             least: T::one() / T::zero(),
             initial: LEAST,
@@ -300,7 +301,7 @@ impl<T: Real> PanelSet<T> {
     ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
         if self.panels.is_empty() || self.noise_is_of_another_piece(gap, x) {
-            (self.noise, self.has_measured) = (None, false);
+            (self.noise, self.measured) = (None, 0);
         }
         let mut trial = Candidate::new(x);
         self.try_out(gap, &mut trial)?;
@@ -333,7 +334,7 @@ impl<T: Real> PanelSet<T> {
                 let is_stuck = |half: &Candidate<T>| {
                     half.split && half.panel.tail >= T::of(STUCK) * trial.panel.tail
                 };
-                if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap) {
+                if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap, false) {
                     self.try_out(gap, &mut trial)?;
                     continue;
                 }

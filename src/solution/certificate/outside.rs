@@ -16,7 +16,7 @@ use super::{Extremum, undecided};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels::{Panel, PanelSet, compare};
+use crate::quadrature::panels::{Panel, PanelSet, Rises};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Nodes of a cell.
@@ -184,9 +184,16 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             let mut sampler = Sampler::default();
             let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
             let [at_edge, at_place] = heights;
+            let rises = Rises {
+                between: [edge, place],
+                by_heights: at_place? - at_edge?,
+                by_slopes: sign * self.risen,
+                highest: sampler.highest,
+                open: left_out,
+            };
+            let compared = rises.compare_beside_noise(gap, &mut sampler);
             panel_set.cost.heights += sampler.cost.evaluations;
-            let by_slopes = sign * self.risen;
-            compare([edge, place], at_place? - at_edge?, by_slopes, sampler.highest, left_out)?;
+            compared?;
         }
         for panel in waiting {
             self.take(&panel, &mut left_out, panel_set.cost)?;

@@ -1,7 +1,7 @@
 //! A span that is tried out as one panel, and how often it may be halved.
 
 use crate::Real;
-use crate::gap::Noise;
+use crate::profile::Noise;
 use crate::quadrature::panels::Panel;
 
 /// How often a span is halved beside a jump: what is left is no part of any integral.

@@ -81,7 +81,7 @@ impl<T: Real> PanelSet<T> {
 
     /// How far the height of a body may be off where its slope is this, as far as its noise was measured.
     fn noise_of_height(&self, body: usize, slope: T) -> T {
-        self.noise.map_or(T::zero(), |noise| noise[body].y + noise[body].x * slope.abs())
+        self.noise.map_or(T::zero(), |noise| noise[body].of_height(slope))
     }
 
     /// Whether the gap rises between the first node, a middle one and the last as much by its heights as by its
@@ -128,7 +128,8 @@ impl<T: Real> PanelSet<T> {
             let [between, doubts] = [places, doubt].map(|all| [all[i], all[i + 1]]);
             let by_slopes = sloped[1][i] - sloped[0][i];
             let open = doubts[0] + doubts[1] + share * (between[1] - between[0]);
-            compare(between, by_heights[i], by_slopes, rounded, open)?;
+            let by_heights = by_heights[i];
+            Rises { between, by_heights, by_slopes, highest: rounded, open }.compare()?;
         }
         Ok(())
     }
@@ -160,31 +161,55 @@ impl<T: Real> PanelSet<T> {
         for (height, x) in heights.iter_mut().zip(places) {
             *height = sampler.height_untilted(gap, x)?;
         }
-        cost.heights += sampler.cost.evaluations;
         let tail = self.panels.iter().fold(T::zero(), |tail, panel| tail.max(panel.tail));
         for (between, heights) in places.windows(2).zip(heights.windows(2)) {
             let (from, to) = (between[0], between[1]);
             let by_slopes = self.rise(from, to) - self.tilt * (to - from);
-            let off = T::of(8.0) * tail * (to - from);
-            compare([from, to], heights[1] - heights[0], by_slopes, sampler.highest, off)?;
+            let (by_heights, highest) = (heights[1] - heights[0], sampler.highest);
+            let open = T::of(8.0) * tail * (to - from);
+            let rises = Rises { between: [from, to], by_heights, by_slopes, highest, open };
+            rises.compare_beside_noise(gap, &mut sampler)?;
         }
+        cost.heights += sampler.cost.evaluations;
         Ok(heights)
     }
 }
 
-/// Whether the gap rises as much by its heights, of which the largest is this, as by its slopes, which leave so much
-/// open.
-pub(crate) fn compare<T: Real>(
-    between: [T; 2],
-    by_heights: T,
-    by_slopes: T,
-    highest: T,
-    open: T,
-) -> Result<(), ContactError<T>> {
-    let rounding = T::of(128.0) * T::epsilon() * highest;
-    let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
-    if (by_heights - by_slopes).abs() <= rounding + share + open {
-        return Ok(());
+/// By how much the gap rises from one place to another.
+#[derive(Clone, Copy)]
+pub(crate) struct Rises<T> {
+    pub between: [T; 2],
+    pub by_heights: T,
+    pub by_slopes: T,
+    /// The largest height of either body.
+    pub highest: T,
+    /// What heights and slopes leave open, besides rounding.
+    pub open: T,
+}
+
+impl<T: Real> Rises<T> {
+    /// Whether it rises as much by its heights as by its slopes.
+    pub fn compare(self) -> Result<(), ContactError<T>> {
+        let Self { between, by_heights, by_slopes, highest, open } = self;
+        let rounding = T::of(128.0) * T::epsilon() * highest;
+        let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
+        if (by_heights - by_slopes).abs() <= rounding + share + open {
+            return Ok(());
+        }
+        Err(ContactError::InconsistentHeights { between, by_heights, by_slopes })
     }
-    Err(ContactError::InconsistentHeights { between, by_heights, by_slopes })
+
+    /// The same but for the noise of the heights, which is measured at both places if it is called for.
+    pub fn compare_beside_noise(
+        self,
+        gap: &Gap<'_, T>,
+        sampler: &mut Sampler<T>,
+    ) -> Result<(), ContactError<T>> {
+        let Err(error) = self.compare() else { return Ok(()) };
+        let mut open = self.open;
+        for x in self.between {
+            open += sampler.noise_of_height(gap, x)?;
+        }
+        Self { open, ..self }.compare().map_err(|_| error)
+    }
 }

@@ -2,8 +2,9 @@
 
 use super::candidate::Candidate;
 use super::{EndProbe, FINEST, PanelSet};
-use crate::gap::{CurveSample, Gap, Noise, SampleCache, sample_near};
+use crate::gap::{CurveSample, Gap, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
+use crate::profile::Noise;
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
 use crate::{Body, ContactError, Interval, Real, Side};
@@ -21,6 +22,9 @@ const LEVELS_OF_A_STEP: usize = 12;
 /// How often a span is halved for the sake of derivatives alone, which may have a kink where the
 /// slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
+
+/// How often the noise is measured on a span where heights contradict the slopes, after a first look.
+const MOST_MEASURED: usize = 4;
 
 /// How many times as steep as the gap bodies are whose slopes leave more rounding than the tolerance.
 const STEEP: f64 = 4.0;
@@ -106,10 +110,7 @@ impl<T: Real> PanelSet<T> {
                 continue;
             } else if !split {
                 // The heights tell of what is too narrow for the nodes.
-                let mut heights = self.check_heights(panel, bodies);
-                if heights.is_err() && self.measure_noise(gap) {
-                    heights = self.check_heights(panel, bodies);
-                }
+                let heights = self.check_heights_beside_noise(gap, panel, bodies);
                 if heights.is_err() {
                     // Beside a step in them any difference is large.
                     if !trial.hides {
@@ -125,6 +126,22 @@ impl<T: Real> PanelSet<T> {
             (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
             return Ok(());
         }
+    }
+
+    /// Checks the heights, and measures the noise where they contradict the slopes.
+    fn check_heights_beside_noise(
+        &mut self,
+        gap: &Gap<'_, T>,
+        panel: &Panel<T>,
+        steepest: T,
+    ) -> Result<(), ContactError<T>> {
+        let mut heights = self.check_heights(panel, steepest);
+        for by_rounding in [false, true] {
+            if heights.is_err() && self.measure_noise(gap, by_rounding) {
+                heights = self.check_heights(panel, steepest);
+            }
+        }
+        heights
     }
 
     /// Whether what a panel misses at a breakpoint is more than the noise there: a tip much narrower than
@@ -249,34 +266,47 @@ impl<T: Real> PanelSet<T> {
         let is_other = |(trace, body): (&SampleCache<T>, Body)| {
             trace.piece() != Some(gap.piece_at(body, middle, Side::Left).0)
         };
-        self.has_measured && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
+        self.measured > 0 && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
     }
 
     /// Measures the noise of both bodies where they were sampled last, once on a piece. Whether it is more than
     /// rounding.
-    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>) -> bool {
-        if std::mem::replace(&mut self.has_measured, true) {
+    pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, by_rounding: bool) -> bool {
+        if self.measured > if by_rounding { MOST_MEASURED } else { 0 } {
             return false;
         }
-        let mut noise = [Noise { x: T::zero(), y: T::zero() }; 2];
+        self.measured += 1;
+        let halves = if by_rounding { 0..=2 } else { 1..=1 };
+        let mut noise = self.noise.unwrap_or([Noise::nothing(); 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
             let samples = self.traces[i].curve_samples();
             if self.traces[i].direct || samples.is_empty() {
                 continue;
             }
-            let CurveSample { k, x, y, .. } = samples[samples.len() / 2];
-            let (_, piece) = gap.piece_at(body, x, Side::Left);
-            let measured = Noise::near(&piece, k, &mut self.cost);
-            let beyond_rounding = |noise: T, value: T| {
-                let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
-                if is_more { noise } else { T::zero() }
-            };
-            noise[i] =
-                Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
-            counts |= noise[i].x + noise[i].y > T::zero();
+            for half in halves.clone() {
+                let CurveSample { k, x, y, .. } =
+                    samples[(half * samples.len() / 2).min(samples.len() - 1)];
+                let (_, piece) = gap.piece_at(body, x, Side::Left);
+                let evaluations = &mut self.cost.evaluations;
+                let measured = if by_rounding {
+                    gap.noise(body, &piece, k, evaluations)
+                } else {
+                    Noise::near(&piece, k, evaluations)
+                };
+                let beyond_rounding = |noise: T, value: T| {
+                    let is_more = noise > T::of(4.0) * T::epsilon() * value.abs();
+                    if is_more { noise } else { T::zero() }
+                };
+                let measured =
+                    Noise { x: beyond_rounding(measured.x, x), y: beyond_rounding(measured.y, y) };
+                counts |= measured.x > noise[i].x || measured.y > noise[i].y;
+                noise[i] = noise[i].max(measured);
+            }
         }
-        self.noise = counts.then_some(noise);
+        if counts {
+            self.noise = Some(noise);
+        }
         counts
     }
 

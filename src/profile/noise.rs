@@ -1,0 +1,96 @@
+//! The noise of a curve: what the rounding of its formula leaves of it.
+
+use super::{CurvePoint, Piece};
+use crate::Real;
+
+/// The ways over which it is measured, as shares of a piece by powers of the rounding unit. Over the shortest all
+/// values may be rounded alike, as those of a cosine at 0.
+const SHORTEST: f64 = 1.0 / 2.0;
+const LONGER: [f64; 3] = [5.0 / 12.0, 1.0 / 3.0, 1.0 / 4.0];
+
+/// The order of divided differences, and what makes about three standard deviations of their median, as a share of
+/// what they add up: of even steps third ones have the weights 1, 3, 3 and 1.
+const THIRD: (usize, f64) = (3, 8.0);
+const FIFTH: (usize, f64) = (5, 9.0);
+
+/// How far values of `X` and `Y` may be off, by about three standard deviations: lengths.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Noise<T> {
+    pub x: T,
+    pub y: T,
+}
+
+impl<T: Real> Noise<T> {
+    /// Says that there is none.
+    pub fn nothing() -> Self {
+        Self { x: T::zero(), y: T::zero() }
+    }
+
+    /// Measures the noise near a parameter of a piece.
+    pub fn near(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Self {
+        Self::over::<12>(piece, k, SHORTEST, THIRD, evaluations)
+    }
+
+    /// Measures it more thoroughly, as the largest over several ways. None of a curve that is another when it is
+    /// asked again, or whose noise is no rounding beside its size: those are faults.
+    pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Option<Self> {
+        let mut over = |power| Self::over::<16>(piece, k, power, FIFTH, evaluations);
+        let [noise, again] = [over(SHORTEST), over(SHORTEST)];
+        if noise != again {
+            return None;
+        }
+        let noise = LONGER.into_iter().fold(noise, |noise, power| noise.max(over(power)));
+        let sizes = piece.ends.iter().flat_map(|end| [end.x.abs(), end.y.abs()]);
+        let size = sizes.filter(|size| size.is_finite()).fold(T::zero(), T::max);
+        (noise.x.max(noise.y) <= T::epsilon().cbrt() * size).then_some(noise)
+    }
+
+    /// How far the height at an x may be off where the curve has this slope, which may be infinite at an end.
+    pub fn of_height(self, slope: T) -> T {
+        if slope.is_finite() { self.y + self.x * slope.abs() } else { self.y }
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Self) -> Self {
+        Self { x: self.x.max(other.x), y: self.y.max(other.y) }
+    }
+
+    /// Measures it over a share of a piece, as the median of divided differences. Of what is smooth they are nothing
+    /// over so short a way, and an undeclared kink, or a step, is in fewer than half of them.
+    fn over<const POINTS: usize>(
+        piece: &Piece<'_, T>,
+        k: T,
+        power: f64,
+        (order, scale): (usize, f64),
+        evaluations: &mut usize,
+    ) -> Self {
+        let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
+        let width = T::epsilon().powf(T::of(power)) * (to - from);
+        let start = (k - T::of(0.5) * width).min(to - width).max(from);
+        // Unevenly, as multiples of one step may all be rounded alike.
+        let share = |i: usize| T::count(i) * T::count(i).sqrt();
+        let places: [T; POINTS] =
+            std::array::from_fn(|i| start + width * (share(i) / share(POINTS)));
+        let zero = T::zero();
+        let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; POINTS];
+        piece.curve.at_many(&places, &mut points);
+        *evaluations += POINTS;
+        let size = |of: fn(&CurvePoint<T>) -> T| {
+            let mut sizes = [zero; POINTS];
+            for (first, size) in sizes[order..].iter_mut().enumerate() {
+                let (mut sum, mut weights) = (zero, zero);
+                for i in first..=first + order {
+                    let others = (first..=first + order).filter(|&j| j != i);
+                    let product = others.fold(T::one(), |all, j| all * (share(i) - share(j)));
+                    sum += (of(&points[i]) - of(&points[first])).component(0) / product;
+                    weights += product.abs().recip();
+                }
+                *size = T::of(scale) * (sum / weights).abs();
+            }
+            sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
+            let median = sizes[order + (POINTS - order) / 2];
+            if median.is_finite() { median } else { zero }
+        };
+        Self { x: size(|point| point.x), y: size(|point| point.y) }
+    }
+}
