@@ -292,7 +292,7 @@ impl<T: Real> ActiveSet<T> {
         pairs.min_by(by_line).unwrap_or([lowest; 2])
     }
 
-    /// Whether forces in the loaded cells can act where they have to.
+    /// Tells whether forces in the loaded cells, of which there must be one, can act where they have to.
     fn bears(&self) -> bool {
         let arms = || {
             let loaded = self.cells.iter().filter(|cell| cell.loaded);
@@ -800,6 +800,15 @@ mod tests {
     fn heights(n: usize, [from, to]: [f64; 2], h: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let x = |i| from + (to - from) * f64::from(i) / (n - 1) as f64;
         (0..n as i32).map(|i| [x(i), h(x(i))]).collect()
+    }
+
+    /// A load needs a loaded cell, also where the bodies do not turn.
+    #[test]
+    fn no_cell_bears_no_load() {
+        let mut set = set(&scene(0.1, [-2.0, 2.0]), |x| 0.5 * x * x).unwrap();
+        assert!(set.bears());
+        set.cells.iter_mut().for_each(|cell| cell.loaded = false);
+        assert!(!set.bears());
     }
 
     /// By how much the limits are off, as a share of the width.

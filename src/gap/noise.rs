@@ -5,8 +5,8 @@ use crate::profile::{Noise, Piece};
 use crate::{Body, Real};
 
 impl<T: Real> Gap<'_, T> {
-    /// The noise of a body near a point of a piece of it. Of its heights that is the rounding of the highest at least,
-    /// in which a formula may have added them.
+    /// Measures the noise of a body near a point of one of its pieces. That of heights is no less
+    /// than the rounding of the highest one, as a formula may have added terms of its size.
     pub(crate) fn noise(
         &self,
         body: Body,

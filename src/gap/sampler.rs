@@ -79,7 +79,7 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
-    /// Repeats no look at the bodies for the slope where the height was taken last; NaN at a cusp.
+    /// Returns the slope at the place of the last height, without evaluations; NaN at a cusp.
     pub(crate) fn slope_again(&self, gap: &Gap<'_, T>, x: T) -> T {
         let [lower, upper] = self.near.map(|near| match near {
             Some(Near { point, .. }) if (point.x - x).abs() <= self.missed => point.dy / point.dx,
@@ -119,7 +119,7 @@ impl<T: Real> Sampler<T> {
         Ok(upper - lower)
     }
 
-    /// How far the height of the gap at the place nearest to `x` may be off by the noise of the bodies.
+    /// Measures the noise of the height of the gap at the place nearest to `x`.
     pub(crate) fn noise_of_height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         let (x, mut sum) = (gap.nearest(x), T::zero());
         for body in [Body::Lower, Body::Upper] {
@@ -235,7 +235,7 @@ impl<T: Real> Sampler<T> {
     }
 }
 
-/// Whether a piece is as high everywhere.
+/// Tells whether a piece is level.
 fn is_level<T: Real>(piece: Piece<'_, T>, x: T) -> bool {
     piece.curve.convexity() == Convexity::Straight && piece.curve.slope_at(x) == Some(T::zero())
 }

@@ -1,19 +1,19 @@
-//! The noise of a curve: what the rounding of its formula leaves of it.
+//! The noise of a curve: the rounding of its formula, as a length.
 
 use super::{CurvePoint, Piece};
 use crate::Real;
 
-/// The ways over which it is measured, as shares of a piece by powers of the rounding unit. Over the shortest all
-/// values may be rounded alike, as those of a cosine at 0.
+/// The ways over which it is measured, as shares of a piece by powers of the rounding unit. Over
+/// the shortest all values may be rounded alike, as those of a cosine at 0.
 const SHORTEST: f64 = 1.0 / 2.0;
 const LONGER: [f64; 3] = [5.0 / 12.0, 1.0 / 3.0, 1.0 / 4.0];
 
-/// The order of divided differences, and what makes about three standard deviations of their median, as a share of
-/// what they add up: of even steps third ones have the weights 1, 3, 3 and 1.
+/// The order of divided differences, and what makes about three standard deviations of their
+/// median, as a share of what they add up: of even steps third ones have the weights 1, 3, 3 and 1.
 const THIRD: (usize, f64) = (3, 8.0);
 const FIFTH: (usize, f64) = (5, 9.0);
 
-/// How far values of `X` and `Y` may be off, by about three standard deviations: lengths.
+/// Errors of `X` and `Y`, about three standard deviations: lengths.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Noise<T> {
     pub x: T,
@@ -21,7 +21,7 @@ pub(crate) struct Noise<T> {
 }
 
 impl<T: Real> Noise<T> {
-    /// Says that there is none.
+    /// Returns no noise.
     pub fn nothing() -> Self {
         Self { x: T::zero(), y: T::zero() }
     }
@@ -31,8 +31,9 @@ impl<T: Real> Noise<T> {
         Self::over::<12>(piece, k, SHORTEST, THIRD, evaluations)
     }
 
-    /// Measures it more thoroughly, as the largest over several ways. None of a curve that is another when it is
-    /// asked again, or whose noise is no rounding beside its size: those are faults.
+    /// Measures the noise more thoroughly, as the largest over several ways. Returns `None` for a
+    /// curve with other values at a second call, or with noise too large for rounding: both are
+    /// faults.
     pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Option<Self> {
         let mut over = |power| Self::over::<16>(piece, k, power, FIFTH, evaluations);
         let [noise, again] = [over(SHORTEST), over(SHORTEST)];
@@ -45,18 +46,19 @@ impl<T: Real> Noise<T> {
         (noise.x.max(noise.y) <= T::epsilon().cbrt() * size).then_some(noise)
     }
 
-    /// How far the height at an x may be off where the curve has this slope, which may be infinite at an end.
+    /// Returns the error of the height at a given x, for a slope that may be infinite at an end.
     pub fn of_height(self, slope: T) -> T {
         if slope.is_finite() { self.y + self.x * slope.abs() } else { self.y }
     }
 
-    /// The larger of each.
+    /// Returns the larger of both errors each.
     pub fn max(self, other: Self) -> Self {
         Self { x: self.x.max(other.x), y: self.y.max(other.y) }
     }
 
-    /// Measures it over a share of a piece, as the median of divided differences. Of what is smooth they are nothing
-    /// over so short a way, and an undeclared kink, or a step, is in fewer than half of them.
+    /// Measures the noise over a share of a piece, as the median of divided differences. Of what is
+    /// smooth they are nothing over so short a way, and an undeclared kink, or a step, is in fewer
+    /// than half of them.
     fn over<const POINTS: usize>(
         piece: &Piece<'_, T>,
         k: T,

@@ -32,7 +32,7 @@ impl<'a, T: Real> Balance<'a, T> {
         balance
     }
 
-    /// Makes up for what is missed by neighbours as if they were alone.
+    /// Returns the forces that close the gaps missed, each group of neighbours by itself.
     fn made_up(&self, missed: &[T]) -> Vec<T> {
         let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
         for (count, factor) in &self.alone {
@@ -59,7 +59,8 @@ impl<'a, T: Real> Balance<'a, T> {
         forces
     }
 
-    /// Makes up for what is missed by forces that add nothing; those, and their product with it.
+    /// Returns forces without sum and moment that close the gaps missed, and their product with
+    /// those gaps.
     ///
     /// What is missed loses the level and the slope with which it makes up no forces before the
     /// rest is lost in rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23,

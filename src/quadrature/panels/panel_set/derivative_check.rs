@@ -175,7 +175,7 @@ impl<T: Real> PanelSet<T> {
     }
 }
 
-/// By how much the gap rises from one place to another.
+/// The rise of the gap from one place to another, by heights and by slopes: lengths.
 #[derive(Clone, Copy)]
 pub(crate) struct Rises<T> {
     pub between: [T; 2],
@@ -183,12 +183,12 @@ pub(crate) struct Rises<T> {
     pub by_slopes: T,
     /// The largest height of either body.
     pub highest: T,
-    /// What heights and slopes leave open, besides rounding.
+    /// The uncertainty of heights and slopes, besides rounding.
     pub open: T,
 }
 
 impl<T: Real> Rises<T> {
-    /// Whether it rises as much by its heights as by its slopes.
+    /// Refuses heights that contradict the slopes.
     pub fn compare(self) -> Result<(), ContactError<T>> {
         let Self { between, by_heights, by_slopes, highest, open } = self;
         let rounding = T::of(128.0) * T::epsilon() * highest;
@@ -199,7 +199,8 @@ impl<T: Real> Rises<T> {
         Err(ContactError::InconsistentHeights { between, by_heights, by_slopes })
     }
 
-    /// The same but for the noise of the heights, which is measured at both places if it is called for.
+    /// Refuses heights that contradict the slopes by more than their noise, measured at both places
+    /// after a contradiction.
     pub fn compare_beside_noise(
         self,
         gap: &Gap<'_, T>,
