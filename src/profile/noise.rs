@@ -96,3 +96,24 @@ impl<T: Real> Noise<T> {
         Self { x: size(|point| point.x), y: size(|point| point.y) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Curve;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    /// A change between calls is no rounding, however small.
+    #[test]
+    fn a_curve_that_changes_between_calls_has_no_noise_of_rounding() {
+        let calls = AtomicU32::new(0);
+        for change in [0.0, 1e-9] {
+            let body = Curve::new([-1.0f64, 1.0], |k: f64| {
+                let moved = change * f64::from(calls.fetch_add(1, Ordering::Relaxed) % 7);
+                CurvePoint { x: k, y: k * k + moved, dx: 1.0, dy: 2.0 * k }
+            });
+            let piece = Piece::new(&body).unwrap();
+            assert_eq!(Noise::of_rounding(&piece, 0.3, &mut 0).is_some(), change < 1e-12);
+        }
+    }
+}
