@@ -62,6 +62,16 @@ fn held_by<T: Real>(
     Some((panel::within(&panel_set.panels, on), on))
 }
 
+/// Returns by how much the gap of one contact rises by its panels from one place to another, before the bodies are
+/// turned.
+pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
+    let integrator: &dyn Any = integrator;
+    let PanelIntegrator { panel_set, is_several: false, .. } = integrator.downcast_ref()? else {
+        return None;
+    };
+    Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
+}
+
 /// Shows the nodes of the panels of one contact, if it is held by panels.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
