@@ -5,6 +5,7 @@
 //! between the loaded bodies is looked at where their heights are known.
 
 mod outside;
+mod step;
 
 use super::exterior_field::{ExteriorField, POINTS};
 use crate::gap::{Cost, Gap};
@@ -12,6 +13,7 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
+pub(super) use step::step_of_heights;
 use std::cmp::Ordering;
 
 /// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.

@@ -13,7 +13,7 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{SignoriniCheck, TensionSpans};
+use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
@@ -113,6 +113,23 @@ pub(super) enum Sought<T> {
 
 /// Finds the contacts of two bodies.
 pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    sought: Sought<T>,
+    integrator: &mut dyn Integrator<T>,
+    workspace: &mut Workspace<T>,
+    cost: &mut Cost,
+) -> Result<ContactState<T>, ContactError<T>> {
+    let found = find_contacts(contact, sought, integrator, workspace, cost);
+    found.map_err(|error| match error {
+        // A step of the heights of which no slope tells is no crest that could be pressed flat.
+        ContactError::Overlap { x, interval, .. } => {
+            step_of_heights(&contact.gap, interval, x).unwrap_or(error)
+        }
+        _ => error,
+    })
+}
+
+fn find_contacts<T: Real>(
     contact: &Contact<'_, T>,
     sought: Sought<T>,
     integrator: &mut dyn Integrator<T>,

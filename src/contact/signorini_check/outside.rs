@@ -46,11 +46,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 (left, falls) = (x, Some(-slope));
             }
         }
-        // The slope is all but straight by now.
-        let share = match (falls, rises) {
-            (Some(falls), Some(rises)) => falls / (falls + rises),
-            _ => half,
-        };
+        // The slope is all but straight by now, where it is finite.
+        let share = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
+        let share = share.filter(|share| share.is_finite()).unwrap_or(half);
         left + share * (right - left)
     }
 
@@ -69,7 +67,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         ends: Ends<T>,
         cost: &mut Cost,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
-        self.compare_heights(look)?;
+        self.compare_heights(look, cost)?;
         if fields.is_empty() {
             self.fields(fields)?;
         }
@@ -105,16 +103,26 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Compares the rise of the gap over one contact by its slopes with that by the heights of the survey: between two
-    /// panels the contact itself sees no step.
-    fn compare_heights(&self, look: &Survey<T>) -> Result<(), ContactError<T>> {
+    /// panels the contact itself sees no step. Where they disagree the curves themselves are asked.
+    fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let Interval { left, right } = self.found.interval;
         let [from, to] = [left, right].map(|x| self.gap.nearest(x));
         let Some(by_slopes) = panels::rise(self.integrator, from, to) else { return Ok(()) };
-        let by_heights = look.height(to) - look.height(from);
-        let highest = look.height(to).abs().max(look.height(from).abs());
-        let deformed = self.found.load.abs() / self.kappa;
-        let open = look.doubt_at(from) + look.doubt_at(to) + T::of(STEP) * deformed;
-        Rises { between: [from, to], by_heights, by_slopes, highest, open }.compare()
+        let deformed = T::of(STEP) * self.found.load.abs() / self.kappa;
+        let compare = |[before, after]: [T; 2], doubt: T| {
+            let by_heights = after - before;
+            let (highest, open) = (before.abs().max(after.abs()), doubt + deformed);
+            Rises { between: [from, to], by_heights, by_slopes, highest, open }.compare()
+        };
+        let doubt = look.doubt_at(from) + look.doubt_at(to);
+        if compare([look.height(from), look.height(to)], doubt).is_ok() {
+            return Ok(());
+        }
+        let mut sampler = Sampler::default();
+        let before = sampler.height(self.gap, from)?;
+        let after = sampler.height(self.gap, to)?;
+        cost.heights += sampler.cost.evaluations;
+        compare([before, after], T::zero())
     }
 
     /// Returns a low place as it is; or if it is inside a contact the middles of what its span has outside.

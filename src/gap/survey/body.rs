@@ -346,9 +346,13 @@ impl<T: Real> Body<T> {
         let [mut start, mut end] = panel.ends;
         let usable = panel.series.filter(|_| panel.doubt.is_finite());
         if panel.series.is_some() && usable.is_none() {
-            let after = self.rows.partition_point(|row| row.x < x);
-            start = after.checked_sub(1).map_or(start, |before| self.rows[before]);
-            end = self.rows.get(after).copied().unwrap_or(end);
+            let beyond = self.rows.partition_point(|row| row.x <= x);
+            start = beyond.checked_sub(1).map_or(start, |before| self.rows[before]);
+            end = self.rows.get(beyond).copied().unwrap_or(start);
+            // The last point of all.
+            if !(end.x > start.x) {
+                return Row { x, ..start };
+            }
         }
         let [y, slope, doubt] = match usable {
             Some(number) => {
