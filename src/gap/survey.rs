@@ -48,6 +48,8 @@ pub(crate) struct Survey<T> {
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
     heights: Vec<[T; 2]>,
+    /// Room for the rates at which slopes rise between two points.
+    rates: Vec<T>,
     lowest: T,
     convex: bool,
     /// What it was refined for last, to which share of F/κ, and the tilt.
@@ -96,6 +98,7 @@ impl<T: Real> Survey<T> {
             range: [zero; 2],
             nodes: Vec::new(),
             heights: Vec::new(),
+            rates: Vec::new(),
             lowest: zero,
             convex: false,
             known: None,
@@ -292,7 +295,7 @@ impl<T: Real> Survey<T> {
             let after = self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body));
             (nodes[i - 1].after, nodes[i - 1].is_open) = (after, is_open);
         }
-        convex_stretches(&mut nodes);
+        convex_stretches(&mut nodes, &mut self.rates);
         self.heights.clear();
         self.heights.extend(nodes.iter().map(|node| [node.x, node.height]));
         self.lowest = self.find_lowest(&nodes);
@@ -305,14 +308,15 @@ impl<T: Real> Survey<T> {
 /// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
 /// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
 /// flank, or where X is no polynomial.
-fn convex_stretches<T: Real>(nodes: &mut [Node<T>]) {
+fn convex_stretches<T: Real>(nodes: &mut [Node<T>], rates: &mut Vec<T>) {
     let rate = |from: &Node<T>, to: &Node<T>| {
         let (width, rise) = (to.x - from.x, to.slopes[0] - from.slopes[1]);
         let chord = (to.height - from.height) / width;
         let bulges = chord >= from.slopes[1] && chord <= to.slopes[0] && rise.is_finite();
         if bulges { rise / width } else { T::one() / T::zero() }
     };
-    let rates: Vec<T> = nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])).collect();
+    rates.clear();
+    rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
     for i in 0..rates.len() {
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
         if around.iter().all(|rate| rate.is_finite()) {

@@ -13,6 +13,9 @@ const ANGLES: usize = 8;
 /// The share of the steepest slope by which others may seem to fall.
 const SHARE_OF_SLOPES: f64 = 1e-3;
 
+/// The share of the rise of the slope between two points that is left of it where the gap is lowest; at a kink more is.
+const SHARE_OF_RISE: f64 = 0.01;
+
 /// Steps to the place of the lowest gap from where a cubic has it.
 const MOST_POLISHES: usize = 6;
 
@@ -318,12 +321,12 @@ impl<T: Real> Survey<T> {
         if !(falls < T::zero() && rises > T::zero() && (rises - falls).is_finite()) {
             return x;
         }
-        let rounding = T::of(64.0) * T::epsilon() * (rises - falls);
+        let rise = rises - falls;
         let mut at = x;
         for _ in 0..MOST_POLISHES {
             let slope = self.slope(at);
-            if slope.abs() <= rounding {
-                break;
+            if slope.abs() <= T::of(64.0) * T::epsilon() * rise {
+                return at;
             }
             // Of two slopes on one side in a row the other one counts half (Illinois).
             if slope > T::zero() {
@@ -338,6 +341,6 @@ impl<T: Real> Survey<T> {
                 break;
             }
         }
-        at
+        if self.slope(at).abs() <= T::of(SHARE_OF_RISE) * rise { at } else { x }
     }
 }
