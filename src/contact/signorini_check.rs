@@ -13,8 +13,8 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
-pub(super) use step::step_of_heights;
 use std::cmp::Ordering;
+pub(super) use step::step_of_heights;
 
 /// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 64;

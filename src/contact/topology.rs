@@ -304,7 +304,12 @@ impl<T: Real> Search<'_, '_, T> {
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
         // More contacts may press at a corner that is not reached.
         let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
-        if self.is_convex() || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+        let is_said = self.contact.gap.is_convex();
+        if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+            return Ok(lifts_off);
+        }
+        self.resolve(found)?;
+        if self.is_convex() {
             return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
@@ -343,6 +348,16 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
         Ok(overlap.or(lifts_off))
+    }
+
+    /// Looks for narrow features beside the contacts that were found.
+    fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
+        let gap = &self.contact.gap.tilted(found.tilt);
+        self.workspace.take(gap, self.cost)?;
+        let contacts = panels::several(self.integrator).map(|several| several.contacts());
+        let contacts = contacts.unwrap_or(std::slice::from_ref(&found.interval));
+        let load = found.load.abs() / self.contact.kappa;
+        self.workspace.look.resolve(gap, load, contacts, self.cost)
     }
 
     /// Whether the gap has several low places, and nothing else says where to start.

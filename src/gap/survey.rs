@@ -17,6 +17,7 @@
 mod body;
 mod lows;
 mod panel;
+mod probe;
 mod segment;
 
 use super::{Cost, Gap};
@@ -54,6 +55,8 @@ pub(crate) struct Survey<T> {
     convex: bool,
     /// What it was refined for last, to which share of F/κ, and the tilt.
     known: Option<(Asked<T>, T, T)>,
+    /// Spans that have been looked at more closely, beside contacts.
+    seen: Vec<probe::Stretch<T>>,
 }
 
 /// What a contact is asked to have, forces over κ.
@@ -77,6 +80,8 @@ struct Node<T> {
     /// Uncertainty of the heights up to the next node, and whether a piece is there of which only the ends are known.
     after: T,
     is_open: bool,
+    /// Whether points of the curve before the next node are missed.
+    is_void: bool,
 }
 
 impl<T: Real> Node<T> {
@@ -102,6 +107,7 @@ impl<T: Real> Survey<T> {
             lowest: zero,
             convex: false,
             known: None,
+            seen: Vec::new(),
         }
     }
 
@@ -113,6 +119,7 @@ impl<T: Real> Survey<T> {
     pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         self.range = gap.range();
         self.known = None;
+        self.seen.clear();
         let before = cost.heights;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
@@ -273,6 +280,7 @@ impl<T: Real> Survey<T> {
                 doubt: upper[0].doubt.max(upper[1].doubt) + lower[0].doubt.max(lower[1].doubt),
                 after: T::zero(),
                 is_open: false,
+                is_void: false,
             });
             if x >= last {
                 break;
@@ -282,18 +290,20 @@ impl<T: Real> Survey<T> {
         }
         for i in 1..nodes.len() {
             let between = [nodes[i - 1].x, nodes[i].x];
-            let mut is_open = false;
+            let [mut is_open, mut is_void] = [false; 2];
             let mut doubt = |body: &Body<T>| {
                 let [first, last] = between.map(|x| body.panels_at(x));
                 let panels = &body.panels[first[1]..=last[0].max(first[1])];
                 is_open |= panels.iter().any(|panel| !panel.is_sampled);
+                is_void |= panels.iter().any(|panel| panel.is_void);
                 panels.iter().fold(
                     T::zero(),
                     |most, panel| if most > panel.doubt { most } else { panel.doubt },
                 )
             };
             let after = self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body));
-            (nodes[i - 1].after, nodes[i - 1].is_open) = (after, is_open);
+            let node = &mut nodes[i - 1];
+            (node.after, node.is_open, node.is_void) = (after, is_open, is_void);
         }
         convex_stretches(&mut nodes, &mut self.rates);
         self.heights.clear();
@@ -319,7 +329,7 @@ fn convex_stretches<T: Real>(nodes: &mut [Node<T>], rates: &mut Vec<T>) {
     rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
     for i in 0..rates.len() {
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
-        if around.iter().all(|rate| rate.is_finite()) {
+        if !nodes[i].is_void && around.iter().all(|rate| rate.is_finite()) {
             let width = nodes[i + 1].x - nodes[i].x;
             let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
             nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);

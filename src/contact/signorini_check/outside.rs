@@ -331,7 +331,7 @@ impl<T: Real> Beside<T> {
 }
 
 /// What a height says of the gap between the loaded bodies.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 enum Verdict {
     Apart,
     /// They may overlap by no more than the series of the pressures leave open.

@@ -16,6 +16,10 @@ const MOST_WINDOWS: usize = 8;
 /// that, of some 300 in the body, is seen before.
 const MOST_IN_VAIN: usize = 10;
 
+/// The share of the distance by which a point was missed that may be left of it: a series that is closer has seen the
+/// feature, not only its foot.
+const LEFT: f64 = 0.01;
+
 /// The x-length of a body beyond that of the common range from which on it is narrowed.
 const LONG: f64 = 4.0;
 
@@ -23,28 +27,42 @@ const LONG: f64 = 4.0;
 #[derive(Clone, Debug)]
 pub(super) struct Body<T> {
     pub panels: Vec<Panel<T>>,
-    series: Vec<Series<T>>,
+    pub series: Vec<Series<T>>,
     /// All points inside the common range and the ends of pieces, by rising x.
     pub rows: Vec<Row<T>>,
+    /// Points of the curve that a series has missed.
+    pub missed: Vec<Missed<T>>,
     scratch: Scratch<T>,
+}
+
+/// A point of a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Missed<T> {
+    pub piece: usize,
+    pub k: T,
+    pub point: CurvePoint<T>,
+    /// The distance by which it was missed, a length.
+    pub by: T,
 }
 
 /// A stretch of a smooth piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Panel<T> {
-    piece: usize,
-    k: [T; 2],
+    pub piece: usize,
+    pub k: [T; 2],
     /// The points at both ends, of which those inside a piece are not among the rows.
     ends: [Row<T>; 2],
     is_inside: [bool; 2],
     /// Its number among the series; without one it is the cubic between its ends.
-    series: Option<usize>,
+    pub series: Option<usize>,
     /// Uncertainty of the heights, a length.
     pub doubt: T,
     /// Whether anything but the ends has been looked at.
     pub is_sampled: bool,
     /// Halvings in a row that have left it as uncertain.
-    vain: usize,
+    pub vain: usize,
+    /// Whether it misses points of the curve that are known.
+    pub is_void: bool,
 }
 
 impl<T: Real> Panel<T> {
@@ -75,7 +93,8 @@ impl<T: Real> Body<T> {
     pub fn new() -> Self {
         let scratch =
             Scratch { k: Vec::new(), points: Vec::new(), panels: Vec::new(), wanted: Vec::new() };
-        Self { panels: Vec::new(), series: Vec::new(), rows: Vec::new(), scratch }
+        let (panels, series, rows, missed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { panels, series, rows, missed, scratch }
     }
 
     /// Takes a first look at a surface, over the range of x that both bodies cover.
@@ -88,6 +107,7 @@ impl<T: Real> Body<T> {
         let count = surface.len();
         self.panels.clear();
         self.series.clear();
+        self.missed.clear();
         self.scratch.wanted.clear();
         let first = surface.index_at(range[0], Side::Left);
         let last = surface.index_at(range[1], Side::Right).max(first);
@@ -122,6 +142,7 @@ impl<T: Real> Body<T> {
                 doubt,
                 is_sampled,
                 vain: 0,
+                is_void: false,
             });
         }
         self.sample(surface, range, heights)?;
@@ -268,14 +289,19 @@ impl<T: Real> Body<T> {
             *heights = heights.saturating_add(k.len());
             for (&i, points) in batch.iter().zip(points.as_chunks::<POINTS>().0) {
                 let panel = &mut self.panels[i];
-                let series = Series::new(panel.k, points);
-                let is_vain = panel.is_sampled && !(series.doubt <= T::of(0.5) * panel.doubt);
+                let mut series = Series::new(panel.k, points);
+                let is_void = misses(&series, panel, &self.missed);
+                if is_void {
+                    series.doubt = T::one() / T::zero();
+                }
+                let gains = series.doubt <= T::of(0.5) * panel.doubt && !is_void;
+                let is_vain = panel.is_sampled && !gains;
                 panel.vain = match is_vain {
-                    _ if series.is_exact => MOST_IN_VAIN,
+                    _ if series.is_exact && !is_void => MOST_IN_VAIN,
                     true => panel.vain + 1,
                     false => 0,
                 };
-                (panel.doubt, panel.is_sampled) = (series.doubt, true);
+                (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
                 check(&piece, panel, points, range)?;
                 match panel.series {
                     Some(number) => self.series[number] = series,
@@ -372,6 +398,16 @@ impl<T: Real> Body<T> {
         };
         Row { x, y, slope, doubt }
     }
+}
+
+/// Tells whether a series misses a point of its panel that another one has missed.
+fn misses<T: Real>(series: &Series<T>, panel: &Panel<T>, known: &[Missed<T>]) -> bool {
+    let [from, to] = panel.k;
+    known.iter().filter(|missed| missed.piece == panel.piece).any(|missed| {
+        let t = ((missed.k - from) - (to - missed.k)) / (to - from);
+        let error = series.doubt.max(series.miss(t, &missed.point));
+        t.abs() <= T::one() && !(error <= T::of(LEFT) * missed.by)
+    })
 }
 
 /// How far the cubic between two ends bulges from the line through both.

@@ -99,6 +99,15 @@ impl<T: Real> Series<T> {
         [x, y, dy / dx]
     }
 
+    /// Returns by how much it misses a point of the curve at t, along y and beyond rounding.
+    pub fn miss(&self, t: T, point: &CurvePoint<T>) -> T {
+        let [x, y, _] = self.at_end(t);
+        let slope = point.dy / point.dx;
+        let missed = (point.y - y - slope * (point.x - x)).abs();
+        let size = point.y.abs() + (slope * point.x).abs();
+        (missed - T::of(ROUNDING) * T::epsilon() * size).max(T::zero())
+    }
+
     /// Returns height and slope at x, on a stretch between two places.
     pub fn at(&self, x: T, between: [T; 2]) -> [T; 2] {
         let [_, y, slope] = self.at_end(self.parameter(x, between));

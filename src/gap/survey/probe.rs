@@ -1,0 +1,213 @@
+//! Features narrower than the distance of the points of a panel.
+//!
+//! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
+//! top: 2e-5 at d = 2 w. Points no further apart than 4 w see it, as long as the series between them is as exact.
+
+use super::body::{Body, Missed};
+use super::{Cost, Survey};
+use crate::gap::{Gap, Surface};
+use crate::{Body as Which, ContactError, Interval, Real};
+
+/// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies next to.
+const NARROWEST: f64 = 0.02;
+
+/// The distance of points, in such widths.
+const APART: f64 = 4.0;
+
+/// Times the load that is looked ahead for, and times closer that points are than it needs: the next load needs none.
+const AHEAD: f64 = 1.25;
+
+/// Times the uncertainty of a panel by which a point may miss it.
+const MISSED: f64 = 8.0;
+
+/// Looks at stretches, each at the panels that the one before has refined.
+const MOST_ROUNDS: usize = 40;
+
+/// Points on one stretch.
+const MOST_POINTS: usize = 1 << 12;
+
+/// Halvings in search of the place where the gap leaves the reach of a load.
+const MOST_HALVES: usize = 60;
+
+/// A span of x outside the contacts between two points of the survey, and the distance of points to have there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<T> {
+    x: [T; 2],
+    apart: T,
+}
+
+impl<T: Real> Stretch<T> {
+    /// Tells whether another one has points as close all over this one.
+    fn is_seen_by(&self, other: &Self) -> bool {
+        other.x[0] <= self.x[0] && other.x[1] >= self.x[1] && other.apart <= self.apart
+    }
+}
+
+impl<T: Real> Survey<T> {
+    /// Looks for narrow features that the load F/κ may press on beside the contacts, and refines panels that miss one.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn resolve(
+        &mut self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        for _ in 0..MOST_ROUNDS {
+            let is_open =
+                |stretch: &Stretch<T>| !self.seen.iter().any(|seen| stretch.is_seen_by(seen));
+            if !self.stretches(gap, [load, T::one()], contacts).iter().any(is_open) {
+                break;
+            }
+            let (ahead, closer) = (T::of(AHEAD) * load, T::one() / T::of(AHEAD));
+            let mut missed = Vec::new();
+            for stretch in self.stretches(gap, [ahead, closer], contacts) {
+                if self.seen.iter().any(|seen| stretch.is_seen_by(seen)) {
+                    continue;
+                }
+                if self.probe(gap, &stretch, cost)? {
+                    self.seen.retain(|seen| !seen.is_seen_by(&stretch));
+                    self.seen.push(stretch);
+                } else {
+                    missed.push(stretch.x);
+                }
+            }
+            if !missed.is_empty() {
+                (self.convex, self.known) = (false, None);
+                // Those that are void.
+                let most = T::max_value().unwrap_or(T::one() / T::epsilon());
+                if !self.refine_at(gap, &missed, most, cost)? {
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
+    /// further apart than a share of the distance to have.
+    fn stretches(
+        &self,
+        gap: &Gap<'_, T>,
+        [load, share]: [T; 2],
+        contacts: &[Interval<T>],
+    ) -> Vec<Stretch<T>> {
+        let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return vec![] };
+        let hull = T::of(0.5) * (last.right - first.left);
+        let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
+        let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
+        let heights = nodes.chain(limits.map(|x| [x, self.height(x)]));
+        let heights = heights.map(|[x, height]| gap.turned(x, height));
+        let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
+        let ratio = (self.range[1] - self.range[0]) / hull;
+        let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
+        let mut found = Vec::new();
+        let mut next = 0;
+        for pair in self.nodes.windows(2) {
+            let [mut from, to] = [pair[0].x, pair[1].x];
+            while from < to {
+                while contacts.get(next).is_some_and(|on| on.right <= from) {
+                    next += 1;
+                }
+                let on = contacts.get(next);
+                let end = on.map_or(to, |on| to.min(on.left));
+                let beside = contacts[next.saturating_sub(1)..].iter().take(2);
+                let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
+                let apart = share * T::of(2.0 * APART * NARROWEST) * narrow;
+                if end - from > apart
+                    && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
+                    && x[1] - x[0] > apart
+                {
+                    found.push(Stretch { x, apart });
+                }
+                from = on.map_or(to, |on| end.max(on.right));
+            }
+        }
+        found
+    }
+
+    /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
+    fn within(&self, gap: &Gap<'_, T>, x: [T; 2], level: T) -> Option<[T; 2]> {
+        let is_below = |x: T| gap.turned(x, self.height(x)) < level;
+        let (from, mut low, mut high) = match x.map(is_below) {
+            [true, true] => return Some(x),
+            [true, false] => (x[0], x[0], x[1]),
+            [false, true] => (x[1], x[1], x[0]),
+            [false, false] => return None,
+        };
+        for _ in 0..MOST_HALVES {
+            if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
+                break;
+            }
+            let middle = T::of(0.5) * (low + high);
+            *(if is_below(middle) { &mut low } else { &mut high }) = middle;
+        }
+        Some([from.min(high), from.max(high)])
+    }
+
+    /// Asks the curves for points on a stretch, and voids panels that they miss; whether there were none.
+    fn probe(
+        &mut self,
+        gap: &Gap<'_, T>,
+        stretch: &Stretch<T>,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let mut agrees = true;
+        for which in [Which::Lower, Which::Upper] {
+            let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
+            agrees &= body.probe(surface, stretch, &mut cost.heights);
+        }
+        Ok(agrees)
+    }
+}
+
+impl<T: Real> Body<T> {
+    fn probe(
+        &mut self,
+        surface: &Surface<'_, T>,
+        stretch: &Stretch<T>,
+        heights: &mut usize,
+    ) -> bool {
+        let (one, half) = (T::one(), T::of(0.5));
+        let [first, last] = stretch.x.map(|x| self.panels_at(x));
+        let mut agrees = true;
+        for i in first[1]..=last[0].max(first[1]) {
+            let panel = self.panels[i];
+            let Some(number) = panel.series else { continue };
+            if !panel.doubt.is_finite() {
+                agrees = false;
+                continue;
+            }
+            let (series, between) = (&self.series[number], panel.x());
+            let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
+            let ends = [from, to].map(|x| series.parameter(x, between));
+            let mut count = 1;
+            while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
+                count += 1;
+            }
+            let place = |j: usize| {
+                let share = (T::count(j) + half) / T::count(count);
+                ends[0] + share * (ends[1] - ends[0])
+            };
+            let t: Vec<T> = (0..count).map(place).collect();
+            let at = |t: &T| half * (one - *t) * panel.k[0] + half * (one + *t) * panel.k[1];
+            let k: Vec<T> = t.iter().map(at).collect();
+            let piece = surface.piece(panel.piece);
+            let mut points = vec![piece.ends[0]; k.len()];
+            piece.curve.at_many(&k, &mut points);
+            *heights = heights.saturating_add(k.len());
+            for ((t, k), point) in t.iter().zip(k).zip(points) {
+                let by = series.miss(*t, &point);
+                if !(by <= T::of(MISSED) * panel.doubt) {
+                    self.missed.push(Missed { piece: panel.piece, k, point, by });
+                    let panel = &mut self.panels[i];
+                    (panel.doubt, panel.vain, panel.is_void) = (one / T::zero(), 0, true);
+                    agrees = false;
+                }
+            }
+        }
+        agrees
+    }
+}
