@@ -1,7 +1,7 @@
 //! Features narrower than the distance of the points of a panel.
 //!
 //! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
-//! top: 2e-5 at d = 2 w. Points no further apart than 4 w see it, as long as the series between them is as exact.
+//! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
 use super::body::{Body, Missed};
 use super::{Cost, Survey};
@@ -12,10 +12,16 @@ use crate::{Body as Which, ContactError, Interval, Real};
 const NARROWEST: f64 = 0.02;
 
 /// The distance of points, in such widths.
-const APART: f64 = 4.0;
+const APART: f64 = 4.5;
 
-/// Times the load that is looked ahead for, and times closer that points are than it needs: the next load needs none.
-const AHEAD: f64 = 1.25;
+/// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
+const AHEAD: f64 = 1.05;
+
+/// Times the distance of points that serves as well: a lighter load, down to about a quarter, asks for no more of them.
+const KEPT: f64 = 2.0;
+
+/// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
+const EXACT: f64 = 1e-5;
 
 /// Times the uncertainty of a panel by which a point may miss it.
 const MISSED: f64 = 8.0;
@@ -37,9 +43,11 @@ pub(super) struct Stretch<T> {
 }
 
 impl<T: Real> Stretch<T> {
-    /// Tells whether another one has points as close all over this one.
+    /// Tells whether another one has points about as close all over this one.
     fn is_seen_by(&self, other: &Self) -> bool {
-        other.x[0] <= self.x[0] && other.x[1] >= self.x[1] && other.apart <= self.apart
+        other.x[0] <= self.x[0]
+            && other.x[1] >= self.x[1]
+            && other.apart <= T::of(KEPT) * self.apart
     }
 }
 
@@ -58,12 +66,16 @@ impl<T: Real> Survey<T> {
         for _ in 0..MOST_ROUNDS {
             let is_open =
                 |stretch: &Stretch<T>| !self.seen.iter().any(|seen| stretch.is_seen_by(seen));
-            if !self.stretches(gap, [load, T::one()], contacts).iter().any(is_open) {
+            if !self.stretches(gap, load, contacts).iter().any(is_open) {
                 break;
             }
-            let (ahead, closer) = (T::of(AHEAD) * load, T::one() / T::of(AHEAD));
             let mut missed = Vec::new();
-            for stretch in self.stretches(gap, [ahead, closer], contacts) {
+            let ahead = self.stretches(gap, T::of(AHEAD) * load, contacts);
+            let spans: Vec<[T; 2]> = ahead.iter().map(|stretch| stretch.x).collect();
+            if self.refine_at(gap, &spans, T::of(EXACT) * load, cost)? {
+                continue;
+            }
+            for stretch in ahead {
                 if self.seen.iter().any(|seen| stretch.is_seen_by(seen)) {
                     continue;
                 }
@@ -87,13 +99,8 @@ impl<T: Real> Survey<T> {
     }
 
     /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
-    /// further apart than a share of the distance to have.
-    fn stretches(
-        &self,
-        gap: &Gap<'_, T>,
-        [load, share]: [T; 2],
-        contacts: &[Interval<T>],
-    ) -> Vec<Stretch<T>> {
+    /// further apart than the distance to have.
+    fn stretches(&self, gap: &Gap<'_, T>, load: T, contacts: &[Interval<T>]) -> Vec<Stretch<T>> {
         let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return vec![] };
         let hull = T::of(0.5) * (last.right - first.left);
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
@@ -115,7 +122,7 @@ impl<T: Real> Survey<T> {
                 let end = on.map_or(to, |on| to.min(on.left));
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
-                let apart = share * T::of(2.0 * APART * NARROWEST) * narrow;
+                let apart = T::of(2.0 * APART * NARROWEST) * narrow;
                 if end - from > apart
                     && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
                     && x[1] - x[0] > apart
