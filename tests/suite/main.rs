@@ -40,6 +40,7 @@ mod largest_values;
 mod limits;
 mod loads;
 mod messages;
+mod narrow_features;
 mod nested_search;
 mod noise;
 mod oracle;

@@ -43,6 +43,8 @@ pub(super) struct Missed<T> {
     pub point: CurvePoint<T>,
     /// The distance by which it was missed, a length.
     pub by: T,
+    /// The distance of points at which it was found, along x.
+    pub apart: T,
 }
 
 /// A stretch of a smooth piece.
@@ -290,11 +292,17 @@ impl<T: Real> Body<T> {
             for (&i, points) in batch.iter().zip(points.as_chunks::<POINTS>().0) {
                 let panel = &mut self.panels[i];
                 let mut series = Series::new(panel.k, points);
-                let is_void = misses(&series, panel, &self.missed);
+                let missed = missed_by(&series, panel, &self.missed);
+                let is_void = missed.is_some();
                 if is_void {
                     series.doubt = T::one() / T::zero();
                 }
-                let gains = series.doubt <= T::of(0.5) * panel.doubt && !is_void;
+                // Far longer than a feature it cannot gain.
+                let [from, to] = panel.x();
+                let gains = match missed {
+                    Some(missed) => to - from > missed.apart,
+                    None => series.doubt <= T::of(0.5) * panel.doubt,
+                };
                 let is_vain = panel.is_sampled && !gains;
                 panel.vain = match is_vain {
                     _ if series.is_exact && !is_void => MOST_IN_VAIN,
@@ -400,10 +408,14 @@ impl<T: Real> Body<T> {
     }
 }
 
-/// Tells whether a series misses a point of its panel that another one has missed.
-fn misses<T: Real>(series: &Series<T>, panel: &Panel<T>, known: &[Missed<T>]) -> bool {
+/// Returns a point of a panel that its series misses, as another one has.
+fn missed_by<'m, T: Real>(
+    series: &Series<T>,
+    panel: &Panel<T>,
+    known: &'m [Missed<T>],
+) -> Option<&'m Missed<T>> {
     let [from, to] = panel.k;
-    known.iter().filter(|missed| missed.piece == panel.piece).any(|missed| {
+    known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
         let t = ((missed.k - from) - (to - missed.k)) / (to - from);
         let error = series.doubt.max(series.miss(t, &missed.point));
         t.abs() <= T::one() && !(error <= T::of(LEFT) * missed.by)

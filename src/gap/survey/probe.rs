@@ -21,7 +21,7 @@ const AHEAD: f64 = 1.05;
 const KEPT: f64 = 2.0;
 
 /// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
-const EXACT: f64 = 1e-5;
+const EXACT: f64 = 1e-3;
 
 /// Times the uncertainty of a panel by which a point may miss it.
 const MISSED: f64 = 8.0;
@@ -208,7 +208,8 @@ impl<T: Real> Body<T> {
             for ((t, k), point) in t.iter().zip(k).zip(points) {
                 let by = series.miss(*t, &point);
                 if !(by <= T::of(MISSED) * panel.doubt) {
-                    self.missed.push(Missed { piece: panel.piece, k, point, by });
+                    let (piece, apart) = (panel.piece, stretch.apart);
+                    self.missed.push(Missed { piece, k, point, by, apart });
                     let panel = &mut self.panels[i];
                     (panel.doubt, panel.vain, panel.is_void) = (one / T::zero(), 0, true);
                     agrees = false;
