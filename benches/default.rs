@@ -1,0 +1,88 @@
+//! The default solve beside the bare equations: the price of knowing nothing of the bodies, and of looking
+//! whether a solution is one.
+//!
+//! ```sh
+//! cargo bench --bench default                             # the table, tab-separated
+//! cargo bench --bench default -- repeat circle cold 100   # only this, 100 times: for instructions.sh
+//! ```
+//!
+//! The [scenes]: a parabola and a circle as closures, the paper's Examples 3 and 4, and a parabola with a wave,
+//! pressed into one contact. No pressures are asked for.
+//!
+//! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before or below it by as
+//! much; the counts are those of the first time, so that nothing is known beyond the lower one. In `bare-cold`
+//! and `bare-next` one interval is sought and not checked (`Contact::single_interval`).
+
+#[path = "shared/scenes.rs"]
+mod scenes;
+#[path = "shared/timing.rs"]
+mod timing;
+
+use linecontact::{Contact, Control, Cost, Solver};
+use scenes::{SCENES, Scene, scene};
+use std::hint::black_box;
+use timing::time;
+
+const CASES: [&str; 4] = ["cold", "bare-cold", "next", "bare-next"];
+
+/// The next load, by the first.
+const NEXT: f64 = 1.02;
+
+/// Hands over a case: a call that solves it once and returns its cost.
+fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) {
+    let Scene { lower, upper, load } = scene(name);
+    let is_bare = case.starts_with("bare");
+    let contact = || {
+        let contact = Contact::new(&*lower, &*upper).expect("they overlap");
+        if is_bare { contact.single_interval(true) } else { contact }
+    };
+    let control = |factor: f64| Control::Load(black_box(factor * load));
+    let done = "the scene has a solution";
+    if case.ends_with("cold") {
+        return visit(&mut || contact().solve(control(1.0)).expect(done).cost());
+    }
+    let (contact, mut solver, mut is_heavy) = (contact(), Solver::new(), false);
+    solver.solve(&contact, control(1.0)).expect(done);
+    visit(&mut || {
+        is_heavy = !is_heavy;
+        let factor = if is_heavy { NEXT } else { 1.0 };
+        solver.solve(&contact, control(factor)).expect(done).cost()
+    });
+}
+
+/// A line for each scene: of each case microseconds and the evaluations of the curves, those for heights apart.
+fn table() {
+    println!("scene\tcase\tmicroseconds\tby bare\tsamples\tevaluations\theights");
+    for name in SCENES {
+        let found = CASES.map(|case| {
+            let mut measured = (0.0, Cost::default());
+            solves(name, case, |call| {
+                let cost = call();
+                let micros = time(|| {
+                    black_box(call());
+                });
+                measured = (micros, cost);
+            });
+            measured
+        });
+        for (i, case) in CASES.into_iter().enumerate() {
+            let (micros, Cost { samples, evaluations, heights }) = found[i];
+            let ratio = micros / found[i | 1].0;
+            println!("{name}\t{case}\t{micros:.3}\t{ratio:.2}\t{samples}\t{evaluations}\t{heights}");
+        }
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["repeat", name, case, times] => solves(name, case, |call| {
+            (0..times.parse().expect("a number")).for_each(|_: u32| {
+                black_box(call());
+            });
+        }),
+        [] => table(),
+        _ => panic!("nothing, or `repeat SCENE CASE TIMES`"),
+    }
+}
