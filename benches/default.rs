@@ -68,7 +68,9 @@ fn table() {
         for (i, case) in CASES.into_iter().enumerate() {
             let (micros, Cost { samples, evaluations, heights }) = found[i];
             let ratio = micros / found[i | 1].0;
-            println!("{name}\t{case}\t{micros:.3}\t{ratio:.2}\t{samples}\t{evaluations}\t{heights}");
+            println!(
+                "{name}\t{case}\t{micros:.3}\t{ratio:.2}\t{samples}\t{evaluations}\t{heights}"
+            );
         }
     }
 }

@@ -43,9 +43,7 @@ fn printed(example: curves::Example) -> Scene {
 /// With another name.
 pub fn scene(name: &str) -> Scene {
     match name {
-        "parabola" => {
-            on_flat(0.02, 1.0, |k| CurvePoint { x: k, y: 0.5 * k * k, dx: 1.0, dy: k })
-        }
+        "parabola" => on_flat(0.02, 1.0, |k| CurvePoint { x: k, y: 0.5 * k * k, dx: 1.0, dy: k }),
         // Half the radius wide: 2 (K(m) - E(m)), m = 1/4.
         "circle" => on_flat(0.436_576_291_006_337_8 / PI, 1.0, |k| {
             let (half_sin, half_cos) = (0.5 * k).sin_cos();

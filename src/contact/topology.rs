@@ -291,6 +291,9 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
+        if self.touches_once(gap, found)? {
+            return Ok(lifts_off);
+        }
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
         if panels::several(self.integrator).is_none() {
@@ -315,17 +318,33 @@ impl<T: Real> Search<'_, '_, T> {
         let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
         if !check.covers(ends) {
-            self.workspace.take(gap, self.cost)?;
             let Workspace { look, fields, .. } = &mut *self.workspace;
-            if !look.is_convex() {
-                overlap = check.overlap(fields, look, ends, self.cost)?;
-            }
+            overlap = check.overlap(fields, look, ends, self.cost)?;
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
         }
         let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
         Ok(overlap.or(lifts_off))
+    }
+
+    /// Tells whether the gap is convex around one contact as far as its load reaches.
+    fn touches_once(
+        &mut self,
+        gap: &Gap<'_, T>,
+        found: &ContactState<T>,
+    ) -> Result<bool, ContactError<T>> {
+        let is_one = panels::several(self.integrator).is_none();
+        let (on, ends) = (found.interval, self.contact.ends());
+        if !is_one || found.adhesive != Ends::both(false) {
+            return Ok(false);
+        }
+        // From end to end nothing lies outside.
+        if on.left <= ends.left && on.right >= ends.right {
+            return Ok(false);
+        }
+        self.workspace.take(gap, self.cost)?;
+        self.workspace.look.prove(gap, on, found.load / self.contact.kappa, self.cost)
     }
 
     /// Whether the gap has several low places, and nothing else says where to start.
@@ -336,7 +355,7 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(false);
         }
         let look = self.look()?;
-        Ok(!look.is_convex() && !look.is_one_valley())
+        Ok(!look.is_one_valley())
     }
 
     /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.

@@ -151,11 +151,13 @@ impl<T: Real> Quadrature<T> for Panels {
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
-        let (moments, over, fall, is_several) = (None, None, None, false);
+        let (moments, over, fall) = (None, None, None);
+        let (is_prepared, is_several) = (false, false);
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set,
             conjugate,
+            is_prepared,
             moments,
             over,
             fall,
@@ -182,6 +184,8 @@ struct PanelIntegrator<T> {
     rule: Panels,
     panel_set: PanelSet<T>,
     conjugate: HilbertTransform<T>,
+    /// Whether the conjugate is that of the moments last remembered.
+    is_prepared: bool,
     /// The interval last integrated over: in the end that of the conjugate.
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Where one panel holds it, the series of that.
@@ -218,7 +222,7 @@ impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
         self.panel_set.own_up_alone();
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
-        self.moments = Some((on, m));
+        (self.moments, self.is_prepared) = (Some((on, m)), false);
         m
     }
 
@@ -334,8 +338,11 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             // But limits and load are those of the panels before.
             self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
-        let PanelSet { panels, size, tolerance, .. } = &self.panel_set;
-        self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
+        if !self.is_prepared {
+            let PanelSet { panels, size, tolerance, .. } = &self.panel_set;
+            self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
+            self.is_prepared = self.fall.is_none();
+        }
         Ok(())
     }
 

@@ -16,6 +16,10 @@ const MOST_WINDOWS: usize = 8;
 /// that, of some 300 in the body, is seen before.
 const MOST_IN_VAIN: usize = 10;
 
+/// The share of its uncertainty that halving leaves at most of a panel that resolves the body: of a series of eight
+/// terms 1/256 or less.
+const GAIN: f64 = 0.125;
+
 /// The x-length of a body beyond that of the common range from which on it is narrowed.
 const LONG: f64 = 4.0;
 
@@ -45,6 +49,8 @@ pub(super) struct Panel<T> {
     pub is_sampled: bool,
     /// Halvings in a row that have left it as uncertain.
     vain: usize,
+    /// Uncertainty of the panel that it is a half of; infinite if there is none.
+    before: T,
 }
 
 impl<T: Real> Panel<T> {
@@ -55,6 +61,11 @@ impl<T: Real> Panel<T> {
     /// Tells whether more points may leave it less uncertain than by a tolerance.
     pub fn may_gain(&self, tolerance: T) -> bool {
         !self.is_sampled || self.doubt > tolerance && self.vain < MOST_IN_VAIN
+    }
+
+    /// Tells whether its halving has brought it much nearer to being known.
+    pub fn converges(&self) -> bool {
+        !(self.doubt > T::of(GAIN) * self.before)
     }
 }
 
@@ -122,6 +133,7 @@ impl<T: Real> Body<T> {
                 doubt,
                 is_sampled,
                 vain: 0,
+                before: T::one() / T::zero(),
             });
         }
         self.sample(surface, range, heights)?;
@@ -275,6 +287,9 @@ impl<T: Real> Body<T> {
                     true => panel.vain + 1,
                     false => 0,
                 };
+                if panel.is_sampled {
+                    panel.before = panel.doubt;
+                }
                 (panel.doubt, panel.is_sampled) = (series.doubt, true);
                 check(&piece, panel, points, range)?;
                 match panel.series {

@@ -124,30 +124,28 @@ impl<T: Real> Survey<T> {
                 let [from, to] = [&pair[0], &pair[1]];
                 let width = to.x - from.x;
                 let chord = (to.height - from.height) / width;
-                let doubt = from.doubt + to.doubt + (T::of(8.0) * from.after + cancelled) / width;
+                let doubt =
+                    from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
                 let allowed = from.rounding(to) + doubt.min(most);
                 // A slope at an end may be no number.
                 chord < from.slopes[1] - allowed || chord > to.slopes[0] + allowed
             })
     }
 
-    /// Tells whether the gap is proved to be convex.
-    pub fn is_convex(&self) -> bool {
-        self.convex
-    }
-
-    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks.
+    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks, as far as the load reaches
+    /// that was asked for.
     pub fn is_one_valley(&self) -> bool {
-        self.nodes.windows(2).all(|pair| {
-            let [one, other] = [&pair[0], &pair[1]];
-            let rise = other.height - one.height;
-            let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
-            if other.x <= self.lowest {
-                rise <= rounding
-            } else {
-                one.x < self.lowest || rise >= -rounding
-            }
-        })
+        self.is_one
+            || self.nodes.windows(2).all(|pair| {
+                let [one, other] = [&pair[0], &pair[1]];
+                let rise = other.height - one.height;
+                let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
+                if other.x <= self.lowest {
+                    rise <= rounding
+                } else {
+                    one.x < self.lowest || rise >= -rounding
+                }
+            })
     }
 
     /// Returns the load that a contact bears, as F/κ: `F = (L/π) ∫ g cos θ dθ`.
