@@ -42,7 +42,6 @@ pub(crate) struct Survey<T> {
     range: [T; 2],
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
-    heights: Vec<[T; 2]>,
     lowest: T,
     /// Where the gap was last seen to be convex.
     stretch: Option<Stretch<T>>,
@@ -100,7 +99,6 @@ impl<T: Real> Survey<T> {
             bodies: [Body::new(), Body::new()],
             range: [zero; 2],
             nodes: Vec::new(),
-            heights: Vec::new(),
             lowest: zero,
             stretch: None,
             is_one: false,
@@ -223,6 +221,7 @@ impl<T: Real> Survey<T> {
     fn join(&mut self) {
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.clear();
+        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.len()).sum::<usize>());
         let [first, last] = self.range;
         let mut next = [0; 2];
         let mut x = first;
@@ -259,8 +258,6 @@ impl<T: Real> Survey<T> {
             (nodes[i - 1].after, nodes[i - 1].is_open) = (after, is_open);
         }
         convex_stretches(&mut nodes);
-        self.heights.clear();
-        self.heights.extend(nodes.iter().map(|node| [node.x, node.height]));
         self.lowest = self.find_lowest(&nodes);
         (self.nodes, self.stretch) = (nodes, None);
     }

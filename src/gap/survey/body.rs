@@ -333,6 +333,7 @@ impl<T: Real> Body<T> {
     fn list(&mut self, [first, last]: [T; 2]) {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
+        self.rows.reserve((NODES + 2) * self.panels.len().min(FEW_PIECES));
         for panel in &self.panels {
             let inner = panel.series.map(|number| &self.series[number].rows[..]).unwrap_or(&[]);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));

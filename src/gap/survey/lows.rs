@@ -3,12 +3,16 @@
 use super::segment::Segment;
 use super::{Asked, Node, Survey};
 use crate::gap::Gap;
-use crate::real::same;
 use crate::{Interval, Real};
-use std::borrow::Cow;
 
-/// Angles at which a slope is looked at for what a contact would bear.
-const ANGLES: usize = 8;
+/// Cosines of the angles `(i + 1/2) π/8` up to a right angle, at which slopes are looked at for what a contact would
+/// bear.
+const COSINES: [f64; 4] = [
+    0.980_785_280_403_230_4,
+    0.831_469_612_302_545_2,
+    0.555_570_233_019_602_2,
+    0.195_090_322_016_128_3,
+];
 
 /// The share of the steepest slope by which others may seem to fall.
 const SHARE_OF_SLOPES: f64 = 1e-3;
@@ -58,11 +62,8 @@ impl<T: Real> Survey<T> {
     }
 
     /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
-    pub fn heights(&self, gap: &Gap<'_, T>) -> Cow<'_, [[T; 2]]> {
-        if same(gap.tilt(), T::zero()) {
-            return Cow::Borrowed(&self.heights);
-        }
-        Cow::Owned(self.heights.iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect())
+    pub fn heights(&self, gap: &Gap<'_, T>) -> Vec<[T; 2]> {
+        self.nodes.iter().map(|node| [node.x, gap.turned(node.x, node.height)]).collect()
     }
 
     /// Returns where the gap may be low between a node and the next: where their tangents cross, than which no convex
@@ -97,10 +98,10 @@ impl<T: Real> Survey<T> {
 
     /// Returns all places where the gap may be low: the nodes, and one between each two.
     pub fn low_points(&self) -> impl Iterator<Item = LowPoint<T>> {
-        let both = move |(i, &[x, height]): (usize, &[T; 2])| {
+        let both = move |(i, &Node { x, height, .. }): (usize, &Node<T>)| {
             [Some(LowPoint { x, height, between: None, doubt: T::zero() }), self.low_between(i)]
         };
-        self.heights.iter().enumerate().flat_map(both).flatten()
+        self.nodes.iter().enumerate().flat_map(both).flatten()
     }
 
     /// Returns the place of the lowest gap; the middle of it where that is a span.
@@ -148,19 +149,24 @@ impl<T: Real> Survey<T> {
             })
     }
 
-    /// Returns the load that a contact bears, as F/κ: `F = (L/π) ∫ g cos θ dθ`.
-    fn borne_on(&self, on: Interval<T>) -> T {
-        let term = |sum: T, i: usize| {
-            let cosine = (T::pi() * (T::count(i) + T::of(0.5)) / T::count(ANGLES)).cos();
-            sum + cosine * self.slope(on.centre() + on.half_width() * cosine)
-        };
-        on.half_width() * (0..ANGLES).fold(T::zero(), term) / T::count(ANGLES)
+    /// Returns about the load that a contact of a half-width around the lowest gap bears, as F/κ:
+    /// `F = (L/π) ∫ g cos θ dθ`.
+    fn borne(&self, half_width: T) -> T {
+        let sum = COSINES.iter().fold(T::zero(), |sum, &cosine| {
+            let (cosine, aside) = (T::of(cosine), T::of(cosine) * half_width);
+            let [left, right] =
+                [self.lowest - aside, self.lowest + aside].map(|x| self.slope_near(x));
+            sum + cosine * (right - left)
+        });
+        half_width * sum / T::count(2 * COSINES.len())
     }
 
-    /// Returns the same for a half-width about the lowest gap.
-    fn borne(&self, half_width: T) -> T {
-        let [left, right] = [self.lowest - half_width, self.lowest + half_width];
-        self.borne_on(Interval { left, right })
+    /// Returns about the slope of the gap at x, by the points around it.
+    fn slope_near(&self, x: T) -> T {
+        let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
+        let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
+        let t = (x - self.nodes[after - 1].x) / segment.width;
+        segment.at(t.max(T::zero()).min(T::one()))[1]
     }
 
     /// Returns about the load that is asked for, as F/κ.
