@@ -197,6 +197,12 @@ pub(super) fn find<T: Real>(
     search.several(fault)
 }
 
+/// Returns what a load asks of the survey.
+fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
+    let load = conditions.load() / conditions.kappa;
+    if conditions.at().is_some() { Asked::Turning(load) } else { Asked::Load(load) }
+}
+
 struct Search<'s, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     sought: Sought<T>,
@@ -370,7 +376,7 @@ impl<T: Real> Search<'_, '_, T> {
             Sought::By(Conditions { given: Given::HalfWidth(half_width), .. }) => {
                 Asked::HalfWidth(half_width)
             }
-            Sought::By(conditions) => Asked::Load(conditions.load() / conditions.kappa),
+            Sought::By(conditions) => asked_by(&conditions),
             Sought::Peak(pressure) => Asked::Peak(pressure / self.contact.kappa),
         }
     }
@@ -665,7 +671,7 @@ impl<T: Real> Search<'_, '_, T> {
         cells: usize,
     ) -> Result<Coarse<T>, ContactError<T>> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
-        let asked = Asked::Load(conditions.load() / conditions.kappa);
+        let asked = asked_by(conditions);
         self.workspace.take(gap, self.cost)?;
         self.workspace.look.refine(gap, asked, T::of(CLOSELY), self.cost)?;
         let Workspace { look, newton, .. } = &*self.workspace;

@@ -21,7 +21,7 @@ mod panel;
 mod segment;
 
 use super::{Cost, Gap};
-use crate::{Body as Which, ContactError, ProfileError, Real};
+use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
 use body::{Body, Panel};
 use convex::Stretch;
 pub(crate) use lows::LowPoint;
@@ -57,6 +57,8 @@ pub(crate) struct Survey<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Asked<T> {
     Load(T),
+    /// A load under which the bodies turn.
+    Turning(T),
     HalfWidth(T),
     Peak(T),
 }
@@ -154,7 +156,12 @@ impl<T: Real> Survey<T> {
                 break;
             }
             let on = self.around_lowest(Some(load));
-            self.is_one = self.prove(gap, on, load, cost)?;
+            // Bodies that turn may touch anywhere.
+            let touched = match asked {
+                Asked::Turning(_) => Interval { left: self.range[0], right: self.range[1] },
+                _ => on,
+            };
+            self.is_one = self.prove(gap, touched, load, cost)?;
             if self.is_one {
                 break;
             }

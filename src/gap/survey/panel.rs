@@ -120,7 +120,8 @@ impl<T: Real> Series<T> {
             let ([at], [rate]) = evaluate(&self.x, &[t]);
             *(if at > x { &mut high } else { &mut low }) = t;
             let newton = t + (x - at) / rate;
-            let next = if newton > low && newton < high { newton } else { half * (low + high) };
+            let is_inside = newton >= low && newton <= high;
+            let next = if is_inside { newton } else { half * (low + high) };
             let step = (next - t).abs();
             t = next;
             if step <= small {
