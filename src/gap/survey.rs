@@ -43,6 +43,8 @@ pub(crate) struct Survey<T> {
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
     lowest: T,
+    /// A load, as F/κ, and about how far from the lowest place it reaches.
+    reach: Option<[T; 2]>,
     /// Where the gap was last seen to be convex.
     stretch: Option<Stretch<T>>,
     /// Whether that is as far as the load reaches that it was refined for last.
@@ -102,6 +104,7 @@ impl<T: Real> Survey<T> {
             range: [zero; 2],
             nodes: Vec::new(),
             lowest: zero,
+            reach: None,
             stretch: None,
             is_one: false,
             spent: 0,
@@ -155,6 +158,7 @@ impl<T: Real> Survey<T> {
             if !(load > T::zero()) {
                 break;
             }
+            self.reach = Some([load, self.reach_of(load)]);
             let on = self.around_lowest(Some(load));
             // Bodies that turn may touch anywhere.
             let touched = match asked {
@@ -178,6 +182,7 @@ impl<T: Real> Survey<T> {
                 break;
             }
         }
+        self.lowest = self.polished(self.lowest);
         self.known = Some((asked, share, gap.tilt()));
         Ok(())
     }
@@ -266,7 +271,8 @@ impl<T: Real> Survey<T> {
         }
         convex_stretches(&mut nodes);
         self.lowest = self.find_lowest(&nodes);
-        (self.nodes, self.stretch) = (nodes, None);
+        self.nodes = nodes;
+        (self.stretch, self.reach) = (None, None);
     }
 }
 

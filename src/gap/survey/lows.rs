@@ -209,7 +209,17 @@ impl<T: Real> Survey<T> {
         let Some(load) = load.filter(|&load| load > T::zero()) else {
             return around(quarter * (to - from));
         };
-        let mut reach = quarter * (to - from);
+        match self.reach {
+            Some([known, reach]) if known == load => around(reach),
+            _ => around(self.reach_of(load)),
+        }
+    }
+
+    /// Returns the half-width of the narrowest interval about the lowest gap, of some each half as wide as the one
+    /// before, that bears a load.
+    pub(super) fn reach_of(&self, load: T) -> T {
+        let half = T::of(0.5);
+        let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
         for _ in 0..MOST_HALVES {
             // Not a number where nothing is known of the slope.
             if !(self.borne(half * reach) >= load) {
@@ -217,7 +227,7 @@ impl<T: Real> Survey<T> {
             }
             reach *= half;
         }
-        around(reach)
+        reach
     }
 
     /// The interval about the lowest gap in which it rises by less than so much, as it looks; to an end of the bodies,
@@ -302,7 +312,7 @@ impl<T: Real> Survey<T> {
         let [from, to] = lowest.map_or(self.range, |(_, on)| on);
         let middle = T::of(0.5) * from + T::of(0.5) * to;
         if from == to {
-            return self.polished(nodes, from);
+            return from;
         }
         // As low at two places apart: the first of them.
         let [least, height] = [self.height(from), self.height(middle)];
@@ -310,7 +320,8 @@ impl<T: Real> Survey<T> {
     }
 
     /// Returns the place between two nodes where the slope passes through zero, near one where a cubic has it.
-    fn polished(&self, nodes: &[Node<T>], x: T) -> T {
+    pub(super) fn polished(&self, x: T) -> T {
+        let nodes = &self.nodes;
         let after = nodes.partition_point(|node| node.x < x);
         let Some(before) =
             after.checked_sub(1).filter(|_| nodes.get(after).is_some_and(|node| node.x > x))
