@@ -2,7 +2,7 @@
 //! whether a solution is one.
 //!
 //! ```sh
-//! cargo bench --bench default                             # the table, tab-separated
+//! cargo bench --bench default                             # the table of docs/speed.md
 //! cargo bench --bench default -- repeat circle cold 100   # only this, 100 times: for instructions.sh
 //! ```
 //!
@@ -10,8 +10,8 @@
 //! pressed into one contact. No pressures are asked for.
 //!
 //! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before or below it by as
-//! much; the counts are those of the first time, so that nothing is known beyond the lower one. In `bare-cold`
-//! and `bare-next` one interval is sought and not checked (`Contact::single_interval`).
+//! much; counted is the first time, when nothing is known beyond the lower one. In `bare-cold` and `bare-next` one
+//! interval is sought and not checked (`Contact::single_interval`).
 
 #[path = "shared/scenes.rs"]
 mod scenes;
@@ -50,11 +50,15 @@ fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) 
     });
 }
 
-/// A line for each scene: of each case microseconds and the evaluations of the curves, those for heights apart.
+/// Prints a line for each scene: µs of the default solve and by those of the bare equations, and the evaluations of the
+/// curves. `tests/suite/default_solve.rs` compares the evaluations in docs/speed.md.
 fn table() {
-    println!("scene\tcase\tmicroseconds\tby bare\tsamples\tevaluations\theights");
+    println!(
+        "|scene|cold, µs|by bare|evaluations|heights|next load, µs|by bare|evaluations and heights|"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
     for name in SCENES {
-        let found = CASES.map(|case| {
+        let [cold, bare_cold, next, bare_next] = CASES.map(|case| {
             let mut measured = (0.0, Cost::default());
             solves(name, case, |call| {
                 let cost = call();
@@ -65,13 +69,13 @@ fn table() {
             });
             measured
         });
-        for (i, case) in CASES.into_iter().enumerate() {
-            let (micros, Cost { samples, evaluations, heights }) = found[i];
-            let ratio = micros / found[i | 1].0;
-            println!(
-                "{name}\t{case}\t{micros:.3}\t{ratio:.2}\t{samples}\t{evaluations}\t{heights}"
-            );
-        }
+        let Cost { evaluations, heights, .. } = cold.1;
+        let again = next.1.evaluations + next.1.heights;
+        let by_bare = [cold.0 / bare_cold.0, next.0 / bare_next.0];
+        println!(
+            "|{name}|{:.1}|{:.1}|{evaluations}|{heights}|{:.1}|{:.1}|{again}|",
+            cold.0, by_bare[0], next.0, by_bare[1]
+        );
     }
 }
 

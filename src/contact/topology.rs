@@ -17,7 +17,9 @@ use super::signorini_check::{SignoriniCheck, TensionSpans};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
+use crate::real::same;
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -53,6 +55,9 @@ pub(crate) struct Workspace<T> {
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
+    /// The heaviest load on these bodies of which a solution was checked, their tilt, and the contacts.
+    heaviest: Option<[T; 2]>,
+    widest: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
     pub report: Report,
@@ -67,6 +72,8 @@ impl<T: Real> Workspace<T> {
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
+            heaviest: None,
+            widest: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
@@ -93,7 +100,7 @@ impl<T: Real> Workspace<T> {
     /// Takes a first look at the bodies, once for a pair of them.
     fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         if self.of != Some(gap.number()) {
-            self.of = None;
+            (self.of, self.heaviest) = (None, None);
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
@@ -311,9 +318,18 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
+        let covers = self.covers(found);
+        if !covers {
+            self.workspace.take(gap, self.cost)?;
+        }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
+        let Workspace { look, fields, tension_spans, heaviest, widest, .. } = &mut *self.workspace;
+        // What a heavier load has left open a lighter one leaves open.
+        let is_lighter =
+            heaviest.is_some_and(|[most, tilt]| load <= most && same(tilt, found.tilt));
+        let widest_so_far = if is_lighter { &widest[..] } else { &[] };
+        let closed = &self.closed;
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest: widest_so_far };
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -323,15 +339,27 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
-        if !check.covers(ends) {
-            let Workspace { look, fields, .. } = &mut *self.workspace;
+        if !covers {
             overlap = check.overlap(fields, look, ends, self.cost)?;
+        }
+        if overlap.is_none() && !is_lighter && found.adhesive == Ends::both(false) {
+            *heaviest = Some([load, found.tilt]);
+            let contacts = panels::several(integrator).map(Several::contacts);
+            widest.clear();
+            widest.extend_from_slice(contacts.unwrap_or(&[interval]));
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
         }
         let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
         Ok(overlap.or(lifts_off))
+    }
+
+    /// Tells whether one contact leaves nothing of the bodies outside.
+    fn covers(&self, found: &ContactState<T>) -> bool {
+        let (on, ends) = (found.interval, self.contact.ends());
+        let is_one = panels::several(self.integrator).is_none();
+        is_one && on.left <= ends.left && on.right >= ends.right
     }
 
     /// Tells whether the gap is convex around one contact as far as its load reaches.
@@ -341,16 +369,12 @@ impl<T: Real> Search<'_, '_, T> {
         found: &ContactState<T>,
     ) -> Result<bool, ContactError<T>> {
         let is_one = panels::several(self.integrator).is_none();
-        let (on, ends) = (found.interval, self.contact.ends());
-        if !is_one || found.adhesive != Ends::both(false) {
-            return Ok(false);
-        }
-        // From end to end nothing lies outside.
-        if on.left <= ends.left && on.right >= ends.right {
+        if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);
         }
         self.workspace.take(gap, self.cost)?;
-        self.workspace.look.prove(gap, on, found.load / self.contact.kappa, self.cost)
+        let load = found.load / self.contact.kappa;
+        self.workspace.look.prove(gap, found.interval, load, self.cost)
     }
 
     /// Whether the gap has several low places, and nothing else says where to start.

@@ -62,6 +62,23 @@ fn held_by<T: Real>(
     Some((panel::within(&panel_set.panels, on), on))
 }
 
+/// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.
+pub(crate) fn rises_on<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+    on: Interval<T>,
+) -> bool {
+    let integrator: &dyn Any = integrator;
+    let Some(integrator) = integrator.downcast_ref::<PanelIntegrator<T>>() else { return false };
+    let panel_set = match integrator.is_several {
+        true => integrator.several.panel_set(contact),
+        false => &integrator.panel_set,
+    };
+    let covers = |sampled: Interval<T>| sampled.contains(on.left) && sampled.contains(on.right);
+    panel_set.interval().is_some_and(covers)
+        && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
+}
+
 /// Returns by how much the gap of one contact rises by its panels from one place to another, before the bodies are
 /// turned.
 pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {

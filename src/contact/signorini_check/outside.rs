@@ -54,12 +54,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         left + share * (right - left)
     }
 
-    /// Whether one contact leaves nothing of the bodies outside.
-    pub fn covers(&self, ends: Ends<T>) -> bool {
-        let Interval { left, right } = self.found.interval;
-        panels::several(self.integrator).is_none() && left <= ends.left && right >= ends.right
-    }
-
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there. Where the
     /// survey leaves that open, it is refined.
     pub fn overlap(
@@ -81,13 +75,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let between = low.between.map(|_| [from, to]);
             (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
         };
+        let closed_before = self.closed_before();
+        let is_new = |low: &LowPoint<T>| {
+            let [from, to] = low.between.unwrap_or([low.x; 2]);
+            let meets = |on: &Interval<T>| on.left < to && from < on.right;
+            closed_before.as_ref().is_none_or(|closed| closed.iter().any(meets))
+        };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
         let mut open = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
-            let lows = lows.flat_map(|low| self.outside(look, low)).flatten();
+            let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             let (overlap, is_hidden) = self.overlap_at(fields, look, heights, &mut open, cost)?;
@@ -210,6 +210,32 @@ impl<T: Real> SignoriniCheck<'_, T> {
             is_hidden |= verdict == Verdict::Unresolved;
         }
         Ok((worst, is_hidden))
+    }
+
+    /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
+    /// less what borders on these, as long as the gap is convex. `None` if no heavier load is known.
+    fn closed_before(&self) -> Option<Vec<Interval<T>>> {
+        let contacts = self.contacts();
+        let mut closed = Vec::new();
+        for wide in self.widest {
+            let first = contacts.partition_point(|on| on.right <= wide.left);
+            let inside = contacts[first..].partition_point(|on| on.left < wide.right);
+            let mut left = wide.left;
+            for i in first..=first + inside {
+                let is_last = i == first + inside;
+                let right = if is_last { wide.right } else { contacts[i].left };
+                let span = Interval { left, right };
+                // Between two contacts that were one there is more than a convex gap.
+                let borders = [i == first && !is_last, is_last && i > first];
+                let is_convex = borders[0] && panels::rises_on(self.integrator, i, span)
+                    || borders[1] && panels::rises_on(self.integrator, i - 1, span);
+                if left < right && !is_convex {
+                    closed.push(span);
+                }
+                left = if is_last { right } else { contacts[i].right };
+            }
+        }
+        (!self.widest.is_empty()).then_some(closed)
     }
 
     /// Describes what lies beside a contact: before one of them, or beyond the last.
