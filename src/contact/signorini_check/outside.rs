@@ -78,8 +78,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let closed_before = self.closed_before();
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.unwrap_or([low.x; 2]);
-            let meets = |on: &Interval<T>| on.left < to && from < on.right;
-            closed_before.as_ref().is_none_or(|closed| closed.iter().any(meets))
+            let Some(closed) = &closed_before else { return true };
+            let after = closed.partition_point(|on| on.right <= from);
+            closed.get(after).is_some_and(|on| on.left < to)
         };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
