@@ -13,6 +13,9 @@
 //! much; counted is the first time, when nothing is known beyond the lower one. In `bare-cold` and `bare-next` one
 //! interval is sought and not checked (`Contact::single_interval`).
 
+#[allow(dead_code)] // Examples 1, 2 and 5 are not among the scenes.
+#[path = "../examples/paper/curves.rs"]
+mod paper;
 #[path = "shared/scenes.rs"]
 mod scenes;
 #[path = "shared/timing.rs"]

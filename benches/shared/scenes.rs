@@ -1,9 +1,6 @@
 //! Five scenes of bodies whose shape nobody has declared: smooth and round, folded, cornered, wavy.
 
-#[allow(dead_code)] // Examples 1, 2 and 5 are not among them.
-#[path = "../../examples/paper/curves.rs"]
-mod curves;
-
+use super::paper::{self, Example};
 use linecontact::{Curve, CurvePoint, Flat, ParametricProfile};
 use std::f64::consts::PI;
 
@@ -32,8 +29,8 @@ fn on_flat(
     Scene { lower: Box::new(Flat), upper: Box::new(Curve::new([-half, half], point)), load }
 }
 
-fn printed(example: curves::Example) -> Scene {
-    let curves::Example { lower, upper, c } = example;
+fn printed(example: Example) -> Scene {
+    let Example { lower, upper, c } = example;
     Scene { lower, upper, load: c / PI }
 }
 
@@ -50,8 +47,8 @@ pub fn scene(name: &str) -> Scene {
             let [y, x] = [2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos];
             CurvePoint { x, y, dx: 1.0 - y, dy: x }
         }),
-        "example3" => printed(curves::three()),
-        "example4" => printed(curves::four()),
+        "example3" => printed(paper::three()),
+        "example4" => printed(paper::four()),
         "wave" => on_flat(0.1, 1.0, |k| {
             let (sin, cos) = (WAVE_NUMBER * k).sin_cos();
             let slope = WAVE_CURVATURE / WAVE_NUMBER;

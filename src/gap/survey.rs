@@ -155,7 +155,8 @@ impl<T: Real> Survey<T> {
         let before = cost.heights;
         for _ in 0..MOST_ROUNDS {
             let load = self.load_of(asked);
-            if !(load > T::zero()) {
+            let presses = load > T::zero();
+            if !presses {
                 break;
             }
             self.reach = Some([load, self.reach_of(load)]);
@@ -195,7 +196,8 @@ impl<T: Real> Survey<T> {
             let ends = [&self.nodes[i], &self.nodes[i + 1]];
             let least = ends.map(|node| gap.turned(node.x, node.height));
             let least = least[0].min(least[1]).min(gap.turned(low.x, low.height));
-            if (low.doubt > tolerance || self.nodes[i].is_open) && !(least - low.doubt >= level) {
+            let is_above = least - low.doubt >= level;
+            if (low.doubt > tolerance || self.nodes[i].is_open) && !is_above {
                 wanted.push(ends.map(|node| node.x));
             }
         }

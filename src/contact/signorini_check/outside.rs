@@ -99,7 +99,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
             let is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
-            if !is_finer && !(is_hidden && self.resolve(fields, share)?) {
+            let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;
+            if !is_finer {
                 return Ok(None);
             }
         }
@@ -220,20 +221,22 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut closed = Vec::new();
         for wide in self.widest {
             let first = contacts.partition_point(|on| on.right <= wide.left);
-            let inside = contacts[first..].partition_point(|on| on.left < wide.right);
-            let mut left = wide.left;
-            for i in first..=first + inside {
-                let is_last = i == first + inside;
-                let right = if is_last { wide.right } else { contacts[i].left };
+            let after = contacts.partition_point(|on| on.left < wide.right).max(first);
+            let lefts = std::iter::once(wide.left);
+            let lefts = lefts.chain(contacts[first..after].iter().map(|on| on.right));
+            let rights = contacts[first..after].iter().map(|on| on.left).chain([wide.right]);
+            for (i, (left, right)) in (first..).zip(lefts.zip(rights)) {
                 let span = Interval { left, right };
                 // Between two contacts that were one there is more than a convex gap.
-                let borders = [i == first && !is_last, is_last && i > first];
-                let is_convex = borders[0] && panels::rises_on(self.integrator, i, span)
-                    || borders[1] && panels::rises_on(self.integrator, i - 1, span);
-                if left < right && !is_convex {
+                let beside = match (i == first, i == after) {
+                    (true, false) => Some(i),
+                    (false, true) => Some(i - 1),
+                    _ => None,
+                };
+                let opens = |contact| panels::rises_on(self.integrator, contact, span);
+                if left < right && !beside.is_some_and(opens) {
                     closed.push(span);
                 }
-                left = if is_last { right } else { contacts[i].right };
             }
         }
         (!self.widest.is_empty()).then_some(closed)

@@ -65,7 +65,7 @@ impl<T: Real> Panel<T> {
 
     /// Tells whether its halving has brought it much nearer to being known.
     pub fn converges(&self) -> bool {
-        !(self.doubt > T::of(GAIN) * self.before)
+        self.doubt <= T::of(GAIN) * self.before
     }
 }
 
@@ -281,7 +281,8 @@ impl<T: Real> Body<T> {
             for (&i, points) in batch.iter().zip(points.as_chunks::<POINTS>().0) {
                 let panel = &mut self.panels[i];
                 let series = Series::new(panel.k, points);
-                let is_vain = panel.is_sampled && !(series.doubt <= T::of(0.5) * panel.doubt);
+                let is_better = series.doubt <= T::of(0.5) * panel.doubt;
+                let is_vain = panel.is_sampled && !is_better;
                 panel.vain = match is_vain {
                     _ if series.is_exact => MOST_IN_VAIN,
                     true => panel.vain + 1,
@@ -335,7 +336,7 @@ impl<T: Real> Body<T> {
         self.rows.clear();
         self.rows.reserve((NODES + 2) * self.panels.len().min(FEW_PIECES));
         for panel in &self.panels {
-            let inner = panel.series.map(|number| &self.series[number].rows[..]).unwrap_or(&[]);
+            let inner = panel.series.map_or(&[][..], |number| &self.series[number].rows[..]);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
             // X may stand still for its rounding, where a body is all but upright.
             let mut reached = None;

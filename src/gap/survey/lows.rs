@@ -222,7 +222,8 @@ impl<T: Real> Survey<T> {
         let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
         for _ in 0..MOST_HALVES {
             // Not a number where nothing is known of the slope.
-            if !(self.borne(half * reach) >= load) {
+            let bears = self.borne(half * reach) >= load;
+            if !bears {
                 break;
             }
             reach *= half;
