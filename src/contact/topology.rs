@@ -58,6 +58,8 @@ pub(crate) struct Workspace<T> {
     /// The heaviest load on these bodies of which a solution was checked, their tilt, and the contacts.
     heaviest: Option<[T; 2]>,
     widest: Vec<Interval<T>>,
+    /// Room for what of these a lighter load may leave open.
+    closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
     pub report: Report,
@@ -74,6 +76,7 @@ impl<T: Real> Workspace<T> {
             before: Vec::new(),
             heaviest: None,
             widest: Vec::new(),
+            closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
@@ -323,7 +326,8 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.take(gap, self.cost)?;
         }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { look, fields, tension_spans, heaviest, widest, .. } = &mut *self.workspace;
+        let Workspace { look, fields, tension_spans, heaviest, widest, closed_before, .. } =
+            &mut *self.workspace;
         // What a heavier load has left open a lighter one leaves open.
         let is_lighter =
             heaviest.is_some_and(|[most, tilt]| load <= most && same(tilt, found.tilt));
@@ -340,12 +344,14 @@ impl<T: Real> Search<'_, '_, T> {
         let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
         if !covers {
-            overlap = check.overlap(fields, look, ends, self.cost)?;
+            overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
         }
         if overlap.is_none() && !is_lighter && found.adhesive == Ends::both(false) {
             *heaviest = Some([load, found.tilt]);
             let contacts = panels::several(integrator).map(Several::contacts);
             widest.clear();
+            closed_before.clear();
+            closed_before.reserve(1 + 2 * contacts.map_or(1, <[_]>::len));
             widest.extend_from_slice(contacts.unwrap_or(&[interval]));
         }
         if let Some(own) = own {

@@ -59,6 +59,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
+        closed_before: &mut Vec<Interval<T>>,
         look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
@@ -75,12 +76,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let between = low.between.map(|_| [from, to]);
             (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
         };
-        let closed_before = self.closed_before();
+        self.list_closed_before(closed_before);
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.unwrap_or([low.x; 2]);
-            let Some(closed) = &closed_before else { return true };
-            let after = closed.partition_point(|on| on.right <= from);
-            closed.get(after).is_some_and(|on| on.left < to)
+            let after = closed_before.partition_point(|on| on.right <= from);
+            self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left < to)
         };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
@@ -215,10 +215,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
-    /// less what borders on these, as long as the gap is convex. `None` if no heavier load is known.
-    fn closed_before(&self) -> Option<Vec<Interval<T>>> {
+    /// less what borders on these, as long as the gap is convex.
+    fn list_closed_before(&self, closed: &mut Vec<Interval<T>>) {
         let contacts = self.contacts();
-        let mut closed = Vec::new();
+        closed.clear();
         for wide in self.widest {
             let first = contacts.partition_point(|on| on.right <= wide.left);
             let after = contacts.partition_point(|on| on.left < wide.right).max(first);
@@ -239,7 +239,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
         }
-        (!self.widest.is_empty()).then_some(closed)
     }
 
     /// Describes what lies beside a contact: before one of them, or beyond the last.
