@@ -39,6 +39,8 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub found: &'c ContactState<T>,
     /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
     pub closed: &'c [Interval<T>],
+    /// The contacts under a heavier load, if known: outside them nothing can be touched.
+    pub widest: &'c [Interval<T>],
 }
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.

@@ -17,7 +17,9 @@ use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
+use crate::real::same;
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -53,6 +55,11 @@ pub(crate) struct Workspace<T> {
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
+    /// The heaviest load on these bodies of which a solution was checked, their tilt, and the contacts.
+    heaviest: Option<[T; 2]>,
+    widest: Vec<Interval<T>>,
+    /// Room for what of these a lighter load may leave open.
+    closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
     pub report: Report,
@@ -67,6 +74,9 @@ impl<T: Real> Workspace<T> {
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
+            heaviest: None,
+            widest: Vec::new(),
+            closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
@@ -93,7 +103,7 @@ impl<T: Real> Workspace<T> {
     /// Takes a first look at the bodies, once for a pair of them.
     fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         if self.of != Some(gap.number()) {
-            self.of = None;
+            (self.of, self.heaviest) = (None, None);
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
@@ -214,6 +224,12 @@ fn find_contacts<T: Real>(
     search.several(fault)
 }
 
+/// Returns what a load asks of the survey.
+fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
+    let load = conditions.load() / conditions.kappa;
+    if conditions.at().is_some() { Asked::Turning(load) } else { Asked::Load(load) }
+}
+
 struct Search<'s, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     sought: Sought<T>,
@@ -313,6 +329,9 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
+        if self.touches_once(gap, found)? {
+            return Ok(lifts_off);
+        }
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
         if panels::several(self.integrator).is_none() {
@@ -324,9 +343,19 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
+        let covers = self.covers(found);
+        if !covers {
+            self.workspace.take(gap, self.cost)?;
+        }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
+        let Workspace { look, fields, tension_spans, heaviest, widest, closed_before, .. } =
+            &mut *self.workspace;
+        // What a heavier load has left open a lighter one leaves open.
+        let is_lighter =
+            heaviest.is_some_and(|[most, tilt]| load <= most && same(tilt, found.tilt));
+        let widest_so_far = if is_lighter { &widest[..] } else { &[] };
+        let closed = &self.closed;
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest: widest_so_far };
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -336,12 +365,16 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
-        if !check.covers(ends) {
-            self.workspace.take(gap, self.cost)?;
-            let Workspace { look, fields, .. } = &mut *self.workspace;
-            if !look.is_convex() {
-                overlap = check.overlap(fields, look, ends, self.cost)?;
-            }
+        if !covers {
+            overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
+        }
+        if overlap.is_none() && !is_lighter && found.adhesive == Ends::both(false) {
+            *heaviest = Some([load, found.tilt]);
+            let contacts = panels::several(integrator).map(Several::contacts);
+            widest.clear();
+            closed_before.clear();
+            closed_before.reserve(1 + 2 * contacts.map_or(1, <[_]>::len));
+            widest.extend_from_slice(contacts.unwrap_or(&[interval]));
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
@@ -360,6 +393,28 @@ impl<T: Real> Search<'_, '_, T> {
         self.workspace.look.resolve(gap, load, contacts, self.cost)
     }
 
+    /// Tells whether one contact leaves nothing of the bodies outside.
+    fn covers(&self, found: &ContactState<T>) -> bool {
+        let (on, ends) = (found.interval, self.contact.ends());
+        let is_one = panels::several(self.integrator).is_none();
+        is_one && on.left <= ends.left && on.right >= ends.right
+    }
+
+    /// Tells whether the gap is convex around one contact as far as its load reaches.
+    fn touches_once(
+        &mut self,
+        gap: &Gap<'_, T>,
+        found: &ContactState<T>,
+    ) -> Result<bool, ContactError<T>> {
+        let is_one = panels::several(self.integrator).is_none();
+        if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
+            return Ok(false);
+        }
+        self.workspace.take(gap, self.cost)?;
+        let load = found.load / self.contact.kappa;
+        self.workspace.look.prove(gap, found.interval, load, self.cost)
+    }
+
     /// Whether the gap has several low places, and nothing else says where to start.
     fn has_valleys(&mut self) -> Result<bool, ContactError<T>> {
         let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
@@ -368,7 +423,7 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(false);
         }
         let look = self.look()?;
-        Ok(!look.is_convex() && !look.is_one_valley())
+        Ok(!look.is_one_valley())
     }
 
     /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.
@@ -383,7 +438,7 @@ impl<T: Real> Search<'_, '_, T> {
             Sought::By(Conditions { given: Given::HalfWidth(half_width), .. }) => {
                 Asked::HalfWidth(half_width)
             }
-            Sought::By(conditions) => Asked::Load(conditions.load() / conditions.kappa),
+            Sought::By(conditions) => asked_by(&conditions),
             Sought::Peak(pressure) => Asked::Peak(pressure / self.contact.kappa),
         }
     }
@@ -678,7 +733,7 @@ impl<T: Real> Search<'_, '_, T> {
         cells: usize,
     ) -> Result<Coarse<T>, ContactError<T>> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
-        let asked = Asked::Load(conditions.load() / conditions.kappa);
+        let asked = asked_by(conditions);
         self.workspace.take(gap, self.cost)?;
         self.workspace.look.refine(gap, asked, T::of(CLOSELY), self.cost)?;
         let Workspace { look, newton, .. } = &*self.workspace;

@@ -12,17 +12,19 @@
 //! at again. A heavier load goes on where a lighter one has stopped, and a tilt adds a straight line.
 //!
 //! A gap whose slope rises from point to point by far more than the slopes are uncertain, and at
-//! joints, is convex: the bodies touch in one interval under any load and tilt.
+//! joints, is [convex](convex): where it is, as far as a load reaches, the bodies touch in one interval.
 
 mod body;
+mod convex;
 mod lows;
 mod panel;
 mod probe;
 mod segment;
 
 use super::{Cost, Gap};
-use crate::{Body as Which, ContactError, ProfileError, Real};
+use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
 use body::{Body, Panel};
+use convex::Stretch;
 pub(crate) use lows::LowPoint;
 use panel::Row;
 
@@ -33,13 +35,6 @@ const MOST_HEIGHTS: usize = 1 << 14;
 /// Spans on either side of one that must bulge like it.
 const IN_A_ROW: usize = 2;
 
-/// Evaluations beyond which no proof that the gap is convex is sought before a load asks for more.
-const MOST_FOR_PROOF: usize = 54;
-
-/// The share of the rise of a slope from one point to the next by which both may be uncertain in a proof. A wave
-/// that hides in it has a length of about this share of the distance of the points.
-const PROOF: f64 = 1e-3;
-
 /// Heights and slopes of two bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Survey<T> {
@@ -48,21 +43,31 @@ pub(crate) struct Survey<T> {
     range: [T; 2],
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
-    heights: Vec<[T; 2]>,
     /// Room for the rates at which slopes rise between two points.
     rates: Vec<T>,
     lowest: T,
-    convex: bool,
+    /// A load, as F/κ, and about how far from the lowest place it reaches.
+    reach: Option<[T; 2]>,
+    /// Where the gap was last seen to be convex.
+    stretch: Option<Stretch<T>>,
+    /// Whether that is as far as the load reaches that it was refined for last.
+    is_one: bool,
+    /// Evaluations since the first look began.
+    spent: usize,
     /// What it was refined for last, to which share of F/κ, and the tilt.
     known: Option<(Asked<T>, T, T)>,
     /// Spans that have been looked at more closely, beside contacts.
     seen: Vec<probe::Stretch<T>>,
+    /// Room for those that a load asks for.
+    stretches: Vec<probe::Stretch<T>>,
 }
 
 /// What a contact is asked to have, forces over κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Asked<T> {
     Load(T),
+    /// A load under which the bodies turn.
+    Turning(T),
     HalfWidth(T),
     Peak(T),
 }
@@ -75,8 +80,8 @@ struct Node<T> {
     /// The largest |Y|.
     size: T,
     slopes: [T; 2],
-    /// Uncertainty of the slopes beyond rounding.
-    doubt: T,
+    /// Uncertainties of the slopes of either body beyond rounding.
+    doubts: [T; 2],
     /// Uncertainty of the heights up to the next node, and whether a piece is there of which only the ends are known.
     after: T,
     is_open: bool,
@@ -85,6 +90,11 @@ struct Node<T> {
 }
 
 impl<T: Real> Node<T> {
+    /// Returns the uncertainty of the slopes beyond rounding.
+    fn doubt(&self) -> T {
+        self.doubts[0] + self.doubts[1]
+    }
+
     /// Returns what slopes and chords up to another node may be off by rounding.
     fn rounding(&self, next: &Self) -> T {
         let slopes = self.slopes[1].abs() + next.slopes[0].abs();
@@ -102,23 +112,26 @@ impl<T: Real> Survey<T> {
             bodies: [Body::new(), Body::new()],
             range: [zero; 2],
             nodes: Vec::new(),
-            heights: Vec::new(),
             rates: Vec::new(),
             lowest: zero,
-            convex: false,
+            reach: None,
+            stretch: None,
+            is_one: false,
+            spent: 0,
             known: None,
             seen: Vec::new(),
+            stretches: Vec::new(),
         }
     }
 
-    /// Takes a first look at both bodies, and proves that the gap is convex where that is soon done.
+    /// Takes a first look at both bodies.
     ///
     /// # Errors
     /// [`ContactError::Profile`] with [`ProfileError::NotFinite`] inside the common range,
     /// [`ProfileError::TurnsBack`], [`ProfileError::Pieces`] or [`ProfileError::Derivative`].
     pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         self.range = gap.range();
-        self.known = None;
+        (self.known, self.is_one) = (None, false);
         self.seen.clear();
         let before = cost.heights;
         for which in [Which::Lower, Which::Upper] {
@@ -133,8 +146,9 @@ impl<T: Real> Survey<T> {
             });
             found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
+        self.spent = cost.heights - before;
         self.join();
-        self.prove(gap, before, cost)
+        Ok(())
     }
 
     /// Refines both bodies until no place that the load may touch is uncertain by more than a share of F/κ.
@@ -148,29 +162,41 @@ impl<T: Real> Survey<T> {
         share: T,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        if self.convex || self.known == Some((asked, share, gap.tilt())) {
+        if self.known == Some((asked, share, gap.tilt())) {
             return Ok(());
         }
         let before = cost.heights;
         for _ in 0..MOST_ROUNDS {
-            let lowest = self.nodes.iter().map(|node| gap.turned(node.x, node.height));
-            let lowest = lowest.fold(T::one() / T::zero(), |least, height| least.min(height));
             let load = self.load_of(asked);
-            if !(load > T::zero()) {
+            let presses = load > T::zero();
+            if !presses {
                 break;
             }
+            self.reach = Some([load, self.reach_of(load)]);
+            let on = self.around_lowest(Some(load));
+            // Bodies that turn may touch anywhere.
+            let touched = match asked {
+                Asked::Turning(_) => Interval { left: self.range[0], right: self.range[1] },
+                _ => on,
+            };
+            self.is_one = self.prove(gap, touched, load, cost)?;
+            if self.is_one {
+                break;
+            }
+            let lowest = self.nodes.iter().map(|node| gap.turned(node.x, node.height));
+            let lowest = lowest.fold(T::one() / T::zero(), |least, height| least.min(height));
             let tolerance = share * load;
-            let narrow = self.around_lowest(Some(load)).half_width();
-            let ratio = (self.range[1] - self.range[0]) / narrow;
+            let ratio = (self.range[1] - self.range[0]) / on.half_width();
             let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
             let wanted = self.wanted(gap, level, tolerance);
             if wanted.is_empty() || cost.heights - before > MOST_HEIGHTS {
                 break;
             }
-            if !self.refine_at(gap, &wanted, tolerance, cost)? {
+            if !self.refine_at(gap, [&wanted; 2], tolerance, cost)? {
                 break;
             }
         }
+        self.lowest = self.polished(self.lowest);
         self.known = Some((asked, share, gap.tilt()));
         Ok(())
     }
@@ -183,19 +209,20 @@ impl<T: Real> Survey<T> {
             let ends = [&self.nodes[i], &self.nodes[i + 1]];
             let least = ends.map(|node| gap.turned(node.x, node.height));
             let least = least[0].min(least[1]).min(gap.turned(low.x, low.height));
-            if (low.doubt > tolerance || self.nodes[i].is_open) && !(least - low.doubt >= level) {
+            let is_above = least - low.doubt >= level;
+            if (low.doubt > tolerance || self.nodes[i].is_open) && !is_above {
                 wanted.push(ends.map(|node| node.x));
             }
         }
         wanted
     }
 
-    /// Refines the panels of both bodies that are more uncertain than half a tolerance in any of some spans; whether
-    /// there were any.
+    /// Refines the panels of either body that are more uncertain than half a tolerance in any of its spans; whether there
+    /// were any.
     pub fn refine_at(
         &mut self,
         gap: &Gap<'_, T>,
-        wanted: &[[T; 2]],
+        wanted: [&[[T; 2]]; 2],
         tolerance: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
@@ -203,9 +230,12 @@ impl<T: Real> Survey<T> {
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
             let half = T::of(0.5);
-            let is_marked =
-                |panel: &Panel<T>| is_in(wanted, panel) && panel.may_gain(half * tolerance);
+            let is_marked = |panel: &Panel<T>| {
+                is_in(wanted[which as usize], panel) && panel.may_gain(half * tolerance)
+            };
+            let before = cost.heights;
             let found = body.refine(surface, self.range, is_marked, &mut cost.heights);
+            self.spent += cost.heights - before;
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
         if changes {
@@ -214,59 +244,11 @@ impl<T: Real> Survey<T> {
         Ok(changes)
     }
 
-    /// Halves panels as long as more points may prove the gap convex, and none tells that it is not.
-    fn prove(
-        &mut self,
-        gap: &Gap<'_, T>,
-        before: usize,
-        cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
-        let mut open = Vec::new();
-        loop {
-            open.clear();
-            let may_be_convex = self.may_be_convex(&mut open);
-            self.convex = may_be_convex && open.is_empty();
-            if self.convex || !may_be_convex {
-                return Ok(());
-            }
-            let more = self.bodies.iter().zip(&gap.bodies);
-            let more = more.map(|(body, surface)| body.cost(surface, |panel| is_in(&open, panel)));
-            if cost.heights - before + more.sum::<usize>() > MOST_FOR_PROOF {
-                return Ok(());
-            }
-            if !self.refine_at(gap, &open, T::zero(), cost)? {
-                return Ok(());
-            }
-        }
-    }
-
-    /// Tells whether no slope falls, as far as is known; `open` takes the spans that are not known well enough.
-    fn may_be_convex(&self, open: &mut Vec<[T; 2]>) -> bool {
-        for (i, node) in self.nodes.iter().enumerate() {
-            if node.slopes[1] < node.slopes[0] - (node.doubt + node.doubt + node.rounding(node)) {
-                return false;
-            }
-            let Some(next) = self.nodes.get(i + 1) else { break };
-            let width = next.x - node.x;
-            let (rise, doubt) = (next.slopes[0] - node.slopes[1], node.doubt + next.doubt);
-            let chord = (next.height - node.height) / width;
-            let rounding = node.rounding(next);
-            let most = doubt + rounding + T::of(8.0) * node.after / width;
-            if rise < -most || chord < node.slopes[1] - most || chord > next.slopes[0] + most {
-                return false;
-            }
-            let is_known = rise >= -rounding && doubt <= T::of(PROOF) * rise.max(T::zero());
-            if node.is_open || !is_known {
-                open.push([node.x, next.x]);
-            }
-        }
-        true
-    }
-
     /// Lists the gap at all points of either body, in the range of both and with its ends.
     fn join(&mut self) {
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.clear();
+        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.len()).sum::<usize>());
         let [first, last] = self.range;
         let mut next = [0; 2];
         let mut x = first;
@@ -277,7 +259,7 @@ impl<T: Real> Survey<T> {
                 height: upper[1].y - lower[1].y,
                 size: upper[1].y.abs().max(lower[1].y.abs()),
                 slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
-                doubt: upper[0].doubt.max(upper[1].doubt) + lower[0].doubt.max(lower[1].doubt),
+                doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
                 after: T::zero(),
                 is_open: false,
                 is_void: false,
@@ -306,10 +288,9 @@ impl<T: Real> Survey<T> {
             (node.after, node.is_open, node.is_void) = (after, is_open, is_void);
         }
         convex_stretches(&mut nodes, &mut self.rates);
-        self.heights.clear();
-        self.heights.extend(nodes.iter().map(|node| [node.x, node.height]));
         self.lowest = self.find_lowest(&nodes);
         self.nodes = nodes;
+        (self.stretch, self.reach) = (None, None);
     }
 }
 

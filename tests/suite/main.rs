@@ -24,6 +24,7 @@ mod closed_forms;
 mod closed_forms_solved;
 mod common_shapes;
 mod corners;
+mod default_solve;
 mod display;
 mod edge_pressures;
 mod edges;

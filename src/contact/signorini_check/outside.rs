@@ -52,17 +52,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
         left + share * (right - left)
     }
 
-    /// Whether one contact leaves nothing of the bodies outside.
-    pub fn covers(&self, ends: Ends<T>) -> bool {
-        let Interval { left, right } = self.found.interval;
-        panels::several(self.integrator).is_none() && left <= ends.left && right >= ends.right
-    }
-
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there. Where the
     /// survey leaves that open, it is refined.
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
+        closed_before: &mut Vec<Interval<T>>,
         look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
@@ -79,13 +74,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let between = low.between.map(|_| [from, to]);
             (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
         };
+        self.list_closed_before(closed_before);
+        let is_new = |low: &LowPoint<T>| {
+            let [from, to] = low.between.unwrap_or([low.x; 2]);
+            let after = closed_before.partition_point(|on| on.right <= from);
+            self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left < to)
+        };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
         let mut open = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
-            let lows = lows.flat_map(|low| self.outside(look, low)).flatten();
+            let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             let (overlap, is_hidden) = self.overlap_at(fields, look, heights, &mut open, cost)?;
@@ -94,8 +95,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 return Ok(overlap);
             }
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
-            let is_finer = !open.is_empty() && look.refine_at(self.gap, &open, T::zero(), cost)?;
-            if !is_finer && !(is_hidden && self.resolve(fields, share)?) {
+            let is_finer =
+                !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
+            let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;
+            if !is_finer {
                 return Ok(None);
             }
         }
@@ -217,6 +220,33 @@ impl<T: Real> SignoriniCheck<'_, T> {
             is_hidden |= verdict == Verdict::Unresolved;
         }
         Ok((worst, is_hidden))
+    }
+
+    /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
+    /// less what borders on these, as long as the gap is convex.
+    fn list_closed_before(&self, closed: &mut Vec<Interval<T>>) {
+        let contacts = self.contacts();
+        closed.clear();
+        for wide in self.widest {
+            let first = contacts.partition_point(|on| on.right <= wide.left);
+            let after = contacts.partition_point(|on| on.left < wide.right).max(first);
+            let lefts = std::iter::once(wide.left);
+            let lefts = lefts.chain(contacts[first..after].iter().map(|on| on.right));
+            let rights = contacts[first..after].iter().map(|on| on.left).chain([wide.right]);
+            for (i, (left, right)) in (first..).zip(lefts.zip(rights)) {
+                let span = Interval { left, right };
+                // Between two contacts that were one there is more than a convex gap.
+                let beside = match (i == first, i == after) {
+                    (true, false) => Some(i),
+                    (false, true) => Some(i - 1),
+                    _ => None,
+                };
+                let opens = |contact| panels::rises_on(self.integrator, contact, span);
+                if left < right && !beside.is_some_and(opens) {
+                    closed.push(span);
+                }
+            }
+        }
     }
 
     /// Describes what lies beside a contact: before one of them, or beyond the last.

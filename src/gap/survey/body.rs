@@ -20,6 +20,10 @@ const MOST_IN_VAIN: usize = 10;
 /// feature, not only its foot.
 const LEFT: f64 = 0.01;
 
+/// The share of its uncertainty that halving leaves at most of a panel that resolves the body: of a series of eight
+/// terms 1/256 or less.
+const GAIN: f64 = 0.125;
+
 /// The x-length of a body beyond that of the common range from which on it is narrowed.
 const LONG: f64 = 4.0;
 
@@ -65,6 +69,8 @@ pub(super) struct Panel<T> {
     pub vain: usize,
     /// Whether it misses points of the curve that are known.
     pub is_void: bool,
+    /// Uncertainty of the panel that it is a half of; infinite if there is none.
+    before: T,
 }
 
 impl<T: Real> Panel<T> {
@@ -75,6 +81,11 @@ impl<T: Real> Panel<T> {
     /// Tells whether more points may leave it less uncertain than by a tolerance.
     pub fn may_gain(&self, tolerance: T) -> bool {
         !self.is_sampled || self.doubt > tolerance && self.vain < MOST_IN_VAIN
+    }
+
+    /// Tells whether its halving has brought it much nearer to being known.
+    pub fn converges(&self) -> bool {
+        self.doubt <= T::of(GAIN) * self.before
     }
 }
 
@@ -145,6 +156,7 @@ impl<T: Real> Body<T> {
                 is_sampled,
                 vain: 0,
                 is_void: false,
+                before: T::one() / T::zero(),
             });
         }
         self.sample(surface, range, heights)?;
@@ -309,6 +321,9 @@ impl<T: Real> Body<T> {
                     true => panel.vain + 1,
                     false => 0,
                 };
+                if panel.is_sampled {
+                    panel.before = panel.doubt;
+                }
                 (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
                 check(&piece, panel, points, range)?;
                 match panel.series {
@@ -352,8 +367,9 @@ impl<T: Real> Body<T> {
     fn list(&mut self, [first, last]: [T; 2]) {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
+        self.rows.reserve((NODES + 2) * self.panels.len().min(FEW_PIECES));
         for panel in &self.panels {
-            let inner = panel.series.map(|number| &self.series[number].rows[..]).unwrap_or(&[]);
+            let inner = panel.series.map_or(&[][..], |number| &self.series[number].rows[..]);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
             // X may stand still for its rounding, where a body is all but upright.
             let mut reached = None;

@@ -3,12 +3,16 @@
 use super::segment::Segment;
 use super::{Asked, Node, Survey};
 use crate::gap::Gap;
-use crate::real::same;
 use crate::{Interval, Real};
-use std::borrow::Cow;
 
-/// Angles at which a slope is looked at for what a contact would bear.
-const ANGLES: usize = 8;
+/// Cosines of the angles `(i + 1/2) π/8` up to a right angle, at which slopes are looked at for what a contact would
+/// bear.
+const COSINES: [f64; 4] = [
+    0.980_785_280_403_230_4,
+    0.831_469_612_302_545_2,
+    0.555_570_233_019_602_2,
+    0.195_090_322_016_128_3,
+];
 
 /// The share of the steepest slope by which others may seem to fall.
 const SHARE_OF_SLOPES: f64 = 1e-3;
@@ -61,11 +65,8 @@ impl<T: Real> Survey<T> {
     }
 
     /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
-    pub fn heights(&self, gap: &Gap<'_, T>) -> Cow<'_, [[T; 2]]> {
-        if same(gap.tilt(), T::zero()) {
-            return Cow::Borrowed(&self.heights);
-        }
-        Cow::Owned(self.heights.iter().map(|&[x, height]| [x, gap.turned(x, height)]).collect())
+    pub fn heights(&self, gap: &Gap<'_, T>) -> Vec<[T; 2]> {
+        self.nodes.iter().map(|node| [node.x, gap.turned(node.x, node.height)]).collect()
     }
 
     /// Returns where the gap may be low between a node and the next: where their tangents cross, than which no convex
@@ -100,10 +101,10 @@ impl<T: Real> Survey<T> {
 
     /// Returns all places where the gap may be low: the nodes, and one between each two.
     pub fn low_points(&self) -> impl Iterator<Item = LowPoint<T>> {
-        let both = move |(i, &[x, height]): (usize, &[T; 2])| {
+        let both = move |(i, &Node { x, height, .. }): (usize, &Node<T>)| {
             [Some(LowPoint { x, height, between: None, doubt: T::zero() }), self.low_between(i)]
         };
-        self.heights.iter().enumerate().flat_map(both).flatten()
+        self.nodes.iter().enumerate().flat_map(both).flatten()
     }
 
     /// Returns the place of the lowest gap; the middle of it where that is a span.
@@ -127,51 +128,54 @@ impl<T: Real> Survey<T> {
                 let [from, to] = [&pair[0], &pair[1]];
                 let width = to.x - from.x;
                 let chord = (to.height - from.height) / width;
-                let doubt = from.doubt + to.doubt + (T::of(8.0) * from.after + cancelled) / width;
+                let doubt =
+                    from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
                 let allowed = from.rounding(to) + doubt.min(most);
                 // A slope at an end may be no number.
                 chord < from.slopes[1] - allowed || chord > to.slopes[0] + allowed
             })
     }
 
-    /// Tells whether the gap is proved to be convex.
-    pub fn is_convex(&self) -> bool {
-        self.convex
-    }
-
-    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks.
+    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks, as far as the load reaches
+    /// that was asked for.
     pub fn is_one_valley(&self) -> bool {
-        self.nodes.windows(2).all(|pair| {
-            let [one, other] = [&pair[0], &pair[1]];
-            let rise = other.height - one.height;
-            let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
-            if other.x <= self.lowest {
-                rise <= rounding
-            } else {
-                one.x < self.lowest || rise >= -rounding
-            }
-        })
+        self.is_one
+            || self.nodes.windows(2).all(|pair| {
+                let [one, other] = [&pair[0], &pair[1]];
+                let rise = other.height - one.height;
+                let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
+                if other.x <= self.lowest {
+                    rise <= rounding
+                } else {
+                    one.x < self.lowest || rise >= -rounding
+                }
+            })
     }
 
-    /// Returns the load that a contact bears, as F/κ: `F = (L/π) ∫ g cos θ dθ`.
-    fn borne_on(&self, on: Interval<T>) -> T {
-        let term = |sum: T, i: usize| {
-            let cosine = (T::pi() * (T::count(i) + T::of(0.5)) / T::count(ANGLES)).cos();
-            sum + cosine * self.slope(on.centre() + on.half_width() * cosine)
-        };
-        on.half_width() * (0..ANGLES).fold(T::zero(), term) / T::count(ANGLES)
-    }
-
-    /// Returns the same for a half-width about the lowest gap.
+    /// Returns about the load that a contact of a half-width around the lowest gap bears, as F/κ:
+    /// `F = (L/π) ∫ g cos θ dθ`.
     fn borne(&self, half_width: T) -> T {
-        let [left, right] = [self.lowest - half_width, self.lowest + half_width];
-        self.borne_on(Interval { left, right })
+        let sum = COSINES.iter().fold(T::zero(), |sum, &cosine| {
+            let (cosine, aside) = (T::of(cosine), T::of(cosine) * half_width);
+            let [left, right] =
+                [self.lowest - aside, self.lowest + aside].map(|x| self.slope_near(x));
+            sum + cosine * (right - left)
+        });
+        half_width * sum / T::count(2 * COSINES.len())
+    }
+
+    /// Returns about the slope of the gap at x, by the points around it.
+    fn slope_near(&self, x: T) -> T {
+        let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
+        let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
+        let t = (x - self.nodes[after - 1].x) / segment.width;
+        segment.at(t.max(T::zero()).min(T::one()))[1]
     }
 
     /// Returns about the load that is asked for, as F/κ.
     pub(super) fn load_of(&self, asked: Asked<T>) -> T {
         match asked {
-            Asked::Load(load) => load,
+            Asked::Load(load) | Asked::Turning(load) => load,
             Asked::HalfWidth(half_width) => self.borne(half_width),
             Asked::Peak(pressure) => {
                 // P = 2 F/(π L) of a round body.
@@ -208,15 +212,26 @@ impl<T: Real> Survey<T> {
         let Some(load) = load.filter(|&load| load > T::zero()) else {
             return around(quarter * (to - from));
         };
-        let mut reach = quarter * (to - from);
+        match self.reach {
+            Some([known, reach]) if known == load => around(reach),
+            _ => around(self.reach_of(load)),
+        }
+    }
+
+    /// Returns the half-width of the narrowest interval about the lowest gap, of some each half as wide as the one
+    /// before, that bears a load.
+    pub(super) fn reach_of(&self, load: T) -> T {
+        let half = T::of(0.5);
+        let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
         for _ in 0..MOST_HALVES {
             // Not a number where nothing is known of the slope.
-            if !(self.borne(half * reach) >= load) {
+            let bears = self.borne(half * reach) >= load;
+            if !bears {
                 break;
             }
             reach *= half;
         }
-        around(reach)
+        reach
     }
 
     /// The interval about the lowest gap in which it rises by less than so much, as it looks; to an end of the bodies,
@@ -301,7 +316,7 @@ impl<T: Real> Survey<T> {
         let [from, to] = lowest.map_or(self.range, |(_, on)| on);
         let middle = T::of(0.5) * from + T::of(0.5) * to;
         if from == to {
-            return self.polished(nodes, from);
+            return from;
         }
         // As low at two places apart: the first of them.
         let [least, height] = [self.height(from), self.height(middle)];
@@ -309,7 +324,8 @@ impl<T: Real> Survey<T> {
     }
 
     /// Returns the place between two nodes where the slope passes through zero, near one where a cubic has it.
-    fn polished(&self, nodes: &[Node<T>], x: T) -> T {
+    pub(super) fn polished(&self, x: T) -> T {
+        let nodes = &self.nodes;
         let after = nodes.partition_point(|node| node.x < x);
         let Some(before) =
             after.checked_sub(1).filter(|_| nodes.get(after).is_some_and(|node| node.x > x))

@@ -118,22 +118,40 @@ impl<T: Real> Series<T> {
     pub fn parameter(&self, x: T, [from, to]: [T; 2]) -> T {
         let (one, half) = (T::one(), T::of(0.5));
         let [mut low, mut high] = [-one, one];
-        let mut t = ((x - from) - (to - x)) / (to - from);
-        if !(t > low && t < high) {
-            return if t >= high { high } else { low };
+        if x <= from || x >= to {
+            return if x <= from { low } else { high };
         }
+        let mut t = self.guess(x, [from, to]);
+        // Newton's rule squares what is left.
+        let small = T::of(0.125) * T::epsilon().sqrt();
+        let mut more = T::DERIVATIVE_ORDER;
         for _ in 0..MOST_STEPS {
             let ([at], [rate]) = evaluate(&self.x, &[t]);
             *(if at > x { &mut high } else { &mut low }) = t;
             let newton = t + (x - at) / rate;
-            let next = if newton > low && newton < high { newton } else { half * (low + high) };
+            let is_inside = newton >= low && newton <= high;
+            let next = if is_inside { newton } else { half * (low + high) };
             let step = (next - t).abs();
             t = next;
-            if step <= T::of(4.0) * T::epsilon() {
-                break;
+            if step <= small {
+                if more == 0 {
+                    break;
+                }
+                more -= 1;
             }
         }
         t
+    }
+
+    /// Returns about where X(t) = x, by the points around x.
+    fn guess(&self, x: T, [from, to]: [T; 2]) -> T {
+        let one = T::one();
+        let after = self.rows.partition_point(|row| row.x <= x);
+        let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.rows[i].x);
+        let (start, x0) = after.checked_sub(1).map_or((-one, from), place);
+        let (end, x1) = if after < NODES { place(after) } else { (one, to) };
+        let t = start + (end - start) * ((x - x0) / (x1 - x0));
+        if t > -one && t < one { t } else { T::zero() }
     }
 }
 

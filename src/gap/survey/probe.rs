@@ -63,45 +63,70 @@ impl<T: Real> Survey<T> {
         contacts: &[Interval<T>],
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
+        let mut stretches = std::mem::take(&mut self.stretches);
+        let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
+        self.stretches = stretches;
+        found
+    }
+
+    fn resolve_stretches(
+        &mut self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        stretches: &mut Vec<Stretch<T>>,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
         for _ in 0..MOST_ROUNDS {
-            let is_open =
-                |stretch: &Stretch<T>| !self.seen.iter().any(|seen| stretch.is_seen_by(seen));
-            if !self.stretches(gap, load, contacts).iter().any(is_open) {
+            self.list_stretches(gap, load, contacts, stretches);
+            if stretches.iter().all(|stretch| self.is_seen(stretch)) {
                 break;
             }
-            let mut missed = Vec::new();
-            let ahead = self.stretches(gap, T::of(AHEAD) * load, contacts);
-            let spans: Vec<[T; 2]> = ahead.iter().map(|stretch| stretch.x).collect();
-            if self.refine_at(gap, &spans, T::of(EXACT) * load, cost)? {
+            self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
+            let spans: Vec<[T; 2]> = stretches.iter().map(|stretch| stretch.x).collect();
+            if self.refine_at(gap, [&spans; 2], T::of(EXACT) * load, cost)? {
                 continue;
             }
-            for stretch in ahead {
-                if self.seen.iter().any(|seen| stretch.is_seen_by(seen)) {
+            let mut missed = Vec::new();
+            for stretch in &*stretches {
+                if self.is_seen(stretch) {
                     continue;
                 }
-                if self.probe(gap, &stretch, cost)? {
-                    self.seen.retain(|seen| !seen.is_seen_by(&stretch));
-                    self.seen.push(stretch);
+                if self.probe(gap, stretch, cost)? {
+                    self.seen.retain(|seen| !seen.is_seen_by(stretch));
+                    self.seen.push(*stretch);
                 } else {
                     missed.push(stretch.x);
                 }
             }
-            if !missed.is_empty() {
-                (self.convex, self.known) = (false, None);
-                // Those that are void.
-                let most = T::max_value().unwrap_or(T::one() / T::epsilon());
-                if !self.refine_at(gap, &missed, most, cost)? {
-                    break;
-                }
+            if missed.is_empty() {
+                continue;
+            }
+            (self.stretch, self.is_one, self.known) = (None, false, None);
+            // Those that are void.
+            let most = T::max_value().unwrap_or(T::one() / T::epsilon());
+            if !self.refine_at(gap, [&missed; 2], most, cost)? {
+                break;
             }
         }
         Ok(())
     }
 
+    fn is_seen(&self, stretch: &Stretch<T>) -> bool {
+        self.seen.iter().any(|seen| stretch.is_seen_by(seen))
+    }
+
     /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
     /// further apart than the distance to have.
-    fn stretches(&self, gap: &Gap<'_, T>, load: T, contacts: &[Interval<T>]) -> Vec<Stretch<T>> {
-        let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return vec![] };
+    fn list_stretches(
+        &self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        found: &mut Vec<Stretch<T>>,
+    ) {
+        found.clear();
+        let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return };
         let hull = T::of(0.5) * (last.right - first.left);
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
         let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
@@ -110,7 +135,6 @@ impl<T: Real> Survey<T> {
         let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
         let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
-        let mut found = Vec::new();
         let mut next = 0;
         for pair in self.nodes.windows(2) {
             let [mut from, to] = [pair[0].x, pair[1].x];
@@ -132,7 +156,6 @@ impl<T: Real> Survey<T> {
                 from = on.map_or(to, |on| end.max(on.right));
             }
         }
-        found
     }
 
     /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
