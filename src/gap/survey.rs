@@ -58,6 +58,8 @@ pub(crate) struct Survey<T> {
     known: Option<(Asked<T>, T, T)>,
     /// Spans that have been looked at more closely, beside contacts.
     seen: Vec<probe::Stretch<T>>,
+    /// The heaviest load that they serve, as F/κ, and the tilt.
+    resolved: Option<[T; 2]>,
     /// Room for those that a load asks for.
     stretches: Vec<probe::Stretch<T>>,
 }
@@ -120,6 +122,7 @@ impl<T: Real> Survey<T> {
             spent: 0,
             known: None,
             seen: Vec::new(),
+            resolved: None,
             stretches: Vec::new(),
         }
     }
@@ -133,6 +136,7 @@ impl<T: Real> Survey<T> {
         self.range = gap.range();
         (self.known, self.is_one) = (None, false);
         self.seen.clear();
+        self.resolved = None;
         let before = cost.heights;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);

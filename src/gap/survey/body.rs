@@ -309,13 +309,8 @@ impl<T: Real> Body<T> {
                 if is_void {
                     series.doubt = T::one() / T::zero();
                 }
-                // Far longer than a feature it cannot gain.
-                let [from, to] = panel.x();
-                let gains = match missed {
-                    Some(missed) => to - from > missed.apart,
-                    None => series.doubt <= T::of(0.5) * panel.doubt,
-                };
-                let is_vain = panel.is_sampled && !gains;
+                let is_better = series.doubt <= T::of(0.5) * panel.doubt;
+                let is_vain = panel.is_sampled && !is_better && !is_void;
                 panel.vain = match is_vain {
                     _ if series.is_exact && !is_void => MOST_IN_VAIN,
                     true => panel.vain + 1,
@@ -400,7 +395,7 @@ impl<T: Real> Body<T> {
             start = beyond.checked_sub(1).map_or(start, |before| self.rows[before]);
             end = self.rows.get(beyond).copied().unwrap_or(start);
             // The last point of all.
-            if !(end.x > start.x) {
+            if end.x <= start.x {
                 return Row { x, ..start };
             }
         }
@@ -430,11 +425,13 @@ fn missed_by<'m, T: Real>(
     panel: &Panel<T>,
     known: &'m [Missed<T>],
 ) -> Option<&'m Missed<T>> {
-    let [from, to] = panel.k;
+    let ([from, to], [left, right]) = (panel.k, panel.x());
     known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
         let t = ((missed.k - from) - (to - missed.k)) / (to - from);
         let error = series.doubt.max(series.miss(t, &missed.point));
-        t.abs() <= T::one() && !(error <= T::of(LEFT) * missed.by)
+        let is_met = error <= T::of(LEFT) * missed.by;
+        // A shorter one has points all over the feature.
+        t.abs() <= T::one() && right - left > T::of(0.5) * missed.apart && !is_met
     })
 }
 

@@ -4,8 +4,9 @@
 //! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
 use super::body::{Body, Missed};
-use super::{Cost, Survey};
+use super::{Cost, Survey, is_in};
 use crate::gap::{Gap, Surface};
+use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
 
 /// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies next to.
@@ -17,11 +18,14 @@ const APART: f64 = 4.5;
 /// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
 const AHEAD: f64 = 1.05;
 
-/// Times the distance of points that serves as well: a lighter load, down to about a quarter, asks for no more of them.
+/// Times the distance of points that serves as well, of those at hand.
 const KEPT: f64 = 2.0;
 
 /// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
 const EXACT: f64 = 1e-3;
+
+/// The share of F/κ by which a point may be missed besides, as where formulas cancel.
+const FOOT: f64 = 1e-6;
 
 /// Times the uncertainty of a panel by which a point may miss it.
 const MISSED: f64 = 8.0;
@@ -45,9 +49,8 @@ pub(super) struct Stretch<T> {
 impl<T: Real> Stretch<T> {
     /// Tells whether another one has points about as close all over this one.
     fn is_seen_by(&self, other: &Self) -> bool {
-        other.x[0] <= self.x[0]
-            && other.x[1] >= self.x[1]
-            && other.apart <= T::of(KEPT) * self.apart
+        let [from, to] = other.x;
+        from <= self.x[0] && to >= self.x[1] && other.apart <= T::of(KEPT) * self.apart
     }
 }
 
@@ -63,9 +66,16 @@ impl<T: Real> Survey<T> {
         contacts: &[Interval<T>],
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
+        // Beside the contacts of a heavier load a lighter one touches nothing.
+        let is_lighter =
+            self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()));
+        if is_lighter {
+            return Ok(());
+        }
         let mut stretches = std::mem::take(&mut self.stretches);
         let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
         self.stretches = stretches;
+        self.resolved = Some([T::of(AHEAD) * load, gap.tilt()]);
         found
     }
 
@@ -83,8 +93,11 @@ impl<T: Real> Survey<T> {
                 break;
             }
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
-            let spans: Vec<[T; 2]> = stretches.iter().map(|stretch| stretch.x).collect();
-            if self.refine_at(gap, [&spans; 2], T::of(EXACT) * load, cost)? {
+            let tolerance = T::of(EXACT) * load;
+            let spans = stretches.iter().map(|stretch| stretch.x);
+            // Noise does not get less.
+            let spans: Vec<[T; 2]> = spans.filter(|x| self.converges_in(x, tolerance)).collect();
+            if self.refine_at(gap, [&spans; 2], tolerance, cost)? {
                 continue;
             }
             let mut missed = Vec::new();
@@ -92,8 +105,9 @@ impl<T: Real> Survey<T> {
                 if self.is_seen(stretch) {
                     continue;
                 }
-                if self.probe(gap, stretch, cost)? {
-                    self.seen.retain(|seen| !seen.is_seen_by(stretch));
+                if self.probe(gap, stretch, T::of(FOOT) * load, cost)? {
+                    self.seen
+                        .retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
                     self.seen.push(*stretch);
                 } else {
                     missed.push(stretch.x);
@@ -110,6 +124,12 @@ impl<T: Real> Survey<T> {
             }
         }
         Ok(())
+    }
+
+    fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
+        let panels = self.bodies.iter().flat_map(|body| &body.panels);
+        let mut inside = panels.filter(|panel| is_in(std::slice::from_ref(span), panel));
+        inside.all(|panel| panel.doubt <= tolerance || panel.converges())
     }
 
     fn is_seen(&self, stretch: &Stretch<T>) -> bool {
@@ -182,12 +202,13 @@ impl<T: Real> Survey<T> {
         &mut self,
         gap: &Gap<'_, T>,
         stretch: &Stretch<T>,
+        least: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
         let mut agrees = true;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
-            agrees &= body.probe(surface, stretch, &mut cost.heights);
+            agrees &= body.probe(surface, stretch, least, &mut cost.heights);
         }
         Ok(agrees)
     }
@@ -198,6 +219,7 @@ impl<T: Real> Body<T> {
         &mut self,
         surface: &Surface<'_, T>,
         stretch: &Stretch<T>,
+        least: T,
         heights: &mut usize,
     ) -> bool {
         let (one, half) = (T::one(), T::of(0.5));
@@ -230,7 +252,8 @@ impl<T: Real> Body<T> {
             *heights = heights.saturating_add(k.len());
             for ((t, k), point) in t.iter().zip(k).zip(points) {
                 let by = series.miss(*t, &point);
-                if !(by <= T::of(MISSED) * panel.doubt) {
+                let is_met = by <= least + T::of(MISSED) * panel.doubt;
+                if !is_met {
                     let (piece, apart) = (panel.piece, stretch.apart);
                     self.missed.push(Missed { piece, k, point, by, apart });
                     let panel = &mut self.panels[i];
