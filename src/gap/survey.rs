@@ -60,7 +60,8 @@ pub(crate) struct Survey<T> {
     seen: Vec<probe::Stretch<T>>,
     /// The heaviest load that they serve, as F/κ, and the tilt.
     resolved: Option<[T; 2]>,
-    /// Room for those that a load asks for.
+    /// Room for spans to be refined, and for those that a load asks for.
+    marked: Vec<[T; 2]>,
     stretches: Vec<probe::Stretch<T>>,
 }
 
@@ -123,6 +124,7 @@ impl<T: Real> Survey<T> {
             known: None,
             seen: Vec::new(),
             resolved: None,
+            marked: Vec::new(),
             stretches: Vec::new(),
         }
     }

@@ -36,7 +36,7 @@ pub(super) struct Body<T> {
     pub rows: Vec<Row<T>>,
     /// Points of the curve that a series has missed.
     pub missed: Vec<Missed<T>>,
-    scratch: Scratch<T>,
+    pub scratch: Scratch<T>,
 }
 
 /// A point of a piece.
@@ -90,9 +90,11 @@ impl<T: Real> Panel<T> {
 }
 
 #[derive(Clone, Debug)]
-struct Scratch<T> {
-    k: Vec<T>,
-    points: Vec<CurvePoint<T>>,
+pub(super) struct Scratch<T> {
+    /// Places in a panel, from -1 to 1.
+    pub t: Vec<T>,
+    pub k: Vec<T>,
+    pub points: Vec<CurvePoint<T>>,
     panels: Vec<Panel<T>>,
     /// Panels to be sampled.
     wanted: Vec<usize>,
@@ -104,8 +106,13 @@ fn row<T: Real>(end: CurvePoint<T>) -> Row<T> {
 
 impl<T: Real> Body<T> {
     pub fn new() -> Self {
-        let scratch =
-            Scratch { k: Vec::new(), points: Vec::new(), panels: Vec::new(), wanted: Vec::new() };
+        let scratch = Scratch {
+            t: Vec::new(),
+            k: Vec::new(),
+            points: Vec::new(),
+            panels: Vec::new(),
+            wanted: Vec::new(),
+        };
         let (panels, series, rows, missed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { panels, series, rows, missed, scratch }
     }

@@ -3,7 +3,7 @@
 //! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
 //! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
-use super::body::{Body, Missed};
+use super::body::{Body, Missed, Scratch};
 use super::{Cost, Survey, is_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
@@ -94,10 +94,15 @@ impl<T: Real> Survey<T> {
             }
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
             let tolerance = T::of(EXACT) * load;
+            let mut marked = std::mem::take(&mut self.marked);
+            marked.clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
             // Noise does not get less.
-            let spans: Vec<[T; 2]> = spans.filter(|x| self.converges_in(x, tolerance)).collect();
-            if self.refine_at(gap, [&spans; 2], tolerance, cost)? {
+            marked.extend(spans.filter(|x| self.converges_in(x, tolerance)));
+            let is_finer = self.refine_at(gap, [&marked; 2], tolerance, cost);
+            marked.clear();
+            self.marked = marked;
+            if is_finer? {
                 continue;
             }
             let mut missed = Vec::new();
@@ -243,14 +248,18 @@ impl<T: Real> Body<T> {
                 let share = (T::count(j) + half) / T::count(count);
                 ends[0] + share * (ends[1] - ends[0])
             };
-            let t: Vec<T> = (0..count).map(place).collect();
+            let Scratch { t, k, points, .. } = &mut self.scratch;
+            t.clear();
+            t.extend((0..count).map(place));
             let at = |t: &T| half * (one - *t) * panel.k[0] + half * (one + *t) * panel.k[1];
-            let k: Vec<T> = t.iter().map(at).collect();
+            k.clear();
+            k.extend(t.iter().map(at));
             let piece = surface.piece(panel.piece);
-            let mut points = vec![piece.ends[0]; k.len()];
-            piece.curve.at_many(&k, &mut points);
+            points.clear();
+            points.resize(k.len(), piece.ends[0]);
+            piece.curve.at_many(k, points);
             *heights = heights.saturating_add(k.len());
-            for ((t, k), point) in t.iter().zip(k).zip(points) {
+            for ((t, &k), &point) in t.iter().zip(&*k).zip(&*points) {
                 let by = series.miss(*t, &point);
                 let is_met = by <= least + T::of(MISSED) * panel.doubt;
                 if !is_met {
