@@ -6,14 +6,12 @@ mod capacity;
 mod edge_pressure;
 mod edges;
 mod equations;
-mod exterior_field;
 mod first_contact;
 mod moment;
 mod nested;
 mod newton_several;
 mod newton_single;
 mod peak;
-mod signorini_check;
 mod single_contact;
 mod topology;
 

@@ -1,7 +1,7 @@
 //! Which intervals the bodies touch in.
 //!
 //! A contact is sought as one interval first, from where it was, or from the lowest gap. It is then
-//! [checked](super::signorini_check): corners press, nothing pulls inside, nothing overlaps
+//! [checked](crate::solution::SignoriniCheck): corners press, nothing pulls inside, nothing overlaps
 //! outside. Where the search or a check fails, a coarse [active set](super::active_set) says in how
 //! many intervals the bodies touch and about where, and Newton's method finds [all
 //! limits](super::newton_several) at once; and where that leads to an end of the bodies, the load
@@ -11,14 +11,16 @@
 use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
-use super::exterior_field::ExteriorField;
+
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{SignoriniCheck, TensionSpans};
+
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
-use crate::solution::{ContactState, largest_pressure};
+use crate::solution::{
+    ContactState, ExteriorField, SignoriniCheck, TensionSpans, largest_pressure,
+};
 use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Ends, Interval, Real, Side};
 

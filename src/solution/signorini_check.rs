@@ -30,7 +30,7 @@ const HALVES: usize = 52;
 const MOST_STEPS: usize = 4;
 
 /// The contacts of a solution, ready to be checked.
-pub(super) struct SignoriniCheck<'c, T: Real> {
+pub(crate) struct SignoriniCheck<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
     pub integrator: &'c dyn Integrator<T>,
     pub kappa: T,
@@ -41,7 +41,7 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.
 #[derive(Clone)]
-pub(super) struct TensionSpans<T> {
+pub(crate) struct TensionSpans<T> {
     pub spans: Vec<Interval<T>>,
     seen: Vec<[T; 2]>,
 }
