@@ -304,7 +304,8 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
+        let (closed, noise) = (&self.closed[..], T::zero());
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, noise };
         let (interval, load) = (found.interval, found.load);
         let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
         fields.clear();

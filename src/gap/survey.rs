@@ -15,6 +15,7 @@
 //! joints, is convex: the bodies touch in one interval under any load and tilt.
 
 mod body;
+mod fine;
 mod lows;
 mod panel;
 mod segment;
@@ -62,16 +63,16 @@ pub(crate) enum Asked<T> {
     Peak(T),
 }
 
-/// The gap at an abscissa, with its slope on the left and on the right.
+/// The gap at an abscissa before it is tilted, with its slope on the left and on the right.
 #[derive(Clone, Copy, Debug)]
-struct Node<T> {
-    x: T,
-    height: T,
+pub(crate) struct Node<T> {
+    pub x: T,
+    pub height: T,
     /// The largest |Y|.
     size: T,
-    slopes: [T; 2],
+    pub slopes: [T; 2],
     /// Uncertainty of the slopes beyond rounding.
-    doubt: T,
+    pub doubt: T,
     /// Uncertainty of the heights up to the next node, and whether a piece is there of which only the ends are known.
     after: T,
     is_open: bool,
@@ -204,6 +205,15 @@ impl<T: Real> Survey<T> {
         Ok(changes)
     }
 
+    /// Returns the evaluations that it takes to refine the panels in some spans: all of them, or those that are more
+    /// uncertain than a tolerance.
+    fn cost_at(&self, gap: &Gap<'_, T>, wanted: &[[T; 2]], tolerance: Option<T>) -> usize {
+        let may_gain = |panel: &Panel<T>| tolerance.is_none_or(|most| panel.may_gain(most));
+        let is_marked = |panel: &Panel<T>| is_in(wanted, panel) && may_gain(panel);
+        let both = self.bodies.iter().zip(&gap.bodies);
+        both.map(|(body, surface)| body.cost(surface, is_marked)).sum()
+    }
+
     /// Halves panels as long as more points may prove the gap convex, and none tells that it is not.
     fn prove(
         &mut self,
@@ -219,9 +229,7 @@ impl<T: Real> Survey<T> {
             if self.convex || !may_be_convex {
                 return Ok(());
             }
-            let more = self.bodies.iter().zip(&gap.bodies);
-            let more = more.map(|(body, surface)| body.cost(surface, |panel| is_in(&open, panel)));
-            if cost.heights - before + more.sum::<usize>() > MOST_FOR_PROOF {
+            if cost.heights - before + self.cost_at(gap, &open, None) > MOST_FOR_PROOF {
                 return Ok(());
             }
             if !self.refine_at(gap, &open, T::zero(), cost)? {
@@ -325,7 +333,11 @@ fn convex_stretches<T: Real>(nodes: &mut [Node<T>]) {
 
 /// Tells whether a panel overlaps one of some spans, in rising order.
 fn is_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> bool {
-    let [from, to] = panel.x();
+    overlaps(spans, panel.x())
+}
+
+/// Tells whether a stretch of x has a part of some spans, in rising order.
+fn overlaps<T: Real>(spans: &[[T; 2]], [from, to]: [T; 2]) -> bool {
     let first = spans.partition_point(|span| span[1] <= from);
     spans.get(first).is_some_and(|span| span[0] < to)
 }

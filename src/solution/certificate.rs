@@ -11,20 +11,19 @@
 
 mod inside;
 mod missed;
-mod opening_integral;
 mod outside;
 mod series_bounds;
 mod several;
 
-use super::ContactState;
+use super::{ContactState, SignoriniCheck};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Panel, PanelSet};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
 use crate::{ContactError, Ends, Interval, Panels, Real, Side};
 use inside::Inside;
 use missed::Cells;
-use opening_integral::OpeningIntegral;
-use outside::{OpeningRate, OutsideOf};
+use outside::Outside;
+use series_bounds::{above, below};
 
 /// Evaluations, and samples, after which the certificate is given up.
 const MOST_EVALUATIONS: usize = 1 << 20;
@@ -104,7 +103,7 @@ pub(crate) fn certify<T: Real>(
     let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
     panel_set.look_at_ends(gap, sampled);
     panel_set.extend(gap, sampled)?;
-    let view = OpeningIntegral::new(&panel_set.panels, on);
+    let steepest = steepest(&panel_set.panels, on);
 
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
     let at_end = Ends { left: on.left <= ends.left, right: on.right >= ends.right };
@@ -125,44 +124,40 @@ pub(crate) fn certify<T: Real>(
     let spacing = (ends.right - ends.left) * T::of(SHARE);
     let mut more = Cost::default();
     panel_set.heights(gap, [sampled.left, sampled.centre(), sampled.right], &mut more)?;
-    let cells = missed::compare(gap, [&panel_set, &solver], sampled, spacing, view.steepest())?;
+    let cells = missed::compare(gap, [&panel_set, &solver], sampled, spacing, steepest)?;
     more += cells.cost;
     balanced(kappa, found, &cells)?;
+    let mut integrator = Panels::FULL.integrator()?;
+    integrator.prepare(gap, on)?;
+    more += integrator.cost();
+    let integrator = &*integrator;
     let pressure =
-        if adhesive != Ends::both(false) || rises(&panel_set.panels, on, share * view.steepest()) {
+        if adhesive != Ends::both(false) || rises(&panel_set.panels, on, share * steepest) {
             None
         } else {
-            let mut integrator = Panels::FULL.integrator()?;
-            integrator.prepare(gap, on)?;
-            more += integrator.cost();
             let load_case = LoadCase { kappa, load: found.load, free };
             let (hull, allowed) = (on, share * mean);
-            let inside = Inside { integrator: &*integrator, gap, load_case, on, hull, allowed };
+            let inside = Inside { integrator, gap, load_case, on, hull, allowed };
             let Extremum { x, value } = inside.least(&mut more)?;
             Some(Extremum { x, value: value / mean })
         };
+    let noise = T::zero();
+    let check = SignoriniCheck { gap, integrator, kappa, found, closed: &[], noise };
+    let gap = Outside::look(check, ends, spacing, &mut more)?;
+    Ok(Certificate { pressure, gap, spacing, cost: panel_set.cost + more })
+}
 
-    let both = Ends::from_fn(|side| {
-        let counts = adhesive[side] || at_corner[side];
-        if free[side] || !counts { T::zero() } else { strengths[side] * T::pi() / kappa }
-    });
-    let allowed = share * view.steepest() * on.half_width();
-    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
-    for side in Side::BOTH {
-        if at_corner[side] {
-            continue;
+/// Returns the largest |slope| in a contact.
+fn steepest<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> T {
+    panels.iter().fold(T::zero(), |most, panel| {
+        let [left, right] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
+        if left < right {
+            let (series, n) = panel.over(Interval { left, right });
+            most.max(above(&series[..n])).max(-below(&series[..n]))
+        } else {
+            most
         }
-        let mut outside = OutsideOf::new(&view, side, both, allowed);
-        outside.follow(gap, ends[side], spacing, &mut panel_set, MOST_EVALUATIONS)?;
-        outside.part_again();
-        worst = nearer(worst, outside.worst);
-        closest = nearer(closest, outside.closest);
-    }
-    if let Some(Extremum { x, value: gap }) = worst {
-        let (interval, load) = (on, found.load);
-        return Err(ContactError::Overlap { x, gap, interval, load });
-    }
-    Ok(Certificate { pressure, gap: closest, spacing, cost: panel_set.cost + more })
+    })
 }
 
 /// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.

@@ -6,6 +6,8 @@
 
 mod outside;
 
+pub(crate) use outside::{Beside, Seen};
+
 use super::exterior_field::{ExteriorField, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
@@ -37,6 +39,8 @@ pub(crate) struct SignoriniCheck<'c, T: Real> {
     pub found: &'c ContactState<T>,
     /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
     pub closed: &'c [Interval<T>],
+    /// The noise of the heights, if it was measured.
+    pub noise: T,
 }
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.
@@ -59,7 +63,7 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    fn contacts(&self) -> &[Interval<T>] {
+    pub fn contacts(&self) -> &[Interval<T>] {
         let several = panels::several(self.integrator).map(Several::contacts);
         several.unwrap_or(std::slice::from_ref(&self.found.interval))
     }
@@ -87,7 +91,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Takes more pressures of those contacts whose series leaves more than a share of the load open: they hide many
     /// waves, or kinks. Whether there were any.
-    fn resolve(&self, fields: &mut [ExteriorField<T>], share: T) -> Result<bool, ContactError<T>> {
+    pub fn resolve(
+        &self,
+        fields: &mut [ExteriorField<T>],
+        share: T,
+    ) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
         for field in fields {
             let mut count = field.coefficients().len();

@@ -1,5 +1,9 @@
 //! One body of a survey: a row of panels, each as fine as it has been asked for.
 
+mod fine;
+
+pub(crate) use fine::Rise;
+
 use super::panel::{NODES, POINTS, Row, Series};
 use super::segment::Segment;
 use crate::gap::Surface;
@@ -200,19 +204,34 @@ impl<T: Real> Body<T> {
         is_marked: impl Fn(&Panel<T>) -> bool,
         heights: &mut usize,
     ) -> Result<bool, ProfileError<T>> {
-        let half = T::of(0.5);
+        let ask = |panel: &Panel<T>, _: Option<&Series<T>>, cuts: &mut Vec<T>| {
+            cuts.extend(panel.is_sampled.then_some(T::zero()));
+            is_marked(panel)
+        };
+        self.split(surface, range, ask, heights)
+    }
+
+    /// Splits the panels that `ask` wants at the places t that it names; looks into those without.
+    fn split(
+        &mut self,
+        surface: &Surface<'_, T>,
+        range: [T; 2],
+        ask: impl Fn(&Panel<T>, Option<&Series<T>>, &mut Vec<T>) -> bool,
+        heights: &mut usize,
+    ) -> Result<bool, ProfileError<T>> {
         let mut old = std::mem::take(&mut self.scratch.panels);
         std::mem::swap(&mut old, &mut self.panels);
         self.panels.clear();
         self.scratch.wanted.clear();
-        let mut changes = false;
+        let (mut changes, mut cuts) = (false, Vec::new());
         for panel in &old {
-            if !is_marked(panel) {
+            cuts.clear();
+            if !ask(panel, panel.series.map(|number| &self.series[number]), &mut cuts) {
                 self.panels.push(*panel);
                 continue;
             }
             changes = true;
-            if !panel.is_sampled {
+            if cuts.is_empty() {
                 let settled = settled(surface, panel);
                 if settled.is_none() {
                     self.scratch.wanted.push(self.panels.len());
@@ -220,21 +239,18 @@ impl<T: Real> Body<T> {
                 self.panels.push(Panel { is_sampled: true, ..settled.unwrap_or(*panel) });
                 continue;
             }
-            let middle = half * panel.k[0] + half * panel.k[1];
-            let [from, to] = panel.x();
-            let centre = half * from + half * to;
-            let at = panel.series.map_or(panel.ends[0], |number| {
-                let [x, y, slope] = self.series[number].at_end(T::zero());
-                Row { x: if x > from && x < to { x } else { centre }, y, slope, doubt: T::zero() }
-            });
-            let (mut left, mut right) = (*panel, *panel);
-            (left.k[1], left.ends[1], left.is_inside[1]) = (middle, at, true);
-            (right.k[0], right.ends[0], right.is_inside[0]) = (middle, at, true);
-            right.series = None;
-            for part in [left, right] {
+            let mut rest = *panel;
+            for &t in &cuts {
+                let (k, at) = self.place(panel, t);
+                let mut part = rest;
+                (part.k[1], part.ends[1], part.is_inside[1]) = (k, at, true);
+                (rest.k[0], rest.ends[0], rest.is_inside[0]) = (k, at, true);
+                rest.series = None;
                 self.scratch.wanted.push(self.panels.len());
                 self.panels.push(part);
             }
+            self.scratch.wanted.push(self.panels.len());
+            self.panels.push(rest);
         }
         old.clear();
         self.scratch.panels = old;
@@ -243,6 +259,18 @@ impl<T: Real> Body<T> {
             self.list(range);
         }
         Ok(changes)
+    }
+
+    /// Returns the parameter and the point at a place t of a panel.
+    fn place(&self, panel: &Panel<T>, t: T) -> (T, Row<T>) {
+        let (one, half, [from, to]) = (T::one(), T::of(0.5), panel.x());
+        let k = half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
+        let even = half * (one - t) * from + half * (one + t) * to;
+        let at = panel.series.map_or(Row { x: even, ..panel.ends[0] }, |number| {
+            let [x, y, slope] = self.series[number].at_end(t);
+            Row { x: if x > from && x < to { x } else { even }, y, slope, doubt: T::zero() }
+        });
+        (k, at)
     }
 
     /// Samples the panels that are wanted, those of a piece in one batch.

@@ -1,361 +1,309 @@
 //! No overlap outside.
 //!
-//! At the distance d outside an edge the deformed gap opens with the slope
+//! It is the check of each solve, on a survey that has points of its own in each cell, finer ones near the limits,
+//! and heights that go with its slopes.
+//! Next to a limit the gap may be less than the rounding of the heights. There the slopes decide: outside the contacts
 //!
 //! ```text
-//! (w/π) ∫ (g(x) - g(t))/(x - t) dθ - (π/κ) (K (1 + d/2L) - K' d/2L)/sqrt(d/L (2 + d/L))
+//! V'(x) = (1/κ) ∫ P(s)/(x - s) ds
 //! ```
 //!
-//! w² = d (d + 2L), t = c + L cos θ, K of this edge and K' of the other. In y = √d its integral is
-//! smooth up to the edge. Where g is larger than anywhere in the contact, the gap grows: there
-//! the slope itself is not computed, and what the pressure adds to the height is made up for
-//! only where the gap stops growing.
+//! falls with x where P ≥ 0, and at a free limit it is the slope of the bodies. As long as they are steeper than at the
+//! limit, the gap grows.
 
-use super::series_bounds::{above, below, integral, least, truncation_error};
-use super::{Extremum, undecided};
-use crate::gap::{Cost, Gap, Sampler};
-use crate::numerics::chebyshev::Table;
-use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels::{Panel, PanelSet, Rises};
+use super::{Extremum, MOST_EVALUATIONS, undecided};
+use crate::gap::{Cost, Node, Sampler, Survey};
+use crate::quadrature::panels::Rises;
+use crate::solution::ContactState;
+use crate::solution::ExteriorField;
+use crate::solution::signorini_check::{Seen, SignoriniCheck};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// Nodes of a cell.
-const NODES: usize = 24;
-/// How often a panel is halved.
-const MOST_LEVELS: usize = 40;
-/// Cells on one side.
-const MOST_CELLS: usize = 1 << 16;
+/// The length of a cell, as a share of the spacing: its points are no further apart than 0.181 of that.
+const CELL: f64 = 1.25;
 
-/// A contact as seen from beside it, without the strengths of its edges.
-pub(super) trait OpeningRate<T: Real> {
-    fn on(&self) -> Interval<T>;
+/// The shares of the half-width and of the distance from a limit that a cell may be long.
+const NEAR_LIMIT: [f64; 2] = [0.0625, 0.5];
 
-    /// Beyond these, on the left and on the right, the slope of the bodies is one at which the gap grows
-    /// outward.
-    fn slopes(&self) -> [T; 2];
+/// The number of measured noises, three standard deviations each, by which heights may be off: nine points of a panel,
+/// and the limit.
+const NOISE: f64 = 4.0;
 
-    /// The largest slope in the contact.
-    fn steepest(&self) -> T;
-
-    /// What the pressure takes off the slope of the gap at a distance from an edge.
-    fn pull(&self, distance: T, side: Side) -> T;
-
-    /// What it leaves of a slope g there.
-    fn left_of(&self, g: T, distance: T, side: Side) -> T {
-        g - self.pull(distance, side)
-    }
+/// The room between two contacts, or beyond the outermost ones.
+struct Room<T> {
+    on: Interval<T>,
+    /// The half-width of the contact on either side.
+    beside: Ends<Option<T>>,
+    /// The distances from both limits within which the bodies are steeper than there.
+    opens: [T; 2],
 }
 
-/// One side of the contact.
-pub(super) struct OutsideOf<'o, T: Real> {
-    pub view: &'o dyn OpeningRate<T>,
-    side: Side,
-    /// π/κ times the strength of this edge, and of the other.
-    strengths: [T; 2],
-    /// Overlaps up to this are none.
-    pub allowed: T,
-    /// By how much the gap between the bodies, before they are loaded, rises towards larger x over what was followed.
-    risen: T,
-    /// The height of the gap at `y`, and what the slopes of the bodies have added since.
-    height: T,
-    y: T,
-    pending: T,
-    /// Whether the gap has been open: a least gap of nothing at the edge itself is none.
-    open: bool,
-    cells: usize,
-    /// The deepest overlap, and the least gap from which on the bodies part again.
-    pub worst: Option<Extremum<T>>,
-    pub closest: Option<Extremum<T>>,
-    /// Where the last cell ends, if the bodies come closer up to there.
-    pub falling: Option<Extremum<T>>,
+/// Everything outside the contacts.
+pub(super) struct Outside<'s, T: Real> {
+    check: SignoriniCheck<'s, T>,
+    ends: Ends<T>,
+    /// Before the first contact, between each two, and beyond the last.
+    rooms: Vec<Room<T>>,
+    look: Survey<T>,
+    fields: Vec<ExteriorField<T>>,
 }
 
-impl<'o, T: Real> OutsideOf<'o, T> {
-    /// With π/κ times the strengths of both edges.
-    pub fn new(view: &'o dyn OpeningRate<T>, side: Side, strengths: Ends<T>, allowed: T) -> Self {
-        let strengths = match side {
-            Side::Left => [strengths.left, strengths.right],
-            Side::Right => [strengths.right, strengths.left],
-        };
-        let zero = T::zero();
-        let (risen, height, y, pending) = (zero, zero, zero, zero);
-        let (open, cells) = (false, 0);
-        let (worst, closest, falling) = (None, None, None);
-        Self {
-            view,
-            side,
-            strengths,
-            allowed,
-            risen,
-            height,
-            y,
-            pending,
-            open,
-            cells,
-            worst,
-            closest,
-            falling,
-        }
-    }
-
-    fn sign(&self) -> T {
-        match self.side {
-            Side::Left => -T::one(),
-            Side::Right => T::one(),
-        }
-    }
-
-    fn edge(&self) -> T {
-        self.view.on()[self.side]
-    }
-
-    fn distance(&self, x: T) -> T {
-        (self.sign() * (x - self.edge())).max(T::zero())
-    }
-
-    /// What the strengths add to the slope of the gap, times 2 √d.
-    fn singular(&self, distance: T) -> T {
-        let half_width = self.view.on().half_width();
-        let share = T::of(0.5) * distance / half_width;
-        let [own, other] = self.strengths;
-        let by_root = T::of(2.0) * (half_width / (T::of(2.0) + share + share)).sqrt();
-        -(own * (T::one() + share) - other * share) * by_root
-    }
-
-    /// Takes in all panels of the way from the edge to an end of the bodies, in cells no longer
-    /// than `spacing`.
-    pub fn follow(
-        &mut self,
-        gap: &Gap<'_, T>,
-        end: T,
+impl<'s, T: Real> Outside<'s, T> {
+    /// Finds the least gap at a place where the bodies approach each other again.
+    ///
+    /// # Errors
+    /// [`ContactError::Overlap`], [`ContactError::InconsistentHeights`], [`ContactError::Undecided`], and those of
+    /// sampling the bodies.
+    pub fn look(
+        check: SignoriniCheck<'s, T>,
+        ends: Ends<T>,
         spacing: T,
-        panel_set: &mut PanelSet<T>,
-        most: usize,
+        cost: &mut Cost,
+    ) -> Result<Option<Extremum<T>>, ContactError<T>> {
+        let rooms = rooms(check.contacts(), ends);
+        if rooms.iter().all(Room::is_empty) {
+            return Ok(None);
+        }
+        let mut look = Survey::new();
+        look.take(&check.gap.tilted(T::zero()), cost)?;
+        let spans = rooms.iter().filter(|room| !room.is_empty());
+        let spans: Vec<[T; 2]> = spans.map(|room| [room.on.left, room.on.right]).collect();
+        let mut grid = Vec::new();
+        rooms.iter().for_each(|room| room.cells(T::of(CELL) * spacing, &mut grid));
+        look.cut(check.gap, &grid, &spans, cost)?;
+        let mut outside = Self { check, ends, rooms, look, fields: Vec::new() };
+        outside.compare_heights(&spans, cost)?;
+        outside.follow_limits();
+        if outside.rooms.iter().all(Room::is_open) {
+            return Ok(None);
+        }
+        outside.measure_noise(cost)?;
+        let Self { check, fields, .. } = &mut outside;
+        check.fields(fields)?;
+        check.resolve(fields, ContactState::<T>::rounding())?;
+        outside.follow_limits();
+        outside.overlap(cost)?;
+        outside.least_gap(cost)
+    }
+
+    /// Refuses heights that contradict the slopes, after panels have been made so fine that none hides it.
+    fn compare_heights(
+        &mut self,
+        spans: &[[T; 2]],
+        cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        let half_width = self.view.on().half_width();
-        let (mut reached, reach) = (T::zero(), self.distance(end));
-        let mut left_out = T::zero();
-        let (edge, sign) = (self.edge(), self.sign());
-        let place = |distance: T| if distance >= reach { end } else { edge + sign * distance };
-        let mut x = edge;
-        let mut cells = Vec::new();
-        while reached < reach && cells.len() < most {
-            let step = (T::of(0.5) * reached).max(T::of(0.0625) * half_width).min(spacing);
-            // No sliver at the end.
-            let next = if reached + T::of(1.25) * step >= reach { reach } else { reached + step };
-            let to = place(next);
-            if to != x {
-                cells.push([x.min(to), x.max(to)]);
-            }
-            (x, reached) = (to, next);
+        let gap = self.check.gap;
+        let heights = self.look.nodes().iter().filter(|node| {
+            node.x >= self.ends.left && node.x <= self.ends.right && node.height.is_finite()
+        });
+        let [low, high] = heights
+            .fold([T::one() / T::zero(), -T::one() / T::zero()], |on, node| {
+                [on[0].min(node.height), on[1].max(node.height)]
+            });
+        let open = T::epsilon().cbrt() * (high - low);
+        if let Some(x) = self.look.settle(gap, spans, open, MOST_EVALUATIONS, cost)? {
+            return Err(undecided(x, *cost));
         }
-        let mut waiting: Vec<Panel<T>> = Vec::new();
-        for [left, right] in cells {
-            panel_set.sample_anew(gap, Interval { left, right })?;
-            let breakpoint = if self.side == Side::Right { left } else { right };
-            if let Some(before) = self.edge_of(&waiting, breakpoint) {
-                // What happens between the last node and the end of a cell shows at its neighbour.
-                let after = self.edge_of(&panel_set.panels, breakpoint).unwrap_or(before);
-                let size = panel_set.size.max(before[0].abs());
-                let doubt = before[1] + after[1] + panel_set.tolerance * size;
-                let apart = (before[0] - after[0]).abs() > T::of(16.0) * doubt;
-                if apart && !gap.is_breakpoint(breakpoint) {
-                    let ends = waiting.iter().flat_map(|panel| panel.x);
-                    let [left, right] =
-                        ends.fold([left, right], |[from, to], x| [from.min(x), to.max(x)]);
-                    panel_set.sample_anew(gap, Interval { left, right })?;
-                    waiting.clear();
-                }
-            }
-            if panel_set.cost.evaluations > most || panel_set.cost.samples > most {
-                return Err(undecided(breakpoint, panel_set.cost));
-            }
-            for panel in waiting.drain(..) {
-                self.take(&panel, &mut left_out, panel_set.cost)?;
-            }
-            waiting.extend_from_slice(&panel_set.panels);
-            if self.side == Side::Left {
-                waiting.reverse();
-            }
+        let mut sampler = Sampler::default();
+        for rise in self.look.rises(spans) {
+            let (between, highest) = (rise.between, rise.highest);
+            let (by_heights, by_slopes) = (rise.by_heights, rise.by_slopes);
+            let rises = Rises { between, by_heights, by_slopes, highest, open };
+            rises.compare_beside_noise(gap, &mut sampler)?;
         }
-        // Short of the last cell: at the end of a body the slope may be infinite.
-        if let Some(panel) = waiting.first() {
-            let place = panel.x[usize::from(self.side == Side::Left)];
-            let mut sampler = Sampler::default();
-            let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
-            let [at_edge, at_place] = heights;
-            let rises = Rises {
-                between: [edge, place],
-                by_heights: at_place? - at_edge?,
-                by_slopes: sign * self.risen,
-                highest: sampler.highest,
-                open: left_out,
-            };
-            let compared = rises.compare_beside_noise(gap, &mut sampler);
-            panel_set.cost.heights += sampler.cost.evaluations;
-            compared?;
-        }
-        for panel in waiting {
-            self.take(&panel, &mut left_out, panel_set.cost)?;
-        }
+        cost.heights += sampler.cost.evaluations;
         Ok(())
     }
 
-    /// The slope and its error at a place where a row of panels ends.
-    fn edge_of(&self, panels: &[Panel<T>], x: T) -> Option<[T; 2]> {
-        let panel = panels.iter().find(|panel| panel.x.contains(&x))?;
-        Some([panel.value(x), panel.tail])
+    /// Finds how far from the limits the gap opens.
+    fn follow_limits(&mut self) {
+        // With tension at an edge the pressure may pull less farther off.
+        if self.check.found.adhesive != Ends::both(false) {
+            return;
+        }
+        for i in 0..self.rooms.len() {
+            let room = &self.rooms[i];
+            let opens = [(Side::Left, room.beside.left), (Side::Right, room.beside.right)].map(
+                |(end, beside)| {
+                    if beside.is_some() { self.opens_from(room.on, end) } else { T::zero() }
+                },
+            );
+            self.rooms[i].opens = opens;
+        }
     }
 
-    /// The next panel outward.
-    fn take(
-        &mut self,
-        panel: &Panel<T>,
-        left_out: &mut T,
-        cost: Cost,
-    ) -> Result<(), ContactError<T>> {
-        let length = panel.x[1] - panel.x[0];
-        self.risen += panel.rise(panel.x[0], panel.x[1]);
-        let rounding = T::of(16.0) * T::epsilon();
-        *left_out += length * (panel.tail + rounding * panel.series[0].abs());
-        let series = panel.coefficients();
-        let [own, other] = self.strengths;
-        // A straight flank is as steep as in the contact.
-        let slack = rounding * self.view.steepest();
-        let growing = if self.side == Side::Right {
-            below(series) >= self.view.slopes()[1] - slack
-        } else {
-            above(series) <= self.view.slopes()[0] + slack
+    /// Returns how far from the limit at one end of a room the gap opens.
+    fn opens_from(&self, room: Interval<T>, end: Side) -> T {
+        let Self { check, look, fields, .. } = self;
+        let (gap, nodes, limit) = (check.gap, look.nodes(), room[end]);
+        let (first, last) = (
+            nodes.partition_point(|node| node.x <= room.left),
+            nodes.partition_point(|node| node.x < room.right),
+        );
+        // As in the contact.
+        let slope = Sampler::default().slope_from(gap, gap.nearest(limit), end);
+        let Ok(at_limit) = slope else { return T::zero() };
+        let outward = if end == Side::Left { T::one() } else { -T::one() };
+        let opens = |node: &&Node<T>| {
+            let slopes = node.slopes.map(|slope| outward * (slope + gap.tilt()));
+            let slope = slopes[0].min(slopes[1]) - node.doubt;
+            let rounding = T::of(16.0) * T::epsilon() * at_limit.abs();
+            let pull = || {
+                let sum = |sum, field: &ExteriorField<T>| {
+                    sum + outward * field.slope(node.x) + field.slope_doubt(node.x)
+                };
+                fields.iter().fold(T::zero(), sum) / check.kappa
+            };
+            slope >= outward * at_limit - rounding || !fields.is_empty() && slope >= pull()
         };
-        let [one, two] = panel.x.map(|x| self.distance(x));
-        let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
-        if growing && own <= T::zero() && own <= other {
-            let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
-            self.pending += self.sign() * sum * panel.half();
-            self.part_again();
-            return Ok(());
+        let nodes = &nodes[first..last.max(first)];
+        let count = match end {
+            Side::Left => nodes.iter().take_while(opens).count(),
+            Side::Right => nodes.iter().rev().take_while(opens).count(),
+        };
+        match (count, end) {
+            (0, _) => T::zero(),
+            (count, _) if count == nodes.len() => room.right - room.left,
+            (count, Side::Left) => nodes[count - 1].x - limit,
+            (count, Side::Right) => limit - nodes[nodes.len() - count].x,
         }
-        if self.pending != T::zero() {
-            let drawn = self.drawn(self.y, from);
-            self.height += self.pending - drawn;
-            self.open |= self.height > self.allowed;
-            self.pending = T::zero();
+    }
+
+    /// Measures the noise of the heights at the limits, which all others are counted from.
+    fn measure_noise(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let (check, mut sampler) = (&self.check, Sampler::default());
+        let mut most = T::zero();
+        for limit in check.contacts().iter().flat_map(|on| [on.left, on.right]) {
+            most = most.max(sampler.noise_of_height(check.gap, limit)?);
         }
-        self.bound(panel, [from, to], self.allowed + *left_out, cost)?;
-        self.y = to;
+        cost.heights += sampler.cost.evaluations;
+        self.check.noise = T::of(NOISE) * most;
         Ok(())
     }
 
-    /// What the pressure takes off the height between two places.
-    fn drawn(&self, from: T, to: T) -> T {
-        let (half, rule) = (T::of(0.5), GaussLegendre::suited(1, T::zero()));
-        let (mut sum, mut top) = (T::zero(), to);
-        for level in 0..200 {
-            let bottom = if level + 1 == 200 || (from.is_zero() && level > 20) {
-                from
-            } else {
-                from.max(half * top)
+    /// Refuses an overlap, and what hides whether there is one.
+    fn overlap(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let Self { check, ends, rooms, look, fields } = self;
+        let opens: Vec<[T; 2]> = rooms.iter().map(|room| room.opens).collect();
+        match check.seek_overlap(fields, look, *ends, Some(&opens), cost)? {
+            Seen::Apart => Ok(()),
+            Seen::Open(x) => Err(undecided(x, *cost)),
+            Seen::Overlap([x, gap]) => {
+                let (interval, load) = (check.found.interval, check.found.load);
+                Err(ContactError::Overlap { x, gap, interval, load })
+            }
+        }
+    }
+
+    /// Finds the least gap from which on the bodies part again.
+    fn least_gap(&self, cost: &mut Cost) -> Result<Option<Extremum<T>>, ContactError<T>> {
+        let Self { check, rooms, look, fields, .. } = self;
+        let mut closest: Option<Extremum<T>> = None;
+        let opens: Vec<[T; 2]> = rooms.iter().map(|room| room.opens).collect();
+        for (next, room) in rooms.iter().enumerate().filter(|(_, room)| !room.is_open()) {
+            let from = check.beside(fields, look, Some(&opens), next);
+            let Interval { left, right } = room.on;
+            let [start, end] = [left + room.opens[0], right - room.opens[1]];
+            let nodes = look.nodes();
+            let mut nodes: Vec<_> =
+                nodes.iter().filter(|node| node.x >= start && node.x <= end).collect();
+            let is_inner = room.beside.left.is_some() && room.beside.right.is_some();
+            if room.beside.left.is_none() {
+                nodes.reverse();
+            }
+            let (mut highest, mut lowest) = (T::zero(), None::<(usize, T)>);
+            let mut meet = |(i, value): (usize, T)| -> Result<(), ContactError<T>> {
+                if closest.is_some_and(|than| than.value <= value) {
+                    return Ok(());
+                }
+                let mut x = nodes[i].x;
+                if let (Some(before), Some(after)) = (i.checked_sub(1), nodes.get(i + 1)) {
+                    let [one, other] = [nodes[before].x, after.x];
+                    x = check.lowest_between(fields, look, [one.min(other), one.max(other)]);
+                }
+                let mut sampler = Sampler::default();
+                let height = sampler.height(check.gap, x)?;
+                cost.heights += sampler.cost.evaluations;
+                let value = check.gap_left(fields, &from, [x, height]);
+                closest = Some(Extremum { x, value });
+                Ok(())
             };
-            for i in 0..rule.n {
-                let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
-                let distance = y * y;
-                let pull = (y + y) * self.sign() * self.view.pull(distance, self.side);
-                let weight = half * (top - bottom) * T::of(rule.weights[i]);
-                sum += weight * (pull - self.singular(distance));
-            }
-            if bottom <= from {
-                break;
-            }
-            top = bottom;
-        }
-        sum
-    }
-
-    /// Bounds the gap over one panel.
-    fn bound(
-        &mut self,
-        panel: &Panel<T>,
-        whole: [T; 2],
-        allowed: T,
-        cost: Cost,
-    ) -> Result<(), ContactError<T>> {
-        let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
-        // How fast g changes: so much of it is lost with the rounding of x.
-        let bends = panel.coefficients().iter().enumerate();
-        let bend = bends.fold(T::zero(), |sum, (k, a)| sum + T::count(k) * a.abs()) / panel.half();
-        let mut waiting = vec![(whole, 0)];
-        while let Some(([from, to], level)) = waiting.pop() {
-            let (middle, reach) = (half * (from + to), half * (to - from));
-            self.cells += 1;
-            if self.cells > MOST_CELLS {
-                return Err(undecided(self.edge() + sign * from * from, cost));
-            }
-            let (mut values, mut terms) = ([T::zero(); NODES], T::zero());
-            for (value, &z) in values.iter_mut().zip(&table.z) {
-                let y = middle + reach * T::of(z);
-                let distance = y * y;
-                let x = self.edge() + sign * distance;
-                // Rounding of x is more than the length of a panel that ends beside a breakpoint.
-                let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
-                let opens = sign * self.view.left_of(g, distance, self.side);
-                let lost = T::of(0.125) * (x.abs() + distance) * bend;
-                terms = terms.max((y + y) * (g.abs() + lost) * reach);
-                *value = ((y + y) * opens + self.singular(distance)) * reach;
-            }
-            let rate = &table.coefficients(&values);
-            let left_out = truncation_error(rate);
-            let size = rate.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-            let rounding = T::of(256.0) * T::epsilon() * size.max(terms);
-            let fine = left_out <= (T::of(0.125) * allowed).max(rounding);
-            if !fine && level < MOST_LEVELS && middle > from && middle < to {
-                waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
-                continue;
-            }
-            let mut heights = integral(rate);
-            heights[0] += self.height;
-            let lowest = below(&heights);
-            let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);
-            if known {
-                self.falling = None;
-            } else if below(rate) < T::zero() {
-                // To what counts, and no further than rounding.
-                let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
-                let rounding = T::of(16.0) * T::epsilon() * rounding;
-                let enough = (T::of(1e-3) * allowed).max(rounding).max(T::of(1e-9) * lowest);
-                let [s, value] = least(&heights, enough);
-                let y = middle + s * reach;
-                let here = Extremum { x: self.edge() + sign * y * y, value };
-                if value < -(allowed + left_out)
-                    && self.worst.is_none_or(|than: Extremum<T>| value < than.value)
-                {
-                    self.worst = Some(here);
-                }
-                let turns = s > -T::one() && (self.open || value.abs() > allowed);
-                if s <= -T::one() {
-                    self.part_again();
-                } else if turns {
-                    self.falling = Some(here);
-                    if s < T::one() {
-                        self.part_again();
+            for (i, node) in nodes.iter().enumerate() {
+                let height = check.gap.turned(node.x, node.height);
+                let value = check.gap_left(fields, &from, [node.x, height]);
+                let allowed = check.allowed(height, from.height);
+                match lowest {
+                    None if value < highest - allowed => lowest = Some((i, value)),
+                    None => highest = highest.max(value),
+                    Some((_, least)) if value < least => lowest = Some((i, value)),
+                    Some((at, least)) if value > least + allowed => {
+                        meet((at, least))?;
+                        (highest, lowest) = (value, None);
                     }
+                    Some(_) => {}
                 }
-            } else {
-                self.part_again();
             }
-            self.height = heights.iter().fold(T::zero(), |sum, &a| sum + a);
-            if !self.height.is_finite() {
-                return Err(undecided(self.edge() + sign * to * to, cost));
+            if let Some(place) = lowest.filter(|_| !is_inner) {
+                meet(place)?;
             }
-            self.open |= self.height > allowed;
         }
-        Ok(())
+        Ok(closest)
+    }
+}
+
+impl<T: Real> Room<T> {
+    fn is_empty(&self) -> bool {
+        !(self.on.left < self.on.right)
     }
 
-    /// Where the bodies have come closer up to now, they part from here on, or end.
-    pub fn part_again(&mut self) {
-        let Some(here) = self.falling.take() else { return };
-        if self.closest.is_none_or(|than| here.value < than.value) {
-            self.closest = Some(here);
-        }
+    /// Tells whether the gap is proved to open all the way.
+    fn is_open(&self) -> bool {
+        let [one, other] = self.opens;
+        self.is_empty() || one + other >= self.on.right - self.on.left
     }
+
+    /// Lists the ends of cells, no longer than a length, and shorter towards the limits.
+    fn cells(&self, most: T, grid: &mut Vec<T>) {
+        if self.is_empty() {
+            return;
+        }
+        let Interval { left, right } = self.on;
+        let (half, [share, growth]) = (T::of(0.5), NEAR_LIMIT.map(T::of));
+        let middle = match (self.beside.left, self.beside.right) {
+            (Some(_), Some(_)) => half * left + half * right,
+            (Some(_), None) => right,
+            _ => left,
+        };
+        let walk = |length: T, beside: Option<T>| {
+            let mut places = Vec::new();
+            let Some(half_width) = beside else { return places };
+            let mut reached = T::zero();
+            while reached < length {
+                places.push(reached);
+                let step = (growth * reached).max(share * half_width).min(most);
+                reached =
+                    if reached + T::of(1.25) * step >= length { length } else { reached + step };
+            }
+            places
+        };
+        let [up, down] =
+            [walk(middle - left, self.beside.left), walk(right - middle, self.beside.right)];
+        grid.extend(up.into_iter().map(|distance| left + distance));
+        grid.push(middle);
+        grid.extend(down.into_iter().rev().map(|distance| right - distance));
+    }
+}
+
+/// Lists the rooms before, between and beyond the contacts.
+fn rooms<T: Real>(contacts: &[Interval<T>], ends: Ends<T>) -> Vec<Room<T>> {
+    let room = |next: usize| {
+        let [before, after] =
+            [next.checked_sub(1).map(|i| contacts[i]), contacts.get(next).copied()];
+        let left = before.map_or(ends.left, |on| on.right);
+        let right = after.map_or(ends.right, |on| on.left);
+        let beside = Ends { left: before, right: after };
+        let beside = beside.map(|on| on.map(|on| on.half_width()));
+        Room { on: Interval { left, right }, beside, opens: [T::zero(); 2] }
+    };
+    (0..=contacts.len()).map(room).collect()
 }

@@ -8,47 +8,17 @@
 
 use super::inside::Inside;
 use super::missed::{Solved, compare};
-use super::opening_integral::extremes;
-use super::outside::{OpeningRate, OutsideOf};
-use super::{Certificate, Extremum, MOST_EVALUATIONS, SHARE, followed, nearer, undecided};
+use super::outside::Outside;
+use super::{Certificate, Extremum, SHARE, followed, nearer, steepest, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::LinearSystem;
-use crate::quadrature::panels::{self, PanelSet, Several, System};
+use crate::quadrature::panels::{self, Several, System};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
-use crate::solution::ContactState;
+use crate::solution::{ContactState, SignoriniCheck};
 use crate::{ContactError, Ends, Interval, Panels, Real, Side};
 
 /// Points at which the pressure of a contact is summed up, at first and at most.
 const POINTS: [usize; 2] = [32, 2048];
-
-/// A limit, with the pressure of all contacts.
-struct Limit<'s, T: Real> {
-    several: &'s Several<T>,
-    contact: usize,
-    system: &'s System<T>,
-    on: Interval<T>,
-    /// The slope of the gap there.
-    slope: T,
-    steepest: T,
-}
-
-impl<T: Real> OpeningRate<T> for Limit<'_, T> {
-    fn on(&self) -> Interval<T> {
-        self.on
-    }
-
-    fn slopes(&self) -> [T; 2] {
-        [self.slope; 2]
-    }
-
-    fn steepest(&self) -> T {
-        self.steepest
-    }
-
-    fn pull(&self, distance: T, side: Side) -> T {
-        self.several.pull(self.system, self.contact, side, distance)
-    }
-}
 
 /// Looks at several contacts.
 pub(super) fn certify<T: Real>(
@@ -84,16 +54,15 @@ pub(super) fn certify<T: Real>(
     let mut cost = own.cost();
     let ends = followed(ends, hull);
     let spacing = (ends.right - ends.left) * T::of(SHARE);
-    let (mut cells, mut doubt, mut steepest) = (Vec::new(), T::zero(), T::zero());
+    let (mut cells, mut doubt) = (Vec::new(), T::zero());
     for (i, &on) in contacts.iter().enumerate() {
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         own.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
-        let [least, most] = extremes(&own.panel_set(i).panels, on);
-        let steep = least.abs().max(most.abs());
+        let steep = steepest(&own.panel_set(i).panels, on);
         let assumed = Solved(solved.panel_set(i));
         let here = compare(gap, [own.panel_set(i), &assumed], on, spacing, steep)?;
         cost += here.cost;
-        (doubt, steepest) = (doubt.max(here.doubt), steepest.max(steep));
+        doubt = doubt.max(here.doubt);
         cells.push(here.panels);
     }
     let mut by_cells = Several::sampled(T::epsilon().sqrt(), gap.tilt(), cells.into_iter());
@@ -113,43 +82,10 @@ pub(super) fn certify<T: Real>(
         pressure = nearer(pressure, Some(Extremum { x, value: value / mean }));
     }
 
-    let Some(own) = panels::several(&*integrator) else { return Err(undecided(hull.left, cost)) };
-    let mut panel_set = PanelSet::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
-    let allowed = share * steepest * hull.half_width();
-    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
-    // Where the bodies come closer up to the middle of a gap, from its left.
-    let mut falling: Option<Extremum<T>> = None;
-    for (i, &on) in contacts.iter().enumerate() {
-        for side in Side::BOTH {
-            let outer = i == if side == Side::Right { last } else { 0 };
-            if outer && corners[side] {
-                continue;
-            }
-            let end = match side {
-                _ if outer => ends[side],
-                Side::Right => half * on.right + half * contacts[i + 1].left,
-                Side::Left => half * contacts[i - 1].right + half * on.left,
-            };
-            let slope = own.panel_set(i).slope(on[side]);
-            let slope = slope.unwrap_or(T::zero());
-            let limit =
-                Limit { several: own, system: &own_system, contact: i, on, slope, steepest };
-            let mut outside = OutsideOf::new(&limit, side, Ends::both(T::zero()), allowed);
-            outside.follow(gap, end, spacing, &mut panel_set, MOST_EVALUATIONS)?;
-            if outer {
-                outside.part_again();
-            } else if side == Side::Right {
-                falling = outside.falling;
-            } else if falling.is_some() && outside.falling.is_some() {
-                outside.part_again();
-            }
-            (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
-        }
-    }
-    if let Some(Extremum { x, value: gap }) = worst {
-        return Err(ContactError::Overlap { x, gap, interval: hull, load });
-    }
-    Ok(Certificate { pressure, gap: closest, spacing, cost: panel_set.cost + cost })
+    let (integrator, noise) = (&*integrator, T::zero());
+    let check = SignoriniCheck { gap, integrator, kappa, found, closed: &[], noise };
+    let gap = Outside::look(check, ends, spacing, &mut cost)?;
+    Ok(Certificate { pressure, gap, spacing, cost })
 }
 
 /// The load of one contact, to a thousandth or so: a pressure may be infinite at kinks.

@@ -28,7 +28,7 @@ const MOST_HALVES: usize = 8;
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns about where the loaded gap is lowest between two places, at the first of which it falls and at the second
     /// rises.
-    fn lowest_between(
+    pub fn lowest_between(
         &self,
         fields: &[ExteriorField<T>],
         look: &Survey<T>,
@@ -70,6 +70,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
         cost: &mut Cost,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         self.compare_heights(look)?;
+        let seen = self.seek_overlap(fields, look, ends, None, cost)?;
+        Ok(if let Seen::Overlap(place) = seen { Some(place) } else { None })
+    }
+
+    /// Seeks an overlap, `opens` being the distances from the limits, before and beyond each contact, within which the
+    /// gap is proved to open.
+    pub fn seek_overlap(
+        &self,
+        fields: &mut Vec<ExteriorField<T>>,
+        look: &mut Survey<T>,
+        ends: Ends<T>,
+        opens: Option<&[[T; 2]]>,
+        cost: &mut Cost,
+    ) -> Result<Seen<T>, ContactError<T>> {
         if fields.is_empty() {
             self.fields(fields)?;
         }
@@ -83,25 +97,28 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
-        let mut open = Vec::new();
+        let (mut open, mut hidden) = (Vec::new(), None);
         for _ in 0..MOST_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
             let lows = lows.flat_map(|low| self.outside(look, low)).flatten();
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
-            let (overlap, is_hidden) = self.overlap_at(fields, look, heights, &mut open, cost)?;
+            let seen = self.overlap_at(fields, look, opens, heights, &mut open, cost)?;
             share *= T::of(LESS_OPEN);
-            if overlap.is_some() {
-                return Ok(overlap);
-            }
+            let unresolved = match seen {
+                Seen::Overlap(_) => return Ok(seen),
+                Seen::Open(x) => Some(x),
+                Seen::Apart => None,
+            };
+            hidden = unresolved.or(open.first().map(|on| on[0]));
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
             let is_finer = !open.is_empty() && look.refine_at(self.gap, &open, T::zero(), cost)?;
-            if !is_finer && !(is_hidden && self.resolve(fields, share)?) {
-                return Ok(None);
+            if !is_finer && !(unresolved.is_some() && self.resolve(fields, share)?) {
+                break;
             }
         }
-        Ok(None)
+        Ok(hidden.map_or(Seen::Apart, Seen::Open))
     }
 
     /// Compares the rise of the gap over one contact by its slopes with that by the heights of the survey: between two
@@ -150,19 +167,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
     }
 
-    /// Finds the worst overlap outside the contacts, `[x, gap]`, as far as some heights show it, by rising x; `open` takes
-    /// the spans where the survey hides whether there is one. Tells also whether the series of the pressures hide it.
+    /// Finds the worst overlap outside the contacts as far as some heights show it, by rising x, or a place where the
+    /// series of the pressures hide whether there is one; `open` takes the spans where the survey hides it.
     fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
         look: &Survey<T>,
+        opens: Option<&[[T; 2]]>,
         heights: impl Iterator<Item = LowPoint<T>>,
         open: &mut Vec<[T; 2]>,
         cost: &mut Cost,
-    ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
+    ) -> Result<Seen<T>, ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
-        let (mut worst, mut is_hidden) = (None::<[T; 2]>, false);
+        let (mut worst, mut hides) = (None::<[T; 2]>, None);
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
@@ -175,13 +193,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 continue;
             }
             let known = beside.filter(|beside| beside.next == next);
-            let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
+            let from = known.unwrap_or_else(|| self.beside(fields, look, opens, next));
+            beside = Some(from);
             // From no place does the load act further away than from the far end of the contacts.
             let most = load * (x - hull.left).max(hull.right - x).ln();
             if height - hidden - from.height >= (most - from.taken) / self.kappa + from.hidden {
                 continue;
             }
-            if between.is_some() && from.is_near(x) {
+            if (between.is_some() || opens.is_some()) && from.is_near(x) {
                 continue;
             }
             let hidden = hidden + from.hidden;
@@ -202,17 +221,23 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
-                is_hidden |= is_open;
+                hides = hides.or(is_open.then_some(x));
                 worst =
                     found.filter(|&[_, gap]| worst.is_none_or(|[_, least]| gap < least)).or(worst);
             }
-            is_hidden |= verdict == Verdict::Unresolved;
+            hides = hides.or((verdict == Verdict::Unresolved).then_some(x));
         }
-        Ok((worst, is_hidden))
+        Ok(worst.map(Seen::Overlap).or(hides.map(Seen::Open)).unwrap_or(Seen::Apart))
     }
 
     /// Describes what lies beside a contact: before one of them, or beyond the last.
-    fn beside(&self, fields: &[ExteriorField<T>], look: &Survey<T>, next: usize) -> Beside<T> {
+    pub fn beside(
+        &self,
+        fields: &[ExteriorField<T>],
+        look: &Survey<T>,
+        opens: Option<&[[T; 2]]>,
+        next: usize,
+    ) -> Beside<T> {
         let (contacts, [from, to]) = (self.contacts(), self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
             None => (0, Side::Left),
@@ -230,7 +255,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let near = T::of(BESIDE) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
+        let near = opens.map_or(near, |opens| opens[next]);
         Beside { next, edge, room, near, height, hidden, taken: total(fields, edge) }
+    }
+
+    /// Returns the gap that is left of a height under the load.
+    pub fn gap_left(
+        &self,
+        fields: &[ExteriorField<T>],
+        from: &Beside<T>,
+        [x, height]: [T; 2],
+    ) -> T {
+        height - from.height - (total(fields, x) - from.taken) / self.kappa
     }
 
     /// Judges a height before loading, given its uncertainty.
@@ -240,8 +276,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         from: &Beside<T>,
         [x, height, hidden]: [T; 3],
     ) -> Verdict {
-        let rise = height - from.height;
-        let gap = rise - (total(fields, x) - from.taken) / self.kappa;
+        let gap = self.gap_left(fields, from, [x, height]);
         let allowed = self.allowed(height, from.height);
         // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
         let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
@@ -258,9 +293,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Returns the overlap that is put down to rounding.
-    fn allowed(&self, height: T, at_edge: T) -> T {
+    pub fn allowed(&self, height: T, at_edge: T) -> T {
         self.found.nothing() * (height - at_edge).abs()
             + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs())
+            + self.noise
     }
 
     /// Looks at the curves themselves where the bodies seem to overlap: whether they do, and whether that is open.
@@ -301,18 +337,18 @@ fn total<T: Real>(fields: &[ExteriorField<T>], x: T) -> T {
 
 /// What lies between two contacts, or beyond the outermost ones.
 #[derive(Clone, Copy)]
-struct Beside<T> {
+pub(crate) struct Beside<T> {
     /// The number of the contact on its right.
     next: usize,
-    room: Interval<T>,
+    pub room: Interval<T>,
     /// The limit that heights are counted from.
-    edge: T,
+    pub edge: T,
     /// The distances from the limits on the left and on the right within which the gap opens as the pressure says.
     near: [T; 2],
     /// The height of the gap at that limit, its uncertainty, and the potential there.
-    height: T,
+    pub height: T,
     hidden: T,
-    taken: T,
+    pub taken: T,
 }
 
 impl<T: Real> Beside<T> {
@@ -320,6 +356,17 @@ impl<T: Real> Beside<T> {
     fn is_near(&self, x: T) -> bool {
         x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
     }
+}
+
+/// The outcome of a search for an overlap.
+#[derive(Clone, Copy)]
+pub(crate) enum Seen<T> {
+    /// There is none.
+    Apart,
+    /// The worst one, and the gap there.
+    Overlap([T; 2]),
+    /// A place where neither the survey nor the series of the pressures tell.
+    Open(T),
 }
 
 /// What a height says of the gap between the loaded bodies.

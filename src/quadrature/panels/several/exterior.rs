@@ -19,42 +19,6 @@ impl<T: Real> Several<T> {
         several
     }
 
-    /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
-    /// no further than in the next gap, given the conditions on these contacts.
-    pub fn pull(&self, system: &System<T>, contact: usize, side: Side, distance: T) -> T {
-        let on = self.parts[contact].on;
-        let place = |distance: T| match side {
-            Side::Left => on.left - distance,
-            Side::Right => on.right + distance,
-        };
-        let x = place(distance);
-        let value =
-            |distance| self.outside(0..self.count, place(distance), Some((contact, distance)));
-        let in_gap = match side {
-            Side::Left => contact.checked_sub(1),
-            Side::Right => Some(contact).filter(|k| k + 1 < self.count),
-        };
-        let Some(k) = in_gap else {
-            return -self.weight.beyond(side, x, distance) * value(distance) / T::pi();
-        };
-        let width = self.parts[k + 1].on.left - self.parts[k].on.right;
-        let rest = width - distance;
-        let distances = match side {
-            Side::Left => [rest, distance],
-            Side::Right => [distance, rest],
-        };
-        let without = match self.weight.zeros().get(k) {
-            Some(&zero) => {
-                // At the zero itself that is a derivative: by a place aside from it.
-                let aside = T::epsilon().sqrt() * width;
-                let distance = if (x - zero).abs() < aside { distance + aside } else { distance };
-                (value(distance) - system.at_zeros[k]) / (place(distance) - zero)
-            }
-            None => value(distance),
-        };
-        -self.weight.in_gap(k, x, distances) * without / T::pi()
-    }
-
     /// The strength `K/κ` that a limit would have if it were off by a length, by that length, given the
     /// conditions on these contacts.
     pub fn strength_by_limit(&self, system: &System<T>, contact: usize, side: Side) -> T {
