@@ -304,8 +304,7 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        let (closed, noise) = (&self.closed[..], T::zero());
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed, noise };
+        let check = SignoriniCheck::new(gap, integrator, kappa, found, &self.closed);
         let (interval, load) = (found.interval, found.load);
         let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
         fields.clear();

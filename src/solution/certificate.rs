@@ -141,8 +141,7 @@ pub(crate) fn certify<T: Real>(
             let Extremum { x, value } = inside.least(&mut more)?;
             Some(Extremum { x, value: value / mean })
         };
-    let noise = T::zero();
-    let check = SignoriniCheck { gap, integrator, kappa, found, closed: &[], noise };
+    let check = SignoriniCheck::new(gap, integrator, kappa, found, &[]);
     let gap = Outside::look(check, ends, spacing, &mut more)?;
     Ok(Certificate { pressure, gap, spacing, cost: panel_set.cost + more })
 }

@@ -12,7 +12,8 @@ use super::exterior_field::{ExteriorField, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
-use crate::solution::ContactState;
+use crate::solution::pressure_integral::Integrals;
+use crate::solution::{ContactState, Pressure};
 use crate::{ContactError, Ends, Interval, Real, Side};
 use std::cmp::Ordering;
 
@@ -41,6 +42,8 @@ pub(crate) struct SignoriniCheck<'c, T: Real> {
     pub closed: &'c [Interval<T>],
     /// The noise of the heights, if it was measured.
     pub noise: T,
+    /// The integrals of the pressure, where its series are not enough.
+    pub exact: Option<Integrals<T, Pressure<'c, T>>>,
 }
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.
@@ -62,7 +65,17 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
     one.partial_cmp(&other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
 }
 
-impl<T: Real> SignoriniCheck<'_, T> {
+impl<'c, T: Real> SignoriniCheck<'c, T> {
+    pub fn new(
+        gap: &'c Gap<'c, T>,
+        integrator: &'c dyn Integrator<T>,
+        kappa: T,
+        found: &'c ContactState<T>,
+        closed: &'c [Interval<T>],
+    ) -> Self {
+        Self { gap, integrator, kappa, found, closed, noise: T::zero(), exact: None }
+    }
+
     pub fn contacts(&self) -> &[Interval<T>] {
         let several = panels::several(self.integrator).map(Several::contacts);
         several.unwrap_or(std::slice::from_ref(&self.found.interval))

@@ -1,7 +1,7 @@
 //! A survey as a certificate takes it: no cell of its grid without points of its own, and no step of the heights.
 
 use super::body::Rise;
-use super::{Node, Survey};
+use super::{Node, Survey, is_in};
 use crate::gap::{Cost, Gap};
 use crate::{Body as Which, ContactError, Real};
 
@@ -63,19 +63,15 @@ impl<T: Real> Survey<T> {
         most: usize,
         cost: &mut Cost,
     ) -> Result<Option<T>, ContactError<T>> {
-        loop {
-            let pairs = self.nodes.windows(2).filter(|pair| !(pair[0].after <= tolerance));
-            let wanted =
-                pairs.map(|pair| [pair[0].x, pair[1].x]).filter(|on| is_within(spans, *on));
-            let wanted: Vec<[T; 2]> = wanted.collect();
-            let Some(&[first, _]) = wanted.first() else { return Ok(None) };
-            if cost.heights + self.cost_at(gap, &wanted, Some(T::of(0.5) * tolerance)) > most {
-                return Ok(Some(first));
-            }
-            if !self.refine_at(gap, &wanted, tolerance, cost)? {
+        let half = T::of(0.5) * tolerance;
+        while cost.heights + self.cost_at(gap, spans, Some(half)) <= most {
+            if !self.refine_at(gap, spans, tolerance, cost)? {
                 return Ok(None);
             }
         }
+        let panels = self.bodies.iter().flat_map(|body| &body.panels);
+        let mut open = panels.filter(|panel| is_in(spans, panel) && panel.may_gain(half));
+        Ok(open.next().map(|panel| panel.x()[0]))
     }
 
     /// Returns the rises of the gap between neighbouring points in some spans, each by heights and by slopes.

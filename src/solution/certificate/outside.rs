@@ -14,9 +14,9 @@
 use super::{Extremum, MOST_EVALUATIONS, undecided};
 use crate::gap::{Cost, Node, Sampler, Survey};
 use crate::quadrature::panels::Rises;
-use crate::solution::ContactState;
-use crate::solution::ExteriorField;
-use crate::solution::signorini_check::{Seen, SignoriniCheck};
+use crate::solution::pressure_integral::Integrals;
+use crate::solution::signorini_check::{Beside, Seen, SignoriniCheck};
+use crate::solution::{ContactState, ExteriorField, Solved};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The length of a cell, as a share of the spacing: its points are no further apart than 0.181 of that.
@@ -36,6 +36,16 @@ struct Room<T> {
     beside: Ends<Option<T>>,
     /// The distances from both limits within which the bodies are steeper than there.
     opens: [T; 2],
+}
+
+/// A point where the bodies are nearest to each other.
+struct Turn<T> {
+    room: usize,
+    /// The points on either side; twice the same at an end.
+    between: [T; 2],
+    gap: T,
+    /// Whether they overlap there by more than the series of the pressures leave open.
+    overlaps: bool,
 }
 
 /// Everything outside the contacts.
@@ -79,6 +89,8 @@ impl<'s, T: Real> Outside<'s, T> {
         }
         outside.measure_noise(cost)?;
         let Self { check, fields, .. } = &mut outside;
+        let SignoriniCheck { gap, integrator, kappa, found, .. } = *check;
+        check.exact = Some(Integrals::new(Solved { gap, integrator, kappa, found })?);
         check.fields(fields)?;
         check.resolve(fields, ContactState::<T>::rounding())?;
         outside.follow_limits();
@@ -108,6 +120,11 @@ impl<'s, T: Real> Outside<'s, T> {
         for rise in self.look.rises(spans) {
             let (between, highest) = (rise.between, rise.highest);
             let (by_heights, by_slopes) = (rise.by_heights, rise.by_slopes);
+            // Where X stands still, or is all rounding, there is no rise.
+            let is_way = between[1] - between[0] > T::of(64.0) * T::epsilon() * between[1].abs();
+            if !is_way {
+                continue;
+            }
             let rises = Rises { between, by_heights, by_slopes, highest, open };
             rises.compare_beside_noise(gap, &mut sampler)?;
         }
@@ -183,77 +200,113 @@ impl<'s, T: Real> Outside<'s, T> {
 
     /// Refuses an overlap, and what hides whether there is one.
     fn overlap(&mut self, cost: &mut Cost) -> Result<(), ContactError<T>> {
-        let Self { check, ends, rooms, look, fields } = self;
-        let opens: Vec<[T; 2]> = rooms.iter().map(|room| room.opens).collect();
+        let (interval, load) = (self.check.found.interval, self.check.found.load);
+        let refuse = |[x, gap]: [T; 2]| Err(ContactError::Overlap { x, gap, interval, load });
+        // Where the bodies overlap at many points the deepest place is enough.
+        if let Some(turn) = self.lowest_turn().filter(|turn| turn.overlaps) {
+            let from = self.beside(turn.room);
+            let x = self.place(&turn);
+            if let Some(found) = self.check.verified(&self.fields, &from, x, cost)?.0 {
+                return refuse(found);
+            }
+        }
+        let opens: Vec<[T; 2]> = self.rooms.iter().map(|room| room.opens).collect();
+        let Self { check, ends, look, fields, .. } = self;
         match check.seek_overlap(fields, look, *ends, Some(&opens), cost)? {
             Seen::Apart => Ok(()),
             Seen::Open(x) => Err(undecided(x, *cost)),
-            Seen::Overlap([x, gap]) => {
-                let (interval, load) = (check.found.interval, check.found.load);
-                Err(ContactError::Overlap { x, gap, interval, load })
-            }
+            Seen::Overlap(found) => refuse(found),
         }
     }
 
     /// Finds the least gap from which on the bodies part again.
     fn least_gap(&self, cost: &mut Cost) -> Result<Option<Extremum<T>>, ContactError<T>> {
+        let Some(turn) = self.lowest_turn() else { return Ok(None) };
+        let (from, x) = (self.beside(turn.room), self.place(&turn));
+        let mut sampler = Sampler::default();
+        let height = sampler.height(self.check.gap, x)?;
+        cost.heights += sampler.cost.evaluations;
+        let [value, _] = self.check.exact_gap_left(&self.fields, &from, [x, height])?;
+        Ok(Some(Extremum { x, value }))
+    }
+
+    fn beside(&self, room: usize) -> Beside<T> {
+        let opens: Vec<[T; 2]> = self.rooms.iter().map(|room| room.opens).collect();
+        self.check.beside(&self.fields, &self.look, Some(&opens), room)
+    }
+
+    /// Returns the place of the lowest gap next to a point.
+    fn place(&self, turn: &Turn<T>) -> T {
+        match turn.between {
+            [one, other] if one < other => {
+                self.check.lowest_between(&self.fields, &self.look, [one, other])
+            }
+            [x, _] => x,
+        }
+    }
+
+    /// Returns the lowest point from which on the bodies part again, or where they end.
+    fn lowest_turn(&self) -> Option<Turn<T>> {
+        let rooms = self.rooms.iter().enumerate().filter(|(_, room)| !room.is_open());
+        let turns = rooms.flat_map(|(i, _)| self.turns(i));
+        turns.reduce(|one, other| if other.gap < one.gap { other } else { one })
+    }
+
+    /// Lists the points of a room where the gap stops falling, on the way from a contact.
+    fn turns(&self, i: usize) -> Vec<Turn<T>> {
         let Self { check, rooms, look, fields, .. } = self;
-        let mut closest: Option<Extremum<T>> = None;
-        let opens: Vec<[T; 2]> = rooms.iter().map(|room| room.opens).collect();
-        for (next, room) in rooms.iter().enumerate().filter(|(_, room)| !room.is_open()) {
-            let from = check.beside(fields, look, Some(&opens), next);
-            let Interval { left, right } = room.on;
-            let [start, end] = [left + room.opens[0], right - room.opens[1]];
-            let nodes = look.nodes();
-            let mut nodes: Vec<_> =
-                nodes.iter().filter(|node| node.x >= start && node.x <= end).collect();
-            let is_inner = room.beside.left.is_some() && room.beside.right.is_some();
-            if room.beside.left.is_none() {
-                nodes.reverse();
-            }
-            let (mut highest, mut lowest) = (T::zero(), None::<(usize, T)>);
-            let mut meet = |(i, value): (usize, T)| -> Result<(), ContactError<T>> {
-                if closest.is_some_and(|than| than.value <= value) {
-                    return Ok(());
+        let (room, from) = (&rooms[i], self.beside(i));
+        let [start, end] = [room.on.left + room.opens[0], room.on.right - room.opens[1]];
+        let nodes = look.nodes();
+        let (first, last) = (
+            nodes.partition_point(|node| node.x < start),
+            nodes.partition_point(|node| node.x <= end),
+        );
+        let count = last.saturating_sub(first);
+        let outward = |i: usize| match room.beside.left {
+            Some(_) => &nodes[first + i],
+            None => &nodes[last - 1 - i],
+        };
+        let turn = |(i, gap): (usize, T), allowed: T| {
+            let x = |i: usize| outward(i.min(count - 1)).x;
+            let [one, other] = [x(i.saturating_sub(1)), x(i + 1)];
+            let is_end = i == 0 || i + 1 == count;
+            let between = if is_end { [x(i); 2] } else { [one.min(other), one.max(other)] };
+            Turn { room: from.next, between, gap, overlaps: gap < -allowed }
+        };
+        let (mut turns, mut highest, mut lowest) = (Vec::new(), T::zero(), None::<(usize, T)>);
+        for i in 0..count {
+            let Node { x, height, .. } = *outward(i);
+            let height = check.gap.turned(x, height);
+            let [gap, doubt] = check.gap_left(fields, &from, [x, height]);
+            let allowed = check.allowed(height, from.height) + doubt;
+            match lowest {
+                None if gap < highest - allowed => lowest = Some((i, gap)),
+                None => highest = highest.max(gap),
+                Some((_, least)) if gap < least => lowest = Some((i, gap)),
+                Some((at, least)) if gap > least + allowed => {
+                    turns.push(turn((at, least), allowed));
+                    (highest, lowest) = (gap, None);
                 }
-                let mut x = nodes[i].x;
-                if let (Some(before), Some(after)) = (i.checked_sub(1), nodes.get(i + 1)) {
-                    let [one, other] = [nodes[before].x, after.x];
-                    x = check.lowest_between(fields, look, [one.min(other), one.max(other)]);
-                }
-                let mut sampler = Sampler::default();
-                let height = sampler.height(check.gap, x)?;
-                cost.heights += sampler.cost.evaluations;
-                let value = check.gap_left(fields, &from, [x, height]);
-                closest = Some(Extremum { x, value });
-                Ok(())
-            };
-            for (i, node) in nodes.iter().enumerate() {
-                let height = check.gap.turned(node.x, node.height);
-                let value = check.gap_left(fields, &from, [node.x, height]);
-                let allowed = check.allowed(height, from.height);
-                match lowest {
-                    None if value < highest - allowed => lowest = Some((i, value)),
-                    None => highest = highest.max(value),
-                    Some((_, least)) if value < least => lowest = Some((i, value)),
-                    Some((at, least)) if value > least + allowed => {
-                        meet((at, least))?;
-                        (highest, lowest) = (value, None);
-                    }
-                    Some(_) => {}
-                }
-            }
-            if let Some(place) = lowest.filter(|_| !is_inner) {
-                meet(place)?;
+                Some(_) => {}
             }
         }
-        Ok(closest)
+        // Between two contacts the gap falls to the next one.
+        if let Some(place) = lowest.filter(|_| !room.is_inner()) {
+            turns.push(turn(place, check.noise));
+        }
+        turns
     }
 }
 
 impl<T: Real> Room<T> {
     fn is_empty(&self) -> bool {
         !(self.on.left < self.on.right)
+    }
+
+    /// Tells whether it lies between two contacts.
+    fn is_inner(&self) -> bool {
+        self.beside.left.is_some() && self.beside.right.is_some()
     }
 
     /// Tells whether the gap is proved to open all the way.
@@ -269,10 +322,10 @@ impl<T: Real> Room<T> {
         }
         let Interval { left, right } = self.on;
         let (half, [share, growth]) = (T::of(0.5), NEAR_LIMIT.map(T::of));
-        let middle = match (self.beside.left, self.beside.right) {
-            (Some(_), Some(_)) => half * left + half * right,
-            (Some(_), None) => right,
-            _ => left,
+        let middle = match self.beside.left {
+            Some(_) if self.is_inner() => half * left + half * right,
+            Some(_) => right,
+            None => left,
         };
         let walk = |length: T, beside: Option<T>| {
             let mut places = Vec::new();

@@ -82,8 +82,7 @@ pub(super) fn certify<T: Real>(
         pressure = nearer(pressure, Some(Extremum { x, value: value / mean }));
     }
 
-    let (integrator, noise) = (&*integrator, T::zero());
-    let check = SignoriniCheck { gap, integrator, kappa, found, closed: &[], noise };
+    let check = SignoriniCheck::new(gap, &*integrator, kappa, found, &[]);
     let gap = Outside::look(check, ends, spacing, &mut cost)?;
     Ok(Certificate { pressure, gap, spacing, cost })
 }

@@ -204,7 +204,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 continue;
             }
             let hidden = hidden + from.hidden;
-            let mut verdict = self.verdict(fields, &from, [x, height, hidden]);
+            let mut verdict = self.verdict(fields, &from, [x, height, hidden])?;
             let mut x = x;
             if let (Verdict::Overlap | Verdict::Hidden, Some([left, right])) = (verdict, between) {
                 // A bound, or an interpolated height.
@@ -214,7 +214,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     continue;
                 }
                 let height = self.gap.turned(x, look.height(x));
-                verdict = self.verdict(fields, &from, [x, height, hidden]);
+                verdict = self.verdict(fields, &from, [x, height, hidden])?;
                 if verdict == Verdict::Hidden {
                     open.extend([[left, right], [from.edge; 2]]);
                 }
@@ -259,14 +259,32 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Beside { next, edge, room, near, height, hidden, taken: total(fields, edge) }
     }
 
-    /// Returns the gap that is left of a height under the load.
+    /// Returns the gap that is left of a height under the load, and its uncertainty, by the series of the pressures.
     pub fn gap_left(
         &self,
         fields: &[ExteriorField<T>],
         from: &Beside<T>,
         [x, height]: [T; 2],
-    ) -> T {
-        height - from.height - (total(fields, x) - from.taken) / self.kappa
+    ) -> [T; 2] {
+        let gap = height - from.height - (total(fields, x) - from.taken) / self.kappa;
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
+        // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
+        [gap, T::of(4.0) * doubt / self.kappa]
+    }
+
+    /// Returns the same by the pressures themselves, if their integrals are at hand.
+    pub fn exact_gap_left(
+        &self,
+        fields: &[ExteriorField<T>],
+        from: &Beside<T>,
+        [x, height]: [T; 2],
+    ) -> Result<[T; 2], ContactError<T>> {
+        let Some(exact) = &self.exact else { return Ok(self.gap_left(fields, from, [x, height])) };
+        let beyond = x - from.edge;
+        let pushed = |distance: T, strength: T| [strength * (beyond / distance).ln_1p()];
+        let [taken] = exact.over(from.edge, pushed)?;
+        let doubt = T::epsilon().powf(T::of(0.75)) * taken.abs();
+        Ok([height - from.height - taken / self.kappa, T::of(4.0) * doubt / self.kappa])
     }
 
     /// Judges a height before loading, given its uncertainty.
@@ -275,13 +293,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &[ExteriorField<T>],
         from: &Beside<T>,
         [x, height, hidden]: [T; 3],
-    ) -> Verdict {
-        let gap = self.gap_left(fields, from, [x, height]);
+    ) -> Result<Verdict, ContactError<T>> {
         let allowed = self.allowed(height, from.height);
-        // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
-        let doubt = T::of(4.0) * doubt / self.kappa;
+        let [gap, _] = self.gap_left(fields, from, [x, height]);
         if gap - hidden >= -allowed {
+            return Ok(Verdict::Apart);
+        }
+        let [gap, doubt] = self.exact_gap_left(fields, from, [x, height])?;
+        Ok(if gap - hidden >= -allowed {
             Verdict::Apart
         } else if gap - hidden >= -(allowed + doubt) {
             Verdict::Unresolved
@@ -289,7 +308,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Verdict::Hidden
         } else {
             Verdict::Overlap
-        }
+        })
     }
 
     /// Returns the overlap that is put down to rounding.
@@ -300,7 +319,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Looks at the curves themselves where the bodies seem to overlap: whether they do, and whether that is open.
-    fn verified(
+    pub fn verified(
         &self,
         fields: &[ExteriorField<T>],
         from: &Beside<T>,
@@ -313,7 +332,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Some(_) => from.height,
             None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
         };
-        let gap = height - at_edge - (total(fields, x) - from.taken) / self.kappa;
+        let counted = Beside { height: at_edge, ..*from };
+        let [gap, doubt] = self.exact_gap_left(fields, &counted, [x, height])?;
         // Where the formulas are all rounding, heights do not go with the slopes on both sides, and tell nothing.
         let aside = T::epsilon().sqrt() * self.found.interval.half_width();
         let beside = self.gap.nearest(x + aside);
@@ -324,8 +344,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
         let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
-        let is_open = gap >= -(allowed + T::of(4.0) * doubt) || !is_sound;
+        let is_open = gap >= -(allowed + doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
 }
@@ -339,7 +358,7 @@ fn total<T: Real>(fields: &[ExteriorField<T>], x: T) -> T {
 #[derive(Clone, Copy)]
 pub(crate) struct Beside<T> {
     /// The number of the contact on its right.
-    next: usize,
+    pub next: usize,
     pub room: Interval<T>,
     /// The limit that heights are counted from.
     pub edge: T,

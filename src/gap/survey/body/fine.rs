@@ -50,6 +50,8 @@ impl<T: Real> Body<T> {
         [places, spans]: [&[[T; 2]]; 2],
         heights: &mut usize,
     ) -> Result<bool, ProfileError<T>> {
+        // What was exact need not be so any more where its parts are looked at.
+        self.panels.iter_mut().for_each(|panel| panel.vain = 0);
         let ask = |panel: &Panel<T>, series: Option<&Series<T>>, cuts: &mut Vec<T>| {
             let [from, to] = panel.x();
             if is_straight(surface, panel) || !(to - from).is_finite() {
