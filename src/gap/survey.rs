@@ -22,6 +22,7 @@ mod segment;
 
 use super::{Cost, Gap};
 use crate::{Body as Which, ContactError, ProfileError, Real};
+pub(crate) use body::Rise;
 use body::{Body, Panel};
 pub(crate) use lows::LowPoint;
 use panel::Row;
@@ -158,7 +159,7 @@ impl<T: Real> Survey<T> {
             if wanted.is_empty() || cost.heights - before > MOST_HEIGHTS {
                 break;
             }
-            if !self.refine_at(gap, &wanted, tolerance, cost)? {
+            if !self.refine_at(gap, &wanted, Some(tolerance), cost)? {
                 break;
             }
         }
@@ -181,21 +182,22 @@ impl<T: Real> Survey<T> {
         wanted
     }
 
-    /// Refines the panels of both bodies that are more uncertain than half a tolerance in any of some spans; whether
-    /// there were any.
+    /// Refines the panels of both bodies that are more uncertain than half a tolerance, or without one all, in any of
+    /// some spans; whether there were any.
     pub fn refine_at(
         &mut self,
         gap: &Gap<'_, T>,
         wanted: &[[T; 2]],
-        tolerance: T,
+        tolerance: Option<T>,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
         let mut changes = false;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
-            let half = T::of(0.5);
-            let is_marked =
-                |panel: &Panel<T>| is_in(wanted, panel) && panel.may_gain(half * tolerance);
+            let gains = |panel: &Panel<T>| {
+                tolerance.is_none_or(|tolerance| panel.may_gain(T::of(0.5) * tolerance))
+            };
+            let is_marked = |panel: &Panel<T>| is_in(wanted, panel) && gains(panel);
             let found = body.refine(surface, self.range, is_marked, &mut cost.heights);
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
@@ -232,7 +234,7 @@ impl<T: Real> Survey<T> {
             if cost.heights - before + self.cost_at(gap, &open, None) > MOST_FOR_PROOF {
                 return Ok(());
             }
-            if !self.refine_at(gap, &open, T::zero(), cost)? {
+            if !self.refine_at(gap, &open, Some(T::zero()), cost)? {
                 return Ok(());
             }
         }

@@ -59,7 +59,7 @@ impl<T> TensionSpans<T> {
     }
 }
 
-fn by_size<T: Real>(one: T, other: T) -> Ordering {
+pub(crate) fn by_size<T: Real>(one: T, other: T) -> Ordering {
     // NaN first.
     let is_number = |value: T| value.partial_cmp(&value).is_some();
     one.partial_cmp(&other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))

@@ -65,7 +65,7 @@ impl<T: Real> Survey<T> {
     ) -> Result<Option<T>, ContactError<T>> {
         let half = T::of(0.5) * tolerance;
         while cost.heights + self.cost_at(gap, spans, Some(half)) <= most {
-            if !self.refine_at(gap, spans, tolerance, cost)? {
+            if !self.refine_at(gap, spans, Some(tolerance), cost)? {
                 return Ok(None);
             }
         }

@@ -12,10 +12,10 @@
 //! limit, the gap grows.
 
 use super::{Extremum, MOST_EVALUATIONS, undecided};
-use crate::gap::{Cost, Node, Sampler, Survey};
+use crate::gap::{Cost, Node, Rise, Sampler, Survey};
 use crate::quadrature::panels::Rises;
 use crate::solution::pressure_integral::Integrals;
-use crate::solution::signorini_check::{Beside, Seen, SignoriniCheck};
+use crate::solution::signorini_check::{Beside, Seen, SignoriniCheck, by_size};
 use crate::solution::{ContactState, ExteriorField, Solved};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -24,6 +24,9 @@ const CELL: f64 = 1.25;
 
 /// The shares of the half-width and of the distance from a limit that a cell may be long.
 const NEAR_LIMIT: [f64; 2] = [0.0625, 0.5];
+
+/// Halvings of panels that contradict the heights, after which it is no narrow feature between two points.
+const MOST_HALVINGS: usize = 12;
 
 /// The number of measured noises, three standard deviations each, by which heights may be off: nine points of a panel,
 /// and the limit.
@@ -113,20 +116,29 @@ impl<'s, T: Real> Outside<'s, T> {
                 [on[0].min(node.height), on[1].max(node.height)]
             });
         let open = T::epsilon().cbrt() * (high - low);
-        if let Some(x) = self.look.settle(gap, spans, open, MOST_EVALUATIONS, cost)? {
-            return Err(undecided(x, *cost));
-        }
         let mut sampler = Sampler::default();
-        for rise in self.look.rises(spans) {
-            let (between, highest) = (rise.between, rise.highest);
-            let (by_heights, by_slopes) = (rise.by_heights, rise.by_slopes);
-            // Where X stands still, or is all rounding, there is no rise.
-            let is_way = between[1] - between[0] > T::of(64.0) * T::epsilon() * between[1].abs();
-            if !is_way {
-                continue;
+        for round in 0.. {
+            if let Some(x) = self.look.settle(gap, spans, open, MOST_EVALUATIONS, cost)? {
+                return Err(undecided(x, *cost));
             }
-            let rises = Rises { between, by_heights, by_slopes, highest, open };
-            rises.compare_beside_noise(gap, &mut sampler)?;
+            let mut contradictions = Vec::new();
+            for rise in self.look.rises(spans) {
+                let Rise { between, by_heights, by_slopes, highest } = rise;
+                // Where X stands still there is no rise.
+                let is_way =
+                    between[1] - between[0] > T::of(64.0) * T::epsilon() * between[1].abs();
+                let rises = Rises { between, by_heights, by_slopes, highest, open };
+                match rises.compare_beside_noise(gap, &mut sampler) {
+                    Err(error) if is_way && round == MOST_HALVINGS => return Err(error),
+                    Err(_) if is_way => contradictions.push(between),
+                    _ => {}
+                }
+            }
+            if contradictions.is_empty() {
+                break;
+            }
+            contradictions.sort_by(|one, other| by_size(one[0], other[0]));
+            self.look.refine_at(gap, &contradictions, None, cost)?;
         }
         cost.heights += sampler.cost.evaluations;
         Ok(())

@@ -113,7 +113,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             };
             hidden = unresolved.or(open.first().map(|on| on[0]));
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
-            let is_finer = !open.is_empty() && look.refine_at(self.gap, &open, T::zero(), cost)?;
+            let is_finer =
+                !open.is_empty() && look.refine_at(self.gap, &open, Some(T::zero()), cost)?;
             if !is_finer && !(unresolved.is_some() && self.resolve(fields, share)?) {
                 break;
             }
