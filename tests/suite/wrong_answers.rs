@@ -856,7 +856,8 @@ fn up_to_a_merge_two_contacts_are_two_and_one_from_there_on() {
                     let least = pressure.at(x).unwrap_or(0.0);
                     assert!(least >= -1e-10 * mean, "{scene} {side} {exponent}: P({x}) = {least}");
                 }
-                assert!(solution.certify().is_ok(), "{scene} {side} {exponent}");
+                let certified = solution.certify();
+                assert!(certified.is_ok(), "{scene} {side} {exponent}: {certified:?}");
             }
         }
     }

@@ -344,7 +344,9 @@ impl<T: Real> Room<T> {
             let Some(half_width) = beside else { return places };
             let mut reached = T::zero();
             while reached < length {
-                places.push(reached);
+                // The first one begins inside, so that it has the limit itself.
+                let inside = T::of(0.25) * (share * half_width).min(most).min(length);
+                places.push(if reached.is_zero() { -inside } else { reached });
                 let step = (growth * reached).max(share * half_width).min(most);
                 reached =
                     if reached + T::of(1.25) * step >= length { length } else { reached + step };
