@@ -56,19 +56,6 @@ pub(super) fn rises<T: Real>(series: &[T], error: T) -> bool {
     below(slopes) >= -noise || least(slopes, noise)[1] >= -(noise + noise)
 }
 
-/// The coefficients of the integral from -1, one more than there are.
-pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
-    let n = series.len();
-    let at = |k: usize| series.get(k).copied().unwrap_or(T::zero());
-    let mut sums = vec![T::zero(); n + 1];
-    for (k, sum) in sums.iter_mut().enumerate().skip(1) {
-        let before = if k == 1 { at(0) + at(0) } else { at(k - 1) };
-        *sum = (before - at(k + 1)) / T::count(2 * k);
-    }
-    sums[0] = -value_at(&sums, -T::one());
-    sums
-}
-
 /// What the last coefficients say that those left out add up to.
 pub(super) fn truncation_error<T: Real>(series: &[T]) -> T {
     let n = series.len();

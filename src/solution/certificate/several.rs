@@ -15,7 +15,7 @@ use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{self, Several, System};
 use crate::quadrature::{Integrator, LoadCase, Quadrature};
 use crate::solution::{ContactState, SignoriniCheck};
-use crate::{ContactError, Ends, Interval, Panels, Real, Side};
+use crate::{ContactError, Interval, Panels, Real, Side};
 
 /// Points at which the pressure of a contact is summed up, at first and at most.
 const POINTS: [usize; 2] = [32, 2048];

@@ -1,4 +1,4 @@
-//! What a certificate asks several contacts for: what the pressure does beside them, and how it grows from
+//! What a certificate asks several contacts for: themselves on the panels of others, and how the pressure grows from
 //! their limits.
 
 use super::one_of_several::OneOfSeveral;

@@ -130,26 +130,4 @@ impl<T: Real> Weight<T> {
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
         sign * near * square.sqrt() / self.corner_factor(x)
     }
-
-    /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
-    pub fn beyond(&self, side: Side, x: T, distance: T) -> T {
-        let (own, flips) = match side {
-            Side::Left => (0, self.on.len() + self.zeros.len()),
-            Side::Right => (self.on.len() - 1, 0),
-        };
-        let mut size = T::one();
-        for (k, on) in self.on.iter().enumerate() {
-            let [near, far] = if k == own {
-                [distance, distance + (on.right - on.left)]
-            } else {
-                [(x - on.left).abs(), (x - on.right).abs()]
-            };
-            size *= near.sqrt() * far.sqrt();
-            if let Some(&zero) = self.zeros.get(k) {
-                size /= (x - zero).abs();
-            }
-        }
-        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * size / self.corner_factor(x)
-    }
 }
