@@ -1,11 +1,11 @@
 //! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! All of the gap is sampled, as panels of its slope: the contact first, and once more in short cells
-//! to see whether the panels, or those of the solver, have missed anything, and whether its limits
-//! balance the bodies; then the way from either edge to the ends of the
-//! bodies. The signs are those of pieces: bounds on a Chebyshev series by
-//! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
-//! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
+//! All of the gap is sampled. The contact comes first, as panels of the slope, and once more in short
+//! cells to see whether the panels, or those of the solver, have missed anything, and whether its
+//! limits balance the bodies. The sign of the pressure is that of pieces: bounds on a Chebyshev series
+//! by its coefficients, on shorter and shorter pieces until they leave no doubt. The outside is
+//! [checked](outside) as in a solve, on a survey of its own with points in each cell. A gap whose slope
+//! rises over the contact, and is larger yet beyond, is seen to be one from its slopes alone.
 //!
 //! Several contacts at once are looked at [one after the other](several), and the gaps between them.
 
@@ -35,8 +35,10 @@ const SHARE: f64 = 1.0 / 4096.0;
 ///
 /// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
 /// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
-/// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
-/// wherever the slope of the gap is not a polynomial of low degree.
+/// points at which they are evaluated. No two neighbouring ones are further apart than a quarter of
+/// `spacing`; they are closer near the edges and at breakpoints, in the contact wherever the slope of
+/// the gap is not a polynomial of low degree, and outside wherever heights and slopes leave open
+/// whether the loaded bodies overlap.
 ///
 /// ```
 /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -64,9 +66,9 @@ pub struct Certificate<T> {
     /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
     /// contacts has but one largest value.
     pub gap: Option<Extremum<T>>,
-    /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
+    /// A length: what is a quarter as wide, or more, cannot have passed unseen.
     pub spacing: T,
-    /// What it has cost.
+    /// What it has cost; all points outside the contacts count as heights.
     pub cost: Cost,
 }
 
@@ -94,7 +96,7 @@ pub(crate) fn certify<T: Real>(
     if let Some(solved) = panels::several(solver).filter(|several| several.contacts().len() > 1) {
         return several::certify(gap, kappa, found, solved);
     }
-    let ContactState { interval: on, strengths, free, adhesive, ends, .. } = *found;
+    let ContactState { interval: on, free, adhesive, ends, .. } = *found;
     let share = found.nothing();
     let mean = T::of(0.5) * found.load.abs() / on.half_width();
 
@@ -108,18 +110,7 @@ pub(crate) fn certify<T: Real>(
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
     let at_end = Ends { left: on.left <= ends.left, right: on.right >= ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
-    // With adhesion there may be no load.
-    let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
-    // Where both edges are at fault it is the right one that is named.
-    for side in [Side::Right, Side::Left] {
-        let lifts = at_corner[side] && strengths[side] < -share * pressed;
-        if lifts {
-            let x = on[side];
-            let (interval, load) = (on, found.load);
-            let pressure = -T::one() / T::zero();
-            return Err(ContactError::Tension { x, pressure, interval, load });
-        }
-    }
+    lifts(found, at_corner)?;
     let ends = followed(ends, on);
     let spacing = (ends.right - ends.left) * T::of(SHARE);
     let mut more = Cost::default();
@@ -144,6 +135,22 @@ pub(crate) fn certify<T: Real>(
     let check = SignoriniCheck::new(gap, integrator, kappa, found, &[]);
     let gap = Outside::look(check, ends, spacing, &mut more)?;
     Ok(Certificate { pressure, gap, spacing, cost: panel_set.cost + more })
+}
+
+/// Refuses a corner that pulls.
+fn lifts<T: Real>(found: &ContactState<T>, corners: Ends<bool>) -> Result<(), ContactError<T>> {
+    let ContactState { interval, load, strengths, .. } = *found;
+    // With adhesion there may be no load.
+    let mean = T::of(0.5) * load.abs() / interval.half_width();
+    let pressed = strengths.into_iter().fold(mean, |most, strength| most.max(strength.abs()));
+    // Where both edges are at fault it is the right one that is named.
+    for side in [Side::Right, Side::Left] {
+        if corners[side] && strengths[side] < -found.nothing() * pressed {
+            let (x, pressure) = (interval[side], -T::one() / T::zero());
+            return Err(ContactError::Tension { x, pressure, interval, load });
+        }
+    }
+    Ok(())
 }
 
 /// Returns the largest |slope| in a contact.

@@ -313,7 +313,7 @@ impl<'s, T: Real> Outside<'s, T> {
 
 impl<T: Real> Room<T> {
     fn is_empty(&self) -> bool {
-        !(self.on.left < self.on.right)
+        self.on.left >= self.on.right
     }
 
     /// Tells whether it lies between two contacts.

@@ -9,7 +9,7 @@
 use super::inside::Inside;
 use super::missed::{Solved, compare};
 use super::outside::Outside;
-use super::{Certificate, Extremum, SHARE, followed, nearer, steepest, undecided};
+use super::{Certificate, Extremum, SHARE, followed, lifts, nearer, steepest, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{self, Several, System};
@@ -27,22 +27,12 @@ pub(super) fn certify<T: Real>(
     found: &ContactState<T>,
     solved: &Several<T>,
 ) -> Result<Certificate<T>, ContactError<T>> {
-    let ContactState { interval: hull, load, strengths, free, ends, .. } = *found;
+    let ContactState { interval: hull, load, free, ends, .. } = *found;
     let contacts = solved.contacts();
     let (last, range, share) = (contacts.len() - 1, gap.range(), found.nothing());
     let half = T::of(0.5);
-    // Where both edges are at fault it is the right one that is named.
-    let mean = half * load.abs() / hull.half_width();
-    let pressed = strengths.into_iter().fold(mean, |max, k| max.max(k.abs()));
-    for side in [Side::Right, Side::Left] {
-        if !free[side] && strengths[side] < -share * pressed {
-            let x = hull[side];
-            let (interval, pressure) = (hull, -T::one() / T::zero());
-            return Err(ContactError::Tension { x, pressure, interval, load });
-        }
-    }
-
     let corners = free.map(|free| !free);
+    lifts(found, corners)?;
     let mut integrator = Panels::FULL.integrator()?;
     let Some(own) = panels::several_mut(&mut *integrator) else {
         return Err(undecided(hull.left, Cost::default()));
@@ -163,6 +153,7 @@ fn balanced<T: Real>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Ends;
     use crate::gap::Shape;
     use crate::profile::{Curve, CurvePoint, Flat};
     use crate::search::Newton as Inversion;
