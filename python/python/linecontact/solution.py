@@ -132,9 +132,9 @@ class Certificate(NamedTuple):
     gap : Extremum or None
         The least gap where the bodies approach each other again: a length. None where they do not.
     spacing : float
-        The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
+        A length: what is a quarter as wide, or more, cannot have passed unseen.
     cost : Cost
-        What it has taken.
+        What it has taken; all points outside the contacts count as heights.
     """
 
     pressure: Extremum | None

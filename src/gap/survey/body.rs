@@ -1,14 +1,18 @@
 //! One body of a survey: a row of panels, each as fine as it has been asked for.
 
+mod check;
 mod fine;
+mod known;
 
 pub(crate) use fine::Rise;
 
 use super::panel::{NODES, POINTS, Row, Series};
 use super::segment::Segment;
 use crate::gap::Surface;
-use crate::profile::{Convexity, Piece, first_turn};
+use crate::profile::Convexity;
 use crate::{CurvePoint, ProfileError, Real, Side};
+use check::check;
+use known::{bulge, settled};
 
 /// Pieces of a joined body below which each is sampled at once; of more, where bodies may touch.
 const FEW_PIECES: usize = 16;
@@ -396,86 +400,4 @@ impl<T: Real> Body<T> {
         };
         Row { x, y, slope, doubt }
     }
-}
-
-/// How far the cubic between two ends bulges from the line through both.
-fn bulge<T: Real>([start, end]: &[Row<T>; 2]) -> T {
-    let size = (end.slope - start.slope).abs() * (end.x - start.x);
-    if size.is_finite() { size } else { (end.y - start.y).abs() }
-}
-
-/// A cubic between two ends that the slopes inside bear out, where the curve gives them by x.
-fn settled<T: Real>(surface: &Surface<'_, T>, panel: &Panel<T>) -> Option<Panel<T>> {
-    let piece = surface.piece(panel.piece);
-    let [start, end] = panel.ends;
-    let segment = Segment::exact([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);
-    let size = start.slope.abs() + end.slope.abs() + segment.chord.abs();
-    let rounding =
-        T::of(64.0) * T::epsilon() * (size + (start.y.abs() + end.y.abs()) / segment.width);
-    let agrees = |share: f64| {
-        let slope = segment.at(T::of(share))[1];
-        let given = piece.curve.slope_at(start.x + T::of(share) * segment.width)?;
-        Some((given - slope).abs() <= rounding)
-    };
-    let both = agrees(0.3)? && agrees(0.7)?;
-    both.then_some(Panel { doubt: T::zero(), ..*panel })
-}
-
-/// Refuses points where X or Y is not finite inside the common range, where X turns, and slopes by x that are not
-/// those of the points.
-fn check<T: Real>(
-    piece: &Piece<'_, T>,
-    panel: &Panel<T>,
-    points: &[CurvePoint<T>; POINTS],
-    range: [T; 2],
-) -> Result<(), ProfileError<T>> {
-    let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
-    let rounding = T::of(32.0) * T::epsilon() * from.abs().max(to.abs());
-    let [first, last] = piece.x();
-    let mut reached = from;
-    for (i, point) in points[..NODES].iter().enumerate() {
-        let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });
-        let CurvePoint { x, y, .. } = *point;
-        if !x.is_finite() {
-            let next = points[i..NODES].iter().map(|point| point.x).find(|x| x.is_finite());
-            if reached < range[1] && next.unwrap_or(to) > range[0] {
-                return fault("X", x);
-            }
-            continue;
-        }
-        // An end inside a piece is only about where the series has it.
-        let turns = i > 0 && x < reached - rounding;
-        if turns || x < first - rounding || x > last + rounding {
-            let back = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
-            let j = (0..NODES - 1).find(back).unwrap_or(i.saturating_sub(1));
-            let met = [k[j], k[(j + 1).min(NODES - 1)]];
-            return Err(first_turn(piece.curve, piece.k, met));
-        }
-        if !y.is_finite() && x > range[0] && x < range[1] {
-            return fault("Y", y);
-        }
-        reached = if i == 0 { x } else { reached.max(x) };
-    }
-    check_slopes(piece, &k, points)
-}
-
-/// Compares the slopes that a curve gives by x, if it does, with those of its points.
-fn check_slopes<T: Real>(
-    piece: &Piece<'_, T>,
-    k: &[T; POINTS],
-    points: &[CurvePoint<T>; POINTS],
-) -> Result<(), ProfileError<T>> {
-    let slope = |i: usize| points[i].dy / points[i].dx;
-    for i in 1..NODES - 1 {
-        let Some(given) = piece.curve.slope_at(points[i].x) else { return Ok(()) };
-        let difference = slope(i);
-        let changes = (slope(i + 1) - slope(i - 1)).abs();
-        let allowed =
-            T::epsilon().cbrt() * (given.abs() + difference.abs()) + T::of(1e-3) * changes;
-        if (given - difference).abs() > allowed {
-            let quantity = "slope_at(x)";
-            return Err(ProfileError::Derivative { quantity, k: k[i], given, difference });
-        }
-    }
-    Ok(())
 }

@@ -115,9 +115,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
             let is_finer =
                 !open.is_empty() && look.refine_at(self.gap, &open, Some(T::zero()), cost)?;
-            if !is_finer && !(unresolved.is_some() && self.resolve(fields, share)?) {
-                break;
+            if is_finer || unresolved.is_some() && self.resolve(fields, share)? {
+                continue;
             }
+            break;
         }
         Ok(hidden.map_or(Seen::Apart, Seen::Open))
     }

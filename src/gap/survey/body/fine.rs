@@ -1,11 +1,11 @@
 //! A body as finely as a certificate looks at it.
 
+use super::known::is_straight;
 use super::{Body, Panel};
 use crate::gap::Surface;
 use crate::gap::survey::is_in;
 use crate::gap::survey::panel::{NODES, Row, Series};
 use crate::numerics::chebyshev::Table;
-use crate::profile::Convexity;
 use crate::{ProfileError, Real};
 
 /// The least distance between two cuts, in units in the last place of the length of a panel.
@@ -100,11 +100,4 @@ impl<T: Real> Body<T> {
         });
         both.flatten().flatten()
     }
-}
-
-/// Tells whether a panel is one of a straight body, given by x itself: its ends say all.
-fn is_straight<T: Real>(surface: &Surface<'_, T>, panel: &Panel<T>) -> bool {
-    let piece = surface.piece(panel.piece);
-    let is_given = || piece.curve.slope_at(piece.ends[0].x).is_some();
-    piece.curve.convexity() == Convexity::Straight && is_given()
 }
