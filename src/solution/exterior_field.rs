@@ -114,13 +114,6 @@ impl<T: Real> ExteriorField<T> {
         if right { pull } else { -pull }
     }
 
-    /// Returns what the coefficients left out may add to that.
-    pub fn slope_doubt(&self, x: T) -> T {
-        let half_width = self.on.half_width();
-        let beyond = (x - self.on.right).max(self.on.left - x).max(T::zero()) / half_width;
-        self.doubt() / ((beyond * (beyond + T::of(2.0))).sqrt() * half_width)
-    }
-
     /// The load of the contact.
     pub fn load(&self) -> T {
         T::pi() * self.q[0]

@@ -37,8 +37,6 @@ struct Room<T> {
     on: Interval<T>,
     /// The half-width of the contact on either side.
     beside: Ends<Option<T>>,
-    /// The distances from both limits within which the bodies are steeper than there.
-    opens: [T; 2],
 }
 
 /// A point where the bodies are nearest to each other.
@@ -57,6 +55,8 @@ pub(super) struct Outside<'s, T: Real> {
     ends: Ends<T>,
     /// Before the first contact, between each two, and beyond the last.
     rooms: Vec<Room<T>>,
+    /// The distances from the limits of each within which the bodies are steeper than there.
+    opens: Vec<[T; 2]>,
     look: Survey<T>,
     fields: Vec<ExteriorField<T>>,
 }
@@ -84,10 +84,11 @@ impl<'s, T: Real> Outside<'s, T> {
         let mut grid = Vec::new();
         rooms.iter().for_each(|room| room.cells(T::of(CELL) * spacing, &mut grid));
         look.cut(check.gap, &grid, &spans, cost)?;
-        let mut outside = Self { check, ends, rooms, look, fields: Vec::new() };
+        let (opens, fields) = (Vec::new(), Vec::new());
+        let mut outside = Self { check, ends, rooms, opens, look, fields };
         outside.compare_heights(&spans, cost)?;
-        outside.follow_limits();
-        if outside.rooms.iter().all(Room::is_open) {
+        outside.opens = outside.opens();
+        if (0..outside.rooms.len()).all(|i| outside.is_open(i)) {
             return Ok(None);
         }
         outside.measure_noise(cost)?;
@@ -96,7 +97,6 @@ impl<'s, T: Real> Outside<'s, T> {
         check.exact = Some(Integrals::new(Solved { gap, integrator, kappa, found })?);
         check.fields(fields)?;
         check.resolve(fields, ContactState::<T>::rounding())?;
-        outside.follow_limits();
         outside.overlap(cost)?;
         outside.least_gap(cost)
     }
@@ -144,26 +144,20 @@ impl<'s, T: Real> Outside<'s, T> {
         Ok(())
     }
 
-    /// Finds how far from the limits the gap opens.
-    fn follow_limits(&mut self) {
+    /// Finds how far from its limits the gap opens in each room.
+    fn opens(&self) -> Vec<[T; 2]> {
         // With tension at an edge the pressure may pull less farther off.
-        if self.check.found.adhesive != Ends::both(false) {
-            return;
-        }
-        for i in 0..self.rooms.len() {
-            let room = &self.rooms[i];
-            let opens = [(Side::Left, room.beside.left), (Side::Right, room.beside.right)].map(
-                |(end, beside)| {
-                    if beside.is_some() { self.opens_from(room.on, end) } else { T::zero() }
-                },
-            );
-            self.rooms[i].opens = opens;
-        }
+        let pulls = self.check.found.adhesive != Ends::both(false);
+        let from = |room: &Room<T>, end: Side| match room.beside[end] {
+            Some(_) if !pulls => self.opens_from(room.on, end),
+            _ => T::zero(),
+        };
+        self.rooms.iter().map(|room| Side::BOTH.map(|end| from(room, end))).collect()
     }
 
     /// Returns how far from the limit at one end of a room the gap opens.
     fn opens_from(&self, room: Interval<T>, end: Side) -> T {
-        let Self { check, look, fields, .. } = self;
+        let Self { check, look, .. } = self;
         let (gap, nodes, limit) = (check.gap, look.nodes(), room[end]);
         let (first, last) = (
             nodes.partition_point(|node| node.x <= room.left),
@@ -177,13 +171,7 @@ impl<'s, T: Real> Outside<'s, T> {
             let slopes = node.slopes.map(|slope| outward * (slope + gap.tilt()));
             let slope = slopes[0].min(slopes[1]) - node.doubt;
             let rounding = T::of(16.0) * T::epsilon() * at_limit.abs();
-            let pull = || {
-                let sum = |sum, field: &ExteriorField<T>| {
-                    sum + outward * field.slope(node.x) + field.slope_doubt(node.x)
-                };
-                fields.iter().fold(T::zero(), sum) / check.kappa
-            };
-            slope >= outward * at_limit - rounding || !fields.is_empty() && slope >= pull()
+            slope >= outward * at_limit - rounding
         };
         let nodes = &nodes[first..last.max(first)];
         let count = match end {
@@ -196,6 +184,12 @@ impl<'s, T: Real> Outside<'s, T> {
             (count, Side::Left) => nodes[count - 1].x - limit,
             (count, Side::Right) => limit - nodes[nodes.len() - count].x,
         }
+    }
+
+    /// Tells whether the gap is proved to open all the way through a room.
+    fn is_open(&self, i: usize) -> bool {
+        let (room, [one, other]) = (&self.rooms[i], self.opens[i]);
+        room.is_empty() || one + other >= room.on.right - room.on.left
     }
 
     /// Measures the noise of the heights at the limits, which all others are counted from.
@@ -222,9 +216,8 @@ impl<'s, T: Real> Outside<'s, T> {
                 return refuse(found);
             }
         }
-        let opens: Vec<[T; 2]> = self.rooms.iter().map(|room| room.opens).collect();
-        let Self { check, ends, look, fields, .. } = self;
-        match check.seek_overlap(fields, look, *ends, Some(&opens), cost)? {
+        let Self { check, ends, look, fields, opens, .. } = self;
+        match check.seek_overlap(fields, look, *ends, Some(opens), cost)? {
             Seen::Apart => Ok(()),
             Seen::Open(x) => Err(undecided(x, *cost)),
             Seen::Overlap(found) => refuse(found),
@@ -243,8 +236,7 @@ impl<'s, T: Real> Outside<'s, T> {
     }
 
     fn beside(&self, room: usize) -> Beside<T> {
-        let opens: Vec<[T; 2]> = self.rooms.iter().map(|room| room.opens).collect();
-        self.check.beside(&self.fields, &self.look, Some(&opens), room)
+        self.check.beside(&self.fields, &self.look, Some(&self.opens), room)
     }
 
     /// Returns the place of the lowest gap next to a point.
@@ -259,16 +251,16 @@ impl<'s, T: Real> Outside<'s, T> {
 
     /// Returns the lowest point from which on the bodies part again, or where they end.
     fn lowest_turn(&self) -> Option<Turn<T>> {
-        let rooms = self.rooms.iter().enumerate().filter(|(_, room)| !room.is_open());
-        let turns = rooms.flat_map(|(i, _)| self.turns(i));
+        let rooms = (0..self.rooms.len()).filter(|&i| !self.is_open(i));
+        let turns = rooms.flat_map(|i| self.turns(i));
         turns.reduce(|one, other| if other.gap < one.gap { other } else { one })
     }
 
     /// Lists the points of a room where the gap stops falling, on the way from a contact.
     fn turns(&self, i: usize) -> Vec<Turn<T>> {
-        let Self { check, rooms, look, fields, .. } = self;
+        let Self { check, rooms, opens, look, fields, .. } = self;
         let (room, from) = (&rooms[i], self.beside(i));
-        let [start, end] = [room.on.left + room.opens[0], room.on.right - room.opens[1]];
+        let [start, end] = [room.on.left + opens[i][0], room.on.right - opens[i][1]];
         let nodes = look.nodes();
         let (first, last) = (
             nodes.partition_point(|node| node.x < start),
@@ -321,12 +313,6 @@ impl<T: Real> Room<T> {
         self.beside.left.is_some() && self.beside.right.is_some()
     }
 
-    /// Tells whether the gap is proved to open all the way.
-    fn is_open(&self) -> bool {
-        let [one, other] = self.opens;
-        self.is_empty() || one + other >= self.on.right - self.on.left
-    }
-
     /// Lists the ends of cells, no longer than a length, and shorter towards the limits.
     fn cells(&self, most: T, grid: &mut Vec<T>) {
         if self.is_empty() {
@@ -370,7 +356,7 @@ fn rooms<T: Real>(contacts: &[Interval<T>], ends: Ends<T>) -> Vec<Room<T>> {
         let right = after.map_or(ends.right, |on| on.left);
         let beside = Ends { left: before, right: after };
         let beside = beside.map(|on| on.map(|on| on.half_width()));
-        Room { on: Interval { left, right }, beside, opens: [T::zero(); 2] }
+        Room { on: Interval { left, right }, beside }
     };
     (0..=contacts.len()).map(room).collect()
 }
