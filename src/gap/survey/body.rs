@@ -91,8 +91,7 @@ impl<T: Real> Panel<T> {
 
 #[derive(Clone, Debug)]
 pub(super) struct Scratch<T> {
-    /// Places in a panel, from -1 to 1.
-    pub t: Vec<T>,
+    pub probes: Vec<super::probe::Probe<T>>,
     pub k: Vec<T>,
     pub points: Vec<CurvePoint<T>>,
     panels: Vec<Panel<T>>,
@@ -107,7 +106,7 @@ fn row<T: Real>(end: CurvePoint<T>) -> Row<T> {
 impl<T: Real> Body<T> {
     pub fn new() -> Self {
         let scratch = Scratch {
-            t: Vec::new(),
+            probes: Vec::new(),
             k: Vec::new(),
             points: Vec::new(),
             panels: Vec::new(),

@@ -44,6 +44,17 @@ const MOST_HALVES: usize = 60;
 pub(super) struct Stretch<T> {
     x: [T; 2],
     apart: T,
+    /// Whether a point there is missed.
+    is_missed: bool,
+}
+
+/// A point to be asked for: the numbers of its stretch and its panel, its place there and its parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Probe<T> {
+    stretch: usize,
+    panel: usize,
+    t: T,
+    k: T,
 }
 
 impl<T: Real> Stretch<T> {
@@ -105,17 +116,20 @@ impl<T: Real> Survey<T> {
             if is_finer? {
                 continue;
             }
+            stretches.retain(|stretch| !self.is_seen(stretch));
+            let least = T::of(FOOT) * load;
+            for which in [Which::Lower, Which::Upper] {
+                let surface = &gap.bodies[which as usize];
+                self.bodies[which as usize].probe(surface, stretches, least, &mut cost.heights);
+            }
             let mut missed = Vec::new();
             for stretch in &*stretches {
-                if self.is_seen(stretch) {
-                    continue;
-                }
-                if self.probe(gap, stretch, T::of(FOOT) * load, cost)? {
+                if stretch.is_missed {
+                    missed.push(stretch.x);
+                } else {
                     self.seen
                         .retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
                     self.seen.push(*stretch);
-                } else {
-                    missed.push(stretch.x);
                 }
             }
             if missed.is_empty() {
@@ -176,7 +190,7 @@ impl<T: Real> Survey<T> {
                     && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
                     && x[1] - x[0] > apart
                 {
-                    found.push(Stretch { x, apart });
+                    found.push(Stretch { x, apart, is_missed: false });
                 }
                 from = on.map_or(to, |on| end.max(on.right));
             }
@@ -201,76 +215,76 @@ impl<T: Real> Survey<T> {
         }
         Some([from.min(high), from.max(high)])
     }
-
-    /// Asks the curves for points on a stretch, and voids panels that they miss; whether there were none.
-    fn probe(
-        &mut self,
-        gap: &Gap<'_, T>,
-        stretch: &Stretch<T>,
-        least: T,
-        cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
-        let mut agrees = true;
-        for which in [Which::Lower, Which::Upper] {
-            let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
-            agrees &= body.probe(surface, stretch, least, &mut cost.heights);
-        }
-        Ok(agrees)
-    }
 }
 
 impl<T: Real> Body<T> {
+    /// Asks the curve for points on some stretches, those of a piece in one batch, and voids panels that they miss.
     fn probe(
         &mut self,
         surface: &Surface<'_, T>,
-        stretch: &Stretch<T>,
+        stretches: &mut [Stretch<T>],
         least: T,
         heights: &mut usize,
-    ) -> bool {
+    ) {
+        let mut probes = std::mem::take(&mut self.scratch.probes);
+        probes.clear();
+        for (i, stretch) in stretches.iter_mut().enumerate() {
+            self.place_probes(i, stretch, &mut probes);
+        }
+        let mut rest = &probes[..];
+        while let [first, ..] = *rest {
+            let piece = self.panels[first.panel].piece;
+            let count = rest.partition_point(|probe| self.panels[probe.panel].piece == piece);
+            let batch;
+            (batch, rest) = rest.split_at(count);
+            let curve = surface.piece(piece);
+            let Scratch { k, points, .. } = &mut self.scratch;
+            k.clear();
+            k.extend(batch.iter().map(|probe| probe.k));
+            points.clear();
+            points.resize(count, curve.ends[0]);
+            curve.curve.at_many(k, points);
+            *heights = heights.saturating_add(count);
+            for (&Probe { stretch, panel, t, k }, &point) in batch.iter().zip(&*points) {
+                let (stretch, panel) = (&mut stretches[stretch], &mut self.panels[panel]);
+                let Some(number) = panel.series else { continue };
+                let series = &self.series[number];
+                let by = series.miss(t, &point);
+                let is_met = by <= least + T::of(MISSED) * series.doubt;
+                if !is_met {
+                    self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
+                    (panel.doubt, panel.vain, panel.is_void) = (T::one() / T::zero(), 0, true);
+                    stretch.is_missed = true;
+                }
+            }
+        }
+        self.scratch.probes = probes;
+    }
+
+    /// Places points on a stretch.
+    fn place_probes(&self, number: usize, stretch: &mut Stretch<T>, probes: &mut Vec<Probe<T>>) {
         let (one, half) = (T::one(), T::of(0.5));
         let [first, last] = stretch.x.map(|x| self.panels_at(x));
-        let mut agrees = true;
         for i in first[1]..=last[0].max(first[1]) {
-            let panel = self.panels[i];
-            let Some(number) = panel.series else { continue };
+            let panel = &self.panels[i];
+            let Some(series) = panel.series.map(|number| &self.series[number]) else { continue };
             if !panel.doubt.is_finite() {
-                agrees = false;
+                stretch.is_missed = true;
                 continue;
             }
-            let (series, between) = (&self.series[number], panel.x());
+            let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
             let ends = [from, to].map(|x| series.parameter(x, between));
             let mut count = 1;
             while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
                 count += 1;
             }
-            let place = |j: usize| {
+            probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
-                ends[0] + share * (ends[1] - ends[0])
-            };
-            let Scratch { t, k, points, .. } = &mut self.scratch;
-            t.clear();
-            t.extend((0..count).map(place));
-            let at = |t: &T| half * (one - *t) * panel.k[0] + half * (one + *t) * panel.k[1];
-            k.clear();
-            k.extend(t.iter().map(at));
-            let piece = surface.piece(panel.piece);
-            points.clear();
-            points.resize(k.len(), piece.ends[0]);
-            piece.curve.at_many(k, points);
-            *heights = heights.saturating_add(k.len());
-            for ((t, &k), &point) in t.iter().zip(&*k).zip(&*points) {
-                let by = series.miss(*t, &point);
-                let is_met = by <= least + T::of(MISSED) * panel.doubt;
-                if !is_met {
-                    let (piece, apart) = (panel.piece, stretch.apart);
-                    self.missed.push(Missed { piece, k, point, by, apart });
-                    let panel = &mut self.panels[i];
-                    (panel.doubt, panel.vain, panel.is_void) = (one / T::zero(), 0, true);
-                    agrees = false;
-                }
-            }
+                let t = ends[0] + share * (ends[1] - ends[0]);
+                let k = half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
+                Probe { stretch: number, panel: i, t, k }
+            }));
         }
-        agrees
     }
 }
