@@ -8,8 +8,8 @@
 # A compiler other than the one that the counts kept are of makes other counts: --check says so and compares
 # nothing.
 #
-# Each case of benches/embedding.rs and benches/several.rs is run few and many times, and the difference
-# divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
+# Each case of benches/embedding.rs, benches/several.rs and benches/default.rs is run few and many times, and the
+# difference divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
 cd "$(dirname "$0")/.."
@@ -26,7 +26,8 @@ built() {
 }
 bench=$(built embedding)
 several=$(built several)
-[ -x "$bench" ] && [ -x "$several" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
+default=$(built default)
+[ -x "$bench" ] && [ -x "$several" ] && [ -x "$default" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
 
 instructions() {
     valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null \
@@ -57,6 +58,19 @@ counts() {
             [ "$scene" = rough ] && few=1 many=2
             less=$(instructions "$several" repeat "$scene" "$start" "$few")
             more=$(instructions "$several" repeat "$scene" "$start" "$many")
+            printf '\t%s' $(((more - less) / (many - few)))
+        done
+        echo
+    done
+
+    printf '\nscene\tcold\tbare-cold\tnext\tbare-next\n'
+    for scene in parabola circle example3 example4 wave; do
+        printf '%s' "$scene"
+        for case in cold bare-cold next bare-next; do
+            # An even number, as two loads take turns.
+            few=4 many=24
+            less=$(instructions "$default" repeat "$scene" "$case" "$few")
+            more=$(instructions "$default" repeat "$scene" "$case" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo

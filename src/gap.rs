@@ -10,14 +10,14 @@
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
-mod coarse_heights;
 mod noise;
 mod sample_near;
 mod sampler;
+mod survey;
 
-pub(crate) use coarse_heights::{CoarseHeights, LowPoint};
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
+pub(crate) use survey::{Asked, LowPoint, Survey};
 
 use crate::profile::{Convexity, Piece};
 use crate::real::same;

@@ -8,7 +8,7 @@ use super::Contact;
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::single_contact::Single;
-use crate::gap::{CoarseHeights, Cost};
+use crate::gap::{Cost, Survey};
 use crate::quadrature::{Estimate, Integrator, LoadCase, complete};
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::solution::ContactState;
@@ -25,7 +25,7 @@ const MOST_POWER: f64 = 5.0;
 struct Trials<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     wanted: T,
-    look: Option<&'s CoarseHeights<T>>,
+    look: Option<&'s Survey<T>>,
     integrator: &'s mut dyn Integrator<T>,
     cost: &'s mut Cost,
     /// Where the next contact is looked for first.
@@ -88,7 +88,7 @@ fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>>
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     wanted: T,
-    look: Option<&CoarseHeights<T>>,
+    look: Option<&Survey<T>>,
     integrator: &mut dyn Integrator<T>,
     warm: Option<Interval<T>>,
     cost: &mut Cost,

@@ -5,6 +5,7 @@
 //! between the loaded bodies is looked at where their heights are known.
 
 mod outside;
+mod step;
 
 use super::exterior_field::{ExteriorField, POINTS};
 use crate::gap::{Cost, Gap};
@@ -13,6 +14,7 @@ use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use std::cmp::Ordering;
+pub(super) use step::step_of_heights;
 
 /// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.
 const MOST_JOINTS: usize = 64;
@@ -37,6 +39,8 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub found: &'c ContactState<T>,
     /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
     pub closed: &'c [Interval<T>],
+    /// The contacts under a heavier load, if known: outside them nothing can be touched.
+    pub widest: &'c [Interval<T>],
 }
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.

@@ -15,7 +15,7 @@ use super::equations::{Equations, relative_error};
 use super::first_contact::first_contact;
 use super::nested;
 use super::newton_single::{self, Converged, Effort, Outcome, load_of};
-use crate::gap::{CoarseHeights, Cost, Sampler};
+use crate::gap::{Cost, Sampler, Survey};
 use crate::quadrature::{Integrator, panels};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, ProfileError, Real, Side};
@@ -46,7 +46,7 @@ pub(super) struct Single<'s, 'b, T: Real> {
     pub conditions: Conditions<T>,
     /// Where it is sought first; or else at the lowest gap, where that is known.
     pub start: Option<Interval<T>>,
-    pub look: Option<&'s CoarseHeights<T>>,
+    pub look: Option<&'s Survey<T>>,
     pub integrator: &'s mut dyn Integrator<T>,
     pub cost: &'s mut Cost,
     /// What the bodies bear, once looked at. Bodies that touch in several places bear more than one contact.

@@ -13,14 +13,21 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{SignoriniCheck, TensionSpans};
+use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
-use crate::gap::{CoarseHeights, Cost, Gap, Sampler};
+use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
+use crate::real::same;
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Ends, Interval, Real, Side};
+
+/// The shares of F/κ by which heights may be uncertain where the bodies may touch: to start from, and to tell by them
+/// alone where they do.
+const ROUGHLY: f64 = 0.25;
+const CLOSELY: f64 = 0.002;
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
@@ -41,13 +48,18 @@ const MOST_SHARES: usize = 6;
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, with the number of the gap that they are of.
-    look: CoarseHeights<T>,
+    look: Survey<T>,
     of: Option<u64>,
     newton: NewtonSeveral<T>,
     fields: Vec<ExteriorField<T>>,
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
+    /// The heaviest load on these bodies of which a solution was checked, their tilt, and the contacts.
+    heaviest: Option<[T; 2]>,
+    widest: Vec<Interval<T>>,
+    /// Room for what of these a lighter load may leave open.
+    closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
     pub report: Report,
@@ -56,12 +68,15 @@ pub(crate) struct Workspace<T> {
 impl<T: Real> Workspace<T> {
     pub fn new() -> Self {
         Self {
-            look: CoarseHeights::new(),
+            look: Survey::new(),
             of: None,
             newton: NewtonSeveral::new(),
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
+            heaviest: None,
+            widest: Vec::new(),
+            closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
         }
@@ -73,19 +88,27 @@ impl<T: Real> Workspace<T> {
         self.last.extend_from_slice(contacts);
     }
 
-    /// Looks at the bodies, once for a pair of them.
+    /// Surveys the bodies, once for a pair of them and as closely as is asked for.
     fn look(
         &mut self,
         gap: &Gap<'_, T>,
+        asked: Asked<T>,
         cost: &mut Cost,
-    ) -> Result<&CoarseHeights<T>, ContactError<T>> {
+    ) -> Result<&Survey<T>, ContactError<T>> {
+        self.take(gap, cost)?;
+        self.look.refine(gap, asked, T::of(ROUGHLY), cost)?;
+        Ok(&self.look)
+    }
+
+    /// Takes a first look at the bodies, once for a pair of them.
+    fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         if self.of != Some(gap.number()) {
-            self.of = None;
+            (self.of, self.heaviest) = (None, None);
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
         }
-        Ok(&self.look)
+        Ok(())
     }
 }
 
@@ -106,10 +129,26 @@ pub(super) fn find<T: Real>(
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
 ) -> Result<ContactState<T>, ContactError<T>> {
+    let found = find_contacts(contact, sought, integrator, workspace, cost);
+    found.map_err(|error| match error {
+        // A step of the heights of which no slope tells is no crest that could be pressed flat.
+        ContactError::Overlap { x, interval, .. } => {
+            step_of_heights(&contact.gap, interval, x).unwrap_or(error)
+        }
+        _ => error,
+    })
+}
+
+fn find_contacts<T: Real>(
+    contact: &Contact<'_, T>,
+    sought: Sought<T>,
+    integrator: &mut dyn Integrator<T>,
+    workspace: &mut Workspace<T>,
+    cost: &mut Cost,
+) -> Result<ContactState<T>, ContactError<T>> {
     let gap = &contact.gap;
     let edges = contact.checked_edges()?;
     let given = !edges.are_sought();
-    let convex = gap.is_convex();
     let cells = FIRST_CELLS;
     let closed = Vec::new();
     let mut search = Search {
@@ -133,18 +172,19 @@ pub(super) fn find<T: Real>(
     let mut fault = None;
     if search.workspace.last.len() <= 1 {
         // Of several valleys heights tell at less cost what a search for one contact fails at.
-        if search.has_valleys(convex)? {
+        if search.has_valleys()? {
             match search.several(None) {
                 Err(error) if !matches!(error, ContactError::DomainTooShort { .. }) => {}
                 found => return found,
             }
         }
-        let (start, found) = match search.one(!convex && !turns && !given) {
+        let looks = !gap.is_convex() && !turns && !given;
+        let (start, found) = match search.one(looks) {
             // Without a look at the bodies.
             (
                 start,
                 found @ Err(ContactError::NoEquilibrium { .. } | ContactError::NoPeak { .. }),
-            ) if convex && !turns => {
+            ) if gap.is_convex() && !turns => {
                 search.workspace.report.add(start, Outcome::NotFound);
                 let (start, again) = search.one(true);
                 (start, again.or(found))
@@ -152,25 +192,27 @@ pub(super) fn find<T: Real>(
             found => found,
         };
         match found {
-            Ok(found) => match search.checked(&found, convex)? {
+            Ok(found) => match search.checked(&found)? {
                 None => {
                     search.workspace.report.add(start, Outcome::Passed);
                     return Ok(found);
                 }
                 // Of bodies that turn, more contacts may press at the corner.
-                Some(error @ ContactError::LiftsOff { .. }) if convex || !turns => {
+                Some(error @ ContactError::LiftsOff { .. }) if search.is_convex() || !turns => {
                     return Err(error);
                 }
                 Some(error) => {
                     search.workspace.report.add(start, Outcome::of(&error));
+                    // What a width or a peak takes is known now, and with it which crest is the lowest.
+                    if looks && search.has_lower(found.load)? {
+                        return search.again();
+                    }
                     fault = Some(error);
                 }
             },
             Err(error) if given || !error.may_be_several() => return Err(error),
             // Of bodies that turn, one contact may be hard to find too.
-            Err(error)
-                if !turns && (convex || search.workspace.look(gap, search.cost)?.bulges()) =>
-            {
+            Err(error) if !turns && (search.is_convex() || search.look()?.bulges()) => {
                 return Err(error);
             }
             Err(error) => {
@@ -180,6 +222,12 @@ pub(super) fn find<T: Real>(
         }
     }
     search.several(fault)
+}
+
+/// Returns what a load asks of the survey.
+fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
+    let load = conditions.load() / conditions.kappa;
+    if conditions.at().is_some() { Asked::Turning(load) } else { Asked::Load(load) }
 }
 
 struct Search<'s, 'b, T: Real> {
@@ -205,15 +253,20 @@ impl<T: Real> Search<'_, '_, T> {
     /// look at the bodies it starts in their middle.
     fn one(&mut self, looks: bool) -> (Start, Result<ContactState<T>, ContactError<T>>) {
         let mut start = if self.turns() { Start::LineOfLoad } else { Start::Middle };
+        let asked = self.asked();
         let (contact, cost) = (self.contact, &mut *self.cost);
         let last = self.workspace.last.first().copied();
         let mut look = None;
-        if looks {
+        let told = last.is_some() || contact.start.is_some();
+        if looks && !told {
             start = Start::LowestGap;
-            match self.workspace.look(&contact.gap, cost) {
-                Ok(seen) => look = Some(seen),
-                Err(error) => return (start, Err(error)),
+            if let Err(error) = self.workspace.look(&contact.gap, asked, cost) {
+                return (start, Err(error));
             }
+        }
+        let Workspace { look: survey, of, .. } = &*self.workspace;
+        if looks && *of == Some(contact.gap.number()) {
+            look = Some(survey);
         }
         start = match (last, contact.start) {
             (Some(_), _) => Start::Last,
@@ -231,18 +284,54 @@ impl<T: Real> Search<'_, '_, T> {
         (start, found)
     }
 
+    /// Tells whether the gap is lowest elsewhere than it was thought to be, where only one contact can be sought.
+    fn has_lower(&mut self, load: T) -> Result<bool, ContactError<T>> {
+        if self.may_be_several() || self.contact.start.is_some() {
+            return Ok(false);
+        }
+        let before = self.workspace.look.lowest();
+        let asked = Asked::Load(load / self.contact.kappa);
+        Ok(self.workspace.look(&self.contact.gap, asked, self.cost)?.lowest() != before)
+    }
+
+    /// Seeks one contact once more, where the gap is seen to be lowest now.
+    fn again(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+        for trial in 1.. {
+            self.workspace.last.clear();
+            self.integrator.clear_samples();
+            let (start, found) = self.one(true);
+            let found = found?;
+            let Some(error) = self.checked(&found)? else {
+                self.workspace.report.add(start, Outcome::Passed);
+                return Ok(found);
+            };
+            self.workspace.report.add(start, Outcome::of(&error));
+            if trial == MOST_TRIALS || !self.has_lower(found.load)? {
+                return Err(error);
+            }
+        }
+        unreachable!("a trial is the last one")
+    }
+
     /// What a solution fails by, if anything.
     fn checked(
         &mut self,
         found: &ContactState<T>,
-        convex: bool,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
         // More contacts may press at a corner that is not reached.
         let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
-        if convex || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+        let is_said = self.contact.gap.is_convex();
+        if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+            return Ok(lifts_off);
+        }
+        self.resolve(found)?;
+        if self.is_convex() {
             return Ok(lifts_off);
         }
         let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
+        if self.touches_once(gap, found)? {
+            return Ok(lifts_off);
+        }
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
         if panels::several(self.integrator).is_none() {
@@ -254,9 +343,19 @@ impl<T: Real> Search<'_, '_, T> {
             integrator.prepare(gap, found.interval)?;
         }
         let integrator = own.as_deref().unwrap_or(&*self.integrator);
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed: &self.closed };
+        let covers = self.covers(found);
+        if !covers {
+            self.workspace.take(gap, self.cost)?;
+        }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { fields, tension_spans, .. } = &mut *self.workspace;
+        let Workspace { look, fields, tension_spans, heaviest, widest, closed_before, .. } =
+            &mut *self.workspace;
+        // What a heavier load has left open a lighter one leaves open.
+        let is_lighter =
+            heaviest.is_some_and(|[most, tilt]| load <= most && same(tilt, found.tilt));
+        let widest_so_far = if is_lighter { &widest[..] } else { &[] };
+        let closed = &self.closed;
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest: widest_so_far };
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -266,12 +365,16 @@ impl<T: Real> Search<'_, '_, T> {
         }
         let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
-        if !check.covers(ends) {
-            self.workspace.look(gap, self.cost)?;
-            let Workspace { look, fields, .. } = &mut *self.workspace;
-            if !look.bulges() {
-                overlap = check.overlap(fields, look, ends, self.cost)?;
-            }
+        if !covers {
+            overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
+        }
+        if overlap.is_none() && !is_lighter && found.adhesive == Ends::both(false) {
+            *heaviest = Some([load, found.tilt]);
+            let contacts = panels::several(integrator).map(Several::contacts);
+            widest.clear();
+            closed_before.clear();
+            closed_before.reserve(1 + 2 * contacts.map_or(1, <[_]>::len));
+            widest.extend_from_slice(contacts.unwrap_or(&[interval]));
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
@@ -280,15 +383,70 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(overlap.or(lifts_off))
     }
 
-    /// Whether the gap has several low places, and nothing else says where to start.
-    fn has_valleys(&mut self, convex: bool) -> Result<bool, ContactError<T>> {
-        let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
-        let told = given || !self.workspace.last.is_empty();
-        if convex || told || !self.may_be_several() {
+    /// Looks for narrow features beside the contacts that were found.
+    fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
+        let gap = &self.contact.gap.tilted(found.tilt);
+        self.workspace.take(gap, self.cost)?;
+        let contacts = panels::several(self.integrator).map(|several| several.contacts());
+        let contacts = contacts.unwrap_or(std::slice::from_ref(&found.interval));
+        let load = found.load.abs() / self.contact.kappa;
+        self.workspace.look.resolve(gap, load, contacts, self.cost)
+    }
+
+    /// Tells whether one contact leaves nothing of the bodies outside.
+    fn covers(&self, found: &ContactState<T>) -> bool {
+        let (on, ends) = (found.interval, self.contact.ends());
+        let is_one = panels::several(self.integrator).is_none();
+        is_one && on.left <= ends.left && on.right >= ends.right
+    }
+
+    /// Tells whether the gap is convex around one contact as far as its load reaches.
+    fn touches_once(
+        &mut self,
+        gap: &Gap<'_, T>,
+        found: &ContactState<T>,
+    ) -> Result<bool, ContactError<T>> {
+        let is_one = panels::several(self.integrator).is_none();
+        if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);
         }
-        let look = self.workspace.look(&self.contact.gap, self.cost)?;
-        Ok(!look.bulges() && !look.is_one_valley())
+        self.workspace.take(gap, self.cost)?;
+        let load = found.load / self.contact.kappa;
+        self.workspace.look.prove(gap, found.interval, load, self.cost)
+    }
+
+    /// Whether the gap has several low places, and nothing else says where to start.
+    fn has_valleys(&mut self) -> Result<bool, ContactError<T>> {
+        let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
+        let told = given || !self.workspace.last.is_empty();
+        if self.is_convex() || told || !self.may_be_several() {
+            return Ok(false);
+        }
+        let look = self.look()?;
+        Ok(!look.is_one_valley())
+    }
+
+    /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.
+    fn is_convex(&self) -> bool {
+        let (gap, Workspace { look, of, .. }) = (&self.contact.gap, &*self.workspace);
+        gap.is_convex() || *of == Some(gap.number()) && look.is_convex()
+    }
+
+    /// Returns what the survey is asked for.
+    fn asked(&self) -> Asked<T> {
+        match self.sought {
+            Sought::By(Conditions { given: Given::HalfWidth(half_width), .. }) => {
+                Asked::HalfWidth(half_width)
+            }
+            Sought::By(conditions) => asked_by(&conditions),
+            Sought::Peak(pressure) => Asked::Peak(pressure / self.contact.kappa),
+        }
+    }
+
+    /// Surveys the bodies as closely as the load asks for.
+    fn look(&mut self) -> Result<&Survey<T>, ContactError<T>> {
+        let asked = self.asked();
+        self.workspace.look(&self.contact.gap, asked, self.cost)
     }
 
     /// Whether the bodies turn until the load acts at a given place.
@@ -370,7 +528,7 @@ impl<T: Real> Search<'_, '_, T> {
                 Err(error) => return Err(error),
             };
             let outcome = match found {
-                Ok(found) => match self.checked(&found, false)? {
+                Ok(found) => match self.checked(&found)? {
                     None => {
                         self.workspace.report.add(start, Outcome::Passed);
                         return Ok(found);
@@ -381,11 +539,10 @@ impl<T: Real> Search<'_, '_, T> {
                         // Where one overlap follows another, cells see all of them at once.
                         let again = start == Start::Attempt
                             && self.workspace.tension_spans.spans.is_empty();
-                        start = if self.mend(&error) && !again {
-                            Start::Attempt
-                        } else {
-                            Start::ActiveSet
-                        };
+                        // An attempt that leads to itself is not made again.
+                        let mended = self.mend(&error);
+                        let again = again || self.workspace.newton.on == self.workspace.before;
+                        start = if mended && !again { Start::Attempt } else { Start::ActiveSet };
                         fault = Some(error);
                         continue;
                     }
@@ -576,16 +733,16 @@ impl<T: Real> Search<'_, '_, T> {
         cells: usize,
     ) -> Result<Coarse<T>, ContactError<T>> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
-        self.workspace.look(gap, self.cost)?;
+        let asked = asked_by(conditions);
+        self.workspace.take(gap, self.cost)?;
+        self.workspace.look.refine(gap, asked, T::of(CLOSELY), self.cost)?;
         let Workspace { look, newton, .. } = &*self.workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);
         let (known, start) = (&turned[..], &newton.on[..]);
         let range = [ends.left, ends.right];
         let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
-        let mut sampler = Sampler::default();
-        let coarse = active_set(&scene, &mut |x| sampler.height(gap, x));
-        self.cost.heights += sampler.cost.evaluations;
+        let coarse = active_set(&scene, &mut |x| Ok(gap.turned(x, look.height(gap.nearest(x)))));
         coarse.map_err(|error| match error {
             NotFound::Height(error) => error,
             _ => ContactError::NoEquilibrium {

@@ -62,6 +62,33 @@ fn held_by<T: Real>(
     Some((panel::within(&panel_set.panels, on), on))
 }
 
+/// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.
+pub(crate) fn rises_on<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+    on: Interval<T>,
+) -> bool {
+    let integrator: &dyn Any = integrator;
+    let Some(integrator) = integrator.downcast_ref::<PanelIntegrator<T>>() else { return false };
+    let panel_set = match integrator.is_several {
+        true => integrator.several.panel_set(contact),
+        false => &integrator.panel_set,
+    };
+    let covers = |sampled: Interval<T>| sampled.contains(on.left) && sampled.contains(on.right);
+    panel_set.interval().is_some_and(covers)
+        && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
+}
+
+/// Returns by how much the gap of one contact rises by its panels from one place to another, before the bodies are
+/// turned.
+pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
+    let integrator: &dyn Any = integrator;
+    let PanelIntegrator { panel_set, is_several: false, .. } = integrator.downcast_ref()? else {
+        return None;
+    };
+    Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
+}
+
 /// Shows the nodes of the panels of one contact, if it is held by panels.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
@@ -141,11 +168,13 @@ impl<T: Real> Quadrature<T> for Panels {
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
         let several = Several::new(tolerance);
-        let (moments, over, fall, is_several) = (None, None, None, false);
+        let (moments, over, fall) = (None, None, None);
+        let (is_prepared, is_several) = (false, false);
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set,
             conjugate,
+            is_prepared,
             moments,
             over,
             fall,
@@ -172,6 +201,8 @@ struct PanelIntegrator<T> {
     rule: Panels,
     panel_set: PanelSet<T>,
     conjugate: HilbertTransform<T>,
+    /// Whether the conjugate is that of the moments last remembered.
+    is_prepared: bool,
     /// The interval last integrated over: in the end that of the conjugate.
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Where one panel holds it, the series of that.
@@ -208,7 +239,7 @@ impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
         self.panel_set.own_up_alone();
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
-        self.moments = Some((on, m));
+        (self.moments, self.is_prepared) = (Some((on, m)), false);
         m
     }
 
@@ -324,8 +355,11 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             // But limits and load are those of the panels before.
             self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
-        let PanelSet { panels, size, tolerance, .. } = &self.panel_set;
-        self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
+        if !self.is_prepared {
+            let PanelSet { panels, size, tolerance, .. } = &self.panel_set;
+            self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
+            self.is_prepared = self.fall.is_none();
+        }
         Ok(())
     }
 

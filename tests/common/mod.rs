@@ -3,6 +3,8 @@
 
 #[path = "../../examples/paper/curves.rs"]
 pub mod paper;
+#[path = "../../benches/shared/scenes.rs"]
+pub mod speed_scenes;
 
 use linecontact::search::{
     Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,

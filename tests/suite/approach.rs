@@ -256,6 +256,12 @@ fn no_depth_is_too_small_or_too_large() {
     }
 }
 
+/// The largest height of a body in its contacts.
+fn highest(body: &dyn linecontact::ParametricProfile<f64>, solution: &Solution<f64>) -> f64 {
+    let heights = solution.intervals().iter().map(|on| body.y(on.centre()).abs());
+    worst(heights)
+}
+
 #[test]
 fn the_load_of_an_approach_is_that_which_has_it() {
     let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
@@ -281,7 +287,10 @@ fn the_load_of_an_approach_is_that_which_has_it() {
                 for found in
                     [contact.solve(control).unwrap(), solver.solve(&contact, control).unwrap()]
                 {
-                    errors.push(found.load() / load - 1.0);
+                    // Heights of 1 are rounded, and with them the approach under next to no load.
+                    let off = found.load() / load - 1.0;
+                    let rounding = 1e-16 * highest(&**body, &solution) / approach;
+                    errors.push((off.abs() - rounding).max(0.0));
                     errors.push((found.a() - solution.a()) / solution.hull().half_width());
                     assert_eq!(found.intervals().len(), solution.intervals().len());
                 }

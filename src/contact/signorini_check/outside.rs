@@ -3,8 +3,8 @@
 
 use super::SignoriniCheck;
 use crate::contact::exterior_field::ExteriorField;
-use crate::gap::{CoarseHeights, Cost, LowPoint, Sampler};
-use crate::quadrature::panels;
+use crate::gap::{Cost, LowPoint, Sampler, Survey};
+use crate::quadrature::panels::{self, Rises};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The share of the load that the series of its pressures may leave open before more of them are
@@ -12,75 +12,57 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 const OPEN: f64 = 1e-3;
 const LESS_OPEN: f64 = 0.01;
 
-/// Places between two heights that are looked at where these may hide a wave.
-const PLACES: usize = 8;
+/// The share of a contact's half-width beyond its limits that is sampled with it: there the pressure inside tells that
+/// the gap opens.
+const BESIDE: f64 = 0.002;
+
+/// The share of F/κ by which heights and slopes may disagree on the rise over a contact.
+const STEP: f64 = 0.01;
+
+/// Refinements of the survey for one check.
+const MOST_ROUNDS: usize = 40;
 
 /// How often a span between two heights is halved in search of its lowest place.
 const MOST_HALVES: usize = 8;
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Between which of some places the loaded gap is lowest.
-    fn valley(
-        &self,
-        pressed: &impl Fn(T) -> T,
-        sampler: &mut Sampler<T>,
-        [from, to]: [T; 2],
-    ) -> Result<[T; 2], ContactError<T>> {
-        let step = (to - from) / T::count(PLACES + 1);
-        let (mut lowest, mut least) = (from, None);
-        for i in 1..=PLACES {
-            let x = from + step * T::count(i);
-            let gap = sampler.height(self.gap, x)? - pressed(x) / self.kappa;
-            if least.is_none_or(|least| gap < least) {
-                (lowest, least) = (x, Some(gap));
-            }
-        }
-        Ok([lowest - step, lowest + step])
-    }
-
-    /// About where the loaded gap is lowest between two places, at the first of which it falls and
-    /// at the second rises.
+    /// Returns about where the loaded gap is lowest between two places, at the first of which it falls and at the second
+    /// rises.
     fn lowest_between(
         &self,
         fields: &[ExteriorField<T>],
-        sampler: &mut Sampler<T>,
+        look: &Survey<T>,
         [mut left, mut right]: [T; 2],
-    ) -> Result<T, ContactError<T>> {
+    ) -> T {
         let half = T::of(0.5);
         let (mut falls, mut rises) = (None, None);
         for _ in 0..MOST_HALVES {
             let x = half * (left + right);
             let pushed = fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x));
-            let slope = sampler.slope(self.gap, x)? - pushed / self.kappa;
+            let slope = look.slope(x) + self.gap.tilt() - pushed / self.kappa;
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
                 (left, falls) = (x, Some(-slope));
             }
         }
-        // The slope is all but straight by now.
-        let share = match (falls, rises) {
-            (Some(falls), Some(rises)) => falls / (falls + rises),
-            _ => half,
-        };
-        Ok(left + share * (right - left))
+        // The slope is all but straight by now, where it is finite.
+        let share = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
+        let share = share.filter(|share| share.is_finite()).unwrap_or(half);
+        left + share * (right - left)
     }
 
-    /// Whether one contact leaves nothing of the bodies outside.
-    pub fn covers(&self, ends: Ends<T>) -> bool {
-        let Interval { left, right } = self.found.interval;
-        panels::several(self.integrator).is_none() && left <= ends.left && right >= ends.right
-    }
-
-    /// Where the loaded bodies would overlap outside the contacts, up to their ends, and the gap
-    /// there.
+    /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there. Where the
+    /// survey leaves that open, it is refined.
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
-        look: &CoarseHeights<T>,
+        closed_before: &mut Vec<Interval<T>>,
+        look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
+        self.compare_heights(look, cost)?;
         if fields.is_empty() {
             self.fields(fields)?;
         }
@@ -92,17 +74,72 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let between = low.between.map(|_| [from, to]);
             (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
         };
+        self.list_closed_before(closed_before);
+        let is_new = |low: &LowPoint<T>| {
+            let [from, to] = low.between.unwrap_or([low.x; 2]);
+            let after = closed_before.partition_point(|on| on.right <= from);
+            self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left < to)
+        };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
-        loop {
+        let mut open = Vec::new();
+        for _ in 0..MOST_ROUNDS {
             let [first, last] = corners;
-            let heights = first.into_iter().chain(look.low_points().filter_map(within)).chain(last);
-            let (overlap, is_hidden) = self.overlap_at(fields, heights, cost)?;
+            let lows = look.low_points().filter_map(within);
+            let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
+            let heights = first.into_iter().chain(lows).chain(last);
+            open.clear();
+            let (overlap, is_hidden) = self.overlap_at(fields, look, heights, &mut open, cost)?;
             share *= T::of(LESS_OPEN);
-            if overlap.is_some() || !is_hidden || !self.resolve(fields, share)? {
+            if overlap.is_some() {
                 return Ok(overlap);
             }
+            open.sort_by(|one, other| super::by_size(one[0], other[0]));
+            let is_finer =
+                !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
+            let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;
+            if !is_finer {
+                return Ok(None);
+            }
         }
+        Ok(None)
+    }
+
+    /// Compares the rise of the gap over one contact by its slopes with that by the heights of the survey: between two
+    /// panels the contact itself sees no step. Where they disagree the curves themselves are asked.
+    fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let Interval { left, right } = self.found.interval;
+        let [from, to] = [left, right].map(|x| self.gap.nearest(x));
+        let Some(by_slopes) = panels::rise(self.integrator, from, to) else { return Ok(()) };
+        let deformed = T::of(STEP) * self.found.load.abs() / self.kappa;
+        let compare = |[before, after]: [T; 2], doubt: T| {
+            let by_heights = after - before;
+            let (highest, open) = (before.abs().max(after.abs()), doubt + deformed);
+            Rises { between: [from, to], by_heights, by_slopes, highest, open }.compare()
+        };
+        let doubt = look.doubt_at(from) + look.doubt_at(to);
+        if compare([look.height(from), look.height(to)], doubt).is_ok() {
+            return Ok(());
+        }
+        let mut sampler = Sampler::default();
+        let before = sampler.height(self.gap, from)?;
+        let after = sampler.height(self.gap, to)?;
+        cost.heights += sampler.cost.evaluations;
+        compare([before, after], T::zero())
+    }
+
+    /// Returns a low place as it is; or if it is inside a contact the middles of what its span has outside.
+    fn outside(&self, look: &Survey<T>, low: LowPoint<T>) -> [Option<LowPoint<T>>; 2] {
+        let contacts = self.contacts();
+        let on = contacts.get(contacts.partition_point(|on| on.right <= low.x));
+        let (Some(on), Some([from, to])) = (on.filter(|on| on.left <= low.x), low.between) else {
+            return [Some(low), None];
+        };
+        [[from, on.left], [on.right, to]].map(|[from, to]| {
+            let x = T::of(0.5) * (from + to);
+            let height = || self.gap.turned(x, look.height(x));
+            (from < to).then(|| LowPoint { x, height: height(), between: Some([from, to]), ..low })
+        })
     }
 
     /// A corner before the end of the bodies that the contacts do not reach: where the gap falls
@@ -124,94 +161,212 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
     }
 
-    /// Where the loaded bodies would overlap outside the contacts, and the gap there, as far as
-    /// heights of the gap before loading show it, by rising x; and whether they may overlap by no
-    /// more than the series leave open.
+    /// Finds the worst overlap outside the contacts, `[x, gap]`, as far as some heights show it, by rising x; `open` takes
+    /// the spans where the survey hides whether there is one. Tells also whether the series of the pressures hide it.
     fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
+        look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
+        open: &mut Vec<[T; 2]>,
         cost: &mut Cost,
     ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
-        let mut sampler = Sampler::default();
         let (mut worst, mut is_hidden) = (None::<[T; 2]>, false);
-        let total = |x: T| fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x));
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
-        // The edge from which the gap is followed to x, the height of the gap there, and what the
-        // pressure takes off it.
-        let mut from: Option<(usize, T, T)> = None;
+        let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
-        for LowPoint { x, height, between, doubt: hidden } in heights {
+        for low in heights {
+            let LowPoint { x, height, between, doubt: hidden } = low;
             while next <= last && contacts[next].right <= x {
                 next += 1;
             }
             if next <= last && contacts[next].left <= x {
                 continue;
             }
-            let (contact, side) = match next.checked_sub(1) {
-                None => (0, Side::Left),
-                Some(before) => (before, Side::Right),
-            };
-            let (_, at_edge, taken) = match from.filter(|&(at, ..)| at == next) {
-                Some(known) => known,
-                None => {
-                    let edge = contacts[contact][side];
-                    let height = match panels::several(self.integrator) {
-                        Some(several) => several.height(contact, side),
-                        None => sampler.height(self.gap, self.gap.nearest(edge))?,
-                    };
-                    *from.insert((next, height, total(edge)))
-                }
-            };
+            let known = beside.filter(|beside| beside.next == next);
+            let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
             // From no place does the load act further away than from the far end of the contacts.
             let most = load * (x - hull.left).max(hull.right - x).ln();
-            if height - hidden - at_edge >= (most - taken) / self.kappa {
+            if height - hidden - from.height >= (most - from.taken) / self.kappa + from.hidden {
                 continue;
             }
-            let pushed = (total(x) - taken) / self.kappa;
-            let gap = |height: T| height - at_edge - pushed;
-            let allowed = self.found.nothing() * (height - at_edge).abs()
-                + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
-            if gap(height - hidden) >= -(allowed + doubt) {
-                is_hidden |= gap(height - hidden) < -allowed;
+            if between.is_some() && from.is_near(x) {
                 continue;
             }
-            // The height may be an interpolated one, or a bound.
-            let x = match between {
-                Some([from, to]) => {
-                    // Not in the contacts on either side.
-                    let from = next.checked_sub(1).map_or(from, |i| from.max(contacts[i].right));
-                    let to = contacts.get(next).map_or(to, |on| to.min(on.left));
-                    let mut between = [from, to];
-                    if gap(height + hidden) >= -(allowed + doubt) {
-                        between = self.valley(&total, &mut sampler, between)?;
-                    }
-                    self.lowest_between(fields, &mut sampler, between)?
+            let hidden = hidden + from.hidden;
+            let mut verdict = self.verdict(fields, &from, [x, height, hidden]);
+            let mut x = x;
+            if let (Verdict::Overlap | Verdict::Hidden, Some([left, right])) = (verdict, between) {
+                // A bound, or an interpolated height.
+                let on = [left.max(from.room.left), right.min(from.room.right)];
+                x = self.lowest_between(fields, look, on);
+                if from.is_near(x) {
+                    continue;
                 }
-                None => x,
-            };
-            let height = sampler.height(self.gap, x)?;
-            let gap = height - at_edge - (total(x) - taken) / self.kappa;
-            // Where the formulas are all rounding, heights do not go with the slopes on both
-            // sides, and tell nothing.
-            let aside = T::epsilon().sqrt() * hull.half_width();
-            let beside = self.gap.nearest(x + aside);
-            let rise = sampler.height(self.gap, beside)? - height;
-            let slopes = sampler.slope_again(self.gap, beside) + sampler.slope(self.gap, x)?;
-            let due = T::of(0.5) * slopes * (beside - x);
-            let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
-            let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
-            let noise = T::of(8.0) * (rise - due).abs();
-            let is_open = gap >= -(allowed + doubt + noise) || !is_sound;
-            is_hidden |= is_open && is_sound && gap < -(allowed + noise);
-            if !is_open && worst.is_none_or(|[_, least]| gap < least) {
-                worst = Some([x, gap]);
+                let height = self.gap.turned(x, look.height(x));
+                verdict = self.verdict(fields, &from, [x, height, hidden]);
+                if verdict == Verdict::Hidden {
+                    open.extend([[left, right], [from.edge; 2]]);
+                }
             }
+            if verdict == Verdict::Overlap {
+                let (found, is_open) = self.verified(fields, &from, x, cost)?;
+                is_hidden |= is_open;
+                worst =
+                    found.filter(|&[_, gap]| worst.is_none_or(|[_, least]| gap < least)).or(worst);
+            }
+            is_hidden |= verdict == Verdict::Unresolved;
         }
-        cost.heights += sampler.cost.evaluations;
         Ok((worst, is_hidden))
     }
+
+    /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
+    /// less what borders on these, as long as the gap is convex.
+    fn list_closed_before(&self, closed: &mut Vec<Interval<T>>) {
+        let contacts = self.contacts();
+        closed.clear();
+        for wide in self.widest {
+            let first = contacts.partition_point(|on| on.right <= wide.left);
+            let after = contacts.partition_point(|on| on.left < wide.right).max(first);
+            let lefts = std::iter::once(wide.left);
+            let lefts = lefts.chain(contacts[first..after].iter().map(|on| on.right));
+            let rights = contacts[first..after].iter().map(|on| on.left).chain([wide.right]);
+            for (i, (left, right)) in (first..).zip(lefts.zip(rights)) {
+                let span = Interval { left, right };
+                // Between two contacts that were one there is more than a convex gap.
+                let beside = match (i == first, i == after) {
+                    (true, false) => Some(i),
+                    (false, true) => Some(i - 1),
+                    _ => None,
+                };
+                let opens = |contact| panels::rises_on(self.integrator, contact, span);
+                if left < right && !beside.is_some_and(opens) {
+                    closed.push(span);
+                }
+            }
+        }
+    }
+
+    /// Describes what lies beside a contact: before one of them, or beyond the last.
+    fn beside(&self, fields: &[ExteriorField<T>], look: &Survey<T>, next: usize) -> Beside<T> {
+        let (contacts, [from, to]) = (self.contacts(), self.gap.range());
+        let (contact, side) = match next.checked_sub(1) {
+            None => (0, Side::Left),
+            Some(before) => (before, Side::Right),
+        };
+        let edge = contacts[contact][side];
+        let at = self.gap.nearest(edge);
+        let (height, hidden) = match panels::several(self.integrator) {
+            Some(several) => (several.height(contact, side), T::zero()),
+            None => (self.gap.turned(at, look.height(at)), look.doubt_at(at)),
+        };
+        let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
+        let right = contacts.get(next).map_or(to, |on| on.left);
+        let room = Interval { left, right };
+        let near = T::of(BESIDE) * contacts[contact].half_width();
+        let is_limit = [next > 0, next < contacts.len()];
+        let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
+        Beside { next, edge, room, near, height, hidden, taken: total(fields, edge) }
+    }
+
+    /// Judges a height before loading, given its uncertainty.
+    fn verdict(
+        &self,
+        fields: &[ExteriorField<T>],
+        from: &Beside<T>,
+        [x, height, hidden]: [T; 3],
+    ) -> Verdict {
+        let rise = height - from.height;
+        let gap = rise - (total(fields, x) - from.taken) / self.kappa;
+        let allowed = self.allowed(height, from.height);
+        // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
+        let doubt = T::of(4.0) * doubt / self.kappa;
+        if gap - hidden >= -allowed {
+            Verdict::Apart
+        } else if gap - hidden >= -(allowed + doubt) {
+            Verdict::Unresolved
+        } else if gap + hidden >= -(allowed + doubt) {
+            Verdict::Hidden
+        } else {
+            Verdict::Overlap
+        }
+    }
+
+    /// Returns the overlap that is put down to rounding.
+    fn allowed(&self, height: T, at_edge: T) -> T {
+        self.found.nothing() * (height - at_edge).abs()
+            + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs())
+    }
+
+    /// Looks at the curves themselves where the bodies seem to overlap: whether they do, and whether that is open.
+    fn verified(
+        &self,
+        fields: &[ExteriorField<T>],
+        from: &Beside<T>,
+        x: T,
+        cost: &mut Cost,
+    ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
+        let mut sampler = Sampler::default();
+        let height = sampler.height(self.gap, x)?;
+        let at_edge = match panels::several(self.integrator) {
+            Some(_) => from.height,
+            None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
+        };
+        let gap = height - at_edge - (total(fields, x) - from.taken) / self.kappa;
+        // Where the formulas are all rounding, heights do not go with the slopes on both sides, and tell nothing.
+        let aside = T::epsilon().sqrt() * self.found.interval.half_width();
+        let beside = self.gap.nearest(x + aside);
+        let rise = sampler.height(self.gap, beside)? - height;
+        let slopes = sampler.slope_again(self.gap, beside) + sampler.slope(self.gap, x)?;
+        let due = T::of(0.5) * slopes * (beside - x);
+        cost.heights += sampler.cost.evaluations;
+        let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
+        let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
+        let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
+        let is_open = gap >= -(allowed + T::of(4.0) * doubt) || !is_sound;
+        Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
+    }
+}
+
+/// The potential of all contacts.
+fn total<T: Real>(fields: &[ExteriorField<T>], x: T) -> T {
+    fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x))
+}
+
+/// What lies between two contacts, or beyond the outermost ones.
+#[derive(Clone, Copy)]
+struct Beside<T> {
+    /// The number of the contact on its right.
+    next: usize,
+    room: Interval<T>,
+    /// The limit that heights are counted from.
+    edge: T,
+    /// The distances from the limits on the left and on the right within which the gap opens as the pressure says.
+    near: [T; 2],
+    /// The height of the gap at that limit, its uncertainty, and the potential there.
+    height: T,
+    hidden: T,
+    taken: T,
+}
+
+impl<T: Real> Beside<T> {
+    /// Tells whether a place is so near to a limit that the pressure inside tells of the gap.
+    fn is_near(&self, x: T) -> bool {
+        x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
+    }
+}
+
+/// What a height says of the gap between the loaded bodies.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Verdict {
+    Apart,
+    /// They may overlap by no more than the series of the pressures leave open.
+    Unresolved,
+    /// They may overlap by no more than the survey leaves open.
+    Hidden,
+    Overlap,
 }

@@ -1,0 +1,347 @@
+//! Heights of the gap, each as exact as a load asks for: branch and bound over both bodies.
+//!
+//! Each body is a row of [panels](panel) in its own parameter, where it is smooth, and no `X(k) = x` is
+//! solved for it. A panel tells how uncertain its heights are. Where the bodies may touch under a load F,
+//! that is where the lowest height that a panel leaves open is less than the lowest one known by
+//!
+//! ```text
+//! (F/κ) (1 + ln(2 W/L))        W the width of the bodies, L the half-width to expect
+//! ```
+//!
+//! panels are halved until they are uncertain by no more than a share of F/κ; all others are never looked
+//! at again. A heavier load goes on where a lighter one has stopped, and a tilt adds a straight line.
+//!
+//! A gap whose slope rises from point to point by far more than the slopes are uncertain, and at
+//! joints, is [convex](convex): where it is, as far as a load reaches, the bodies touch in one interval.
+
+mod body;
+mod convex;
+mod lows;
+mod panel;
+mod probe;
+mod segment;
+
+use super::{Cost, Gap};
+use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
+use body::{Body, Panel};
+use convex::Stretch;
+pub(crate) use lows::LowPoint;
+use panel::Row;
+
+/// Halvings after which a panel is as fine as it gets, and evaluations for one load.
+const MOST_ROUNDS: usize = 40;
+const MOST_HEIGHTS: usize = 1 << 14;
+
+/// Spans on either side of one that must bulge like it.
+const IN_A_ROW: usize = 2;
+
+/// Heights and slopes of two bodies.
+#[derive(Clone, Debug)]
+pub(crate) struct Survey<T> {
+    bodies: [Body<T>; 2],
+    /// The range of x that both bodies cover.
+    range: [T; 2],
+    /// The gap at all points of either body, by rising x.
+    nodes: Vec<Node<T>>,
+    /// Room for the rates at which slopes rise between two points.
+    rates: Vec<T>,
+    lowest: T,
+    /// A load, as F/κ, and about how far from the lowest place it reaches.
+    reach: Option<[T; 2]>,
+    /// Where the gap was last seen to be convex.
+    stretch: Option<Stretch<T>>,
+    /// Whether that is as far as the load reaches that it was refined for last.
+    is_one: bool,
+    /// Evaluations since the first look began.
+    spent: usize,
+    /// What it was refined for last, to which share of F/κ, and the tilt.
+    known: Option<(Asked<T>, T, T)>,
+    /// Spans that have been looked at more closely, beside contacts.
+    seen: Vec<probe::Stretch<T>>,
+    /// The heaviest load that they serve, as F/κ, and the tilt.
+    resolved: Option<[T; 2]>,
+    /// Room for spans to be refined, and for those that a load asks for.
+    marked: Vec<[T; 2]>,
+    stretches: Vec<probe::Stretch<T>>,
+}
+
+/// What a contact is asked to have, forces over κ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Asked<T> {
+    Load(T),
+    /// A load under which the bodies turn.
+    Turning(T),
+    HalfWidth(T),
+    Peak(T),
+}
+
+/// The gap at an abscissa, with its slope on the left and on the right.
+#[derive(Clone, Copy, Debug)]
+struct Node<T> {
+    x: T,
+    height: T,
+    /// The largest |Y|.
+    size: T,
+    slopes: [T; 2],
+    /// Uncertainties of the slopes of either body beyond rounding.
+    doubts: [T; 2],
+    /// Uncertainty of the heights up to the next node, and whether a piece is there of which only the ends are known.
+    after: T,
+    is_open: bool,
+    /// Whether points of the curve before the next node are missed.
+    is_void: bool,
+}
+
+impl<T: Real> Node<T> {
+    /// Returns the uncertainty of the slopes beyond rounding.
+    fn doubt(&self) -> T {
+        self.doubts[0] + self.doubts[1]
+    }
+
+    /// Returns what slopes and chords up to another node may be off by rounding.
+    fn rounding(&self, next: &Self) -> T {
+        let slopes = self.slopes[1].abs() + next.slopes[0].abs();
+        let width = next.x - self.x;
+        let heights = if width.is_zero() { T::zero() } else { (self.size + next.size) / width };
+        T::of(64.0) * T::epsilon() * (slopes + heights)
+    }
+}
+
+impl<T: Real> Survey<T> {
+    /// A survey of nothing yet.
+    pub fn new() -> Self {
+        let zero = T::zero();
+        Self {
+            bodies: [Body::new(), Body::new()],
+            range: [zero; 2],
+            nodes: Vec::new(),
+            rates: Vec::new(),
+            lowest: zero,
+            reach: None,
+            stretch: None,
+            is_one: false,
+            spent: 0,
+            known: None,
+            seen: Vec::new(),
+            resolved: None,
+            marked: Vec::new(),
+            stretches: Vec::new(),
+        }
+    }
+
+    /// Takes a first look at both bodies.
+    ///
+    /// # Errors
+    /// [`ContactError::Profile`] with [`ProfileError::NotFinite`] inside the common range,
+    /// [`ProfileError::TurnsBack`], [`ProfileError::Pieces`] or [`ProfileError::Derivative`].
+    pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        self.range = gap.range();
+        (self.known, self.is_one) = (None, false);
+        self.seen.clear();
+        self.resolved = None;
+        let before = cost.heights;
+        for which in [Which::Lower, Which::Upper] {
+            let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
+            let found = body.look(surface, self.range, &mut cost.heights);
+            let found = found.and_then(|()| match body.rows.len() {
+                0 => {
+                    let (k, value) = (surface.piece(0).k[0], T::of(f64::NAN));
+                    Err(ProfileError::NotFinite { quantity: "Y", k, value })
+                }
+                _ => Ok(()),
+            });
+            found.map_err(|source| ContactError::Profile { body: which, source })?;
+        }
+        self.spent = cost.heights - before;
+        self.join();
+        Ok(())
+    }
+
+    /// Refines both bodies until no place that the load may touch is uncertain by more than a share of F/κ.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn refine(
+        &mut self,
+        gap: &Gap<'_, T>,
+        asked: Asked<T>,
+        share: T,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        if self.known == Some((asked, share, gap.tilt())) {
+            return Ok(());
+        }
+        let before = cost.heights;
+        for _ in 0..MOST_ROUNDS {
+            let load = self.load_of(asked);
+            let presses = load > T::zero();
+            if !presses {
+                break;
+            }
+            self.reach = Some([load, self.reach_of(load)]);
+            let on = self.around_lowest(Some(load));
+            // Bodies that turn may touch anywhere.
+            let touched = match asked {
+                Asked::Turning(_) => Interval { left: self.range[0], right: self.range[1] },
+                _ => on,
+            };
+            self.is_one = self.prove(gap, touched, load, cost)?;
+            if self.is_one {
+                break;
+            }
+            let lowest = self.nodes.iter().map(|node| gap.turned(node.x, node.height));
+            let lowest = lowest.fold(T::one() / T::zero(), |least, height| least.min(height));
+            let tolerance = share * load;
+            let ratio = (self.range[1] - self.range[0]) / on.half_width();
+            let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
+            let wanted = self.wanted(gap, level, tolerance);
+            if wanted.is_empty() || cost.heights - before > MOST_HEIGHTS {
+                break;
+            }
+            if !self.refine_at(gap, [&wanted; 2], tolerance, cost)? {
+                break;
+            }
+        }
+        self.lowest = self.polished(self.lowest);
+        self.known = Some((asked, share, gap.tilt()));
+        Ok(())
+    }
+
+    /// Returns the spans between two nodes where the gap may be below a level and is uncertain.
+    fn wanted(&self, gap: &Gap<'_, T>, level: T, tolerance: T) -> Vec<[T; 2]> {
+        let mut wanted = Vec::new();
+        for i in 0..self.nodes.len() {
+            let Some(low) = self.low_between(i) else { continue };
+            let ends = [&self.nodes[i], &self.nodes[i + 1]];
+            let least = ends.map(|node| gap.turned(node.x, node.height));
+            let least = least[0].min(least[1]).min(gap.turned(low.x, low.height));
+            let is_above = least - low.doubt >= level;
+            if (low.doubt > tolerance || self.nodes[i].is_open) && !is_above {
+                wanted.push(ends.map(|node| node.x));
+            }
+        }
+        wanted
+    }
+
+    /// Refines the panels of either body that are more uncertain than half a tolerance in any of its spans; whether there
+    /// were any.
+    pub fn refine_at(
+        &mut self,
+        gap: &Gap<'_, T>,
+        wanted: [&[[T; 2]]; 2],
+        tolerance: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let mut changes = false;
+        for which in [Which::Lower, Which::Upper] {
+            let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
+            let half = T::of(0.5);
+            let is_marked = |panel: &Panel<T>| {
+                is_in(wanted[which as usize], panel) && panel.may_gain(half * tolerance)
+            };
+            let before = cost.heights;
+            let found = body.refine(surface, self.range, is_marked, &mut cost.heights);
+            self.spent += cost.heights - before;
+            changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
+        }
+        if changes {
+            self.join();
+        }
+        Ok(changes)
+    }
+
+    /// Lists the gap at all points of either body, in the range of both and with its ends.
+    fn join(&mut self) {
+        let mut nodes = std::mem::take(&mut self.nodes);
+        nodes.clear();
+        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.len()).sum::<usize>());
+        let [first, last] = self.range;
+        let mut next = [0; 2];
+        let mut x = first;
+        loop {
+            let [lower, upper] = [0, 1].map(|i| at(&self.bodies[i], x, &mut next[i]));
+            nodes.push(Node {
+                x,
+                height: upper[1].y - lower[1].y,
+                size: upper[1].y.abs().max(lower[1].y.abs()),
+                slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
+                doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
+                after: T::zero(),
+                is_open: false,
+                is_void: false,
+            });
+            if x >= last {
+                break;
+            }
+            let beyond = [0, 1].map(|i| self.bodies[i].rows.get(next[i]).map_or(last, |row| row.x));
+            x = beyond[0].min(beyond[1]).min(last);
+        }
+        for i in 1..nodes.len() {
+            let between = [nodes[i - 1].x, nodes[i].x];
+            let [mut is_open, mut is_void] = [false; 2];
+            let mut doubt = |body: &Body<T>| {
+                let [first, last] = between.map(|x| body.panels_at(x));
+                let panels = &body.panels[first[1]..=last[0].max(first[1])];
+                is_open |= panels.iter().any(|panel| !panel.is_sampled);
+                is_void |= panels.iter().any(|panel| panel.is_void);
+                panels.iter().fold(
+                    T::zero(),
+                    |most, panel| if most > panel.doubt { most } else { panel.doubt },
+                )
+            };
+            let after = self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body));
+            let node = &mut nodes[i - 1];
+            (node.after, node.is_open, node.is_void) = (after, is_open, is_void);
+        }
+        convex_stretches(&mut nodes, &mut self.rates);
+        self.lowest = self.find_lowest(&nodes);
+        self.nodes = nodes;
+        (self.stretch, self.reach) = (None, None);
+    }
+}
+
+/// Lowers the uncertainty of heights where the gap is seen to bulge at several points in a row.
+///
+/// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
+/// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
+/// flank, or where X is no polynomial.
+fn convex_stretches<T: Real>(nodes: &mut [Node<T>], rates: &mut Vec<T>) {
+    let rate = |from: &Node<T>, to: &Node<T>| {
+        let (width, rise) = (to.x - from.x, to.slopes[0] - from.slopes[1]);
+        let chord = (to.height - from.height) / width;
+        let bulges = chord >= from.slopes[1] && chord <= to.slopes[0] && rise.is_finite();
+        if bulges { rise / width } else { T::one() / T::zero() }
+    };
+    rates.clear();
+    rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
+    for i in 0..rates.len() {
+        let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
+        if !nodes[i].is_void && around.iter().all(|rate| rate.is_finite()) {
+            let width = nodes[i + 1].x - nodes[i].x;
+            let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
+            nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
+        }
+    }
+}
+
+/// Tells whether a panel overlaps one of some spans, in rising order.
+fn is_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> bool {
+    let [from, to] = panel.x();
+    let first = spans.partition_point(|span| span[1] <= from);
+    spans.get(first).is_some_and(|span| span[0] < to)
+}
+
+/// Returns a body at x, on its left and on its right, and moves `next` to the first point beyond.
+fn at<T: Real>(body: &Body<T>, x: T, next: &mut usize) -> [Row<T>; 2] {
+    let start = *next;
+    while body.rows.get(*next).is_some_and(|row| row.x <= x) {
+        *next += 1;
+    }
+    let own = body.rows[start..*next].iter().rev().take_while(|row| row.x == x);
+    let mut found = [None; 2];
+    for row in own {
+        found = [Some(*row), found[1].or(Some(*row))];
+    }
+    let [before, after] = body.panels_at(x);
+    [found[0].unwrap_or_else(|| body.at(before, x)), found[1].unwrap_or_else(|| body.at(after, x))]
+}

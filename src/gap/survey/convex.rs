@@ -1,0 +1,193 @@
+//! Where the gap is seen to be convex, and whether a load reaches beyond.
+//!
+//! In a contact Γ from -b to a the gap h differs from the potential `V = (1/κ) ∫ P(s) ln|x - s| ds` by a constant.
+//! Its mean, weighted by `1/(π sqrt((x + b)(a - x)))`, is that of h less `(F/κ) ln(L/2)`, as the mean of
+//! `ln|x - s|` is `ln(L/2)` wherever in Γ s is; and of a convex h it is at most `(h(-b) + h(a))/2`. No place is
+//! further than W from any of Γ, so that nothing is touched where
+//!
+//! ```text
+//! h(x) > (h(-b) + h(a))/2 + (F/κ) ln(2 W/L)
+//! ```
+//!
+//! Between places that a load touches in a convex gap it leaves nothing open: h - V would be convex there, and zero
+//! at both ends. So one interval in a convex stretch, beyond which the gap is higher than that, is the contact.
+
+use super::{Node, Panel, Survey, is_in};
+use crate::gap::{Cost, Gap};
+use crate::real::same;
+use crate::{ContactError, Interval, Real};
+
+/// Evaluations beyond which no more of them are taken for a proof alone.
+const MOST_FOR_PROOF: usize = 81;
+
+/// The share of the rise of a slope from one point to the next by which both may be uncertain in a proof. A wave
+/// that hides in it has a length of about this share of the distance of the points.
+const PROOF: f64 = 1e-3;
+
+/// A stretch between two points on which the gap is convex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<T> {
+    /// The numbers of its first and its last point.
+    nodes: [usize; 2],
+    /// The tilt of the bodies, and about how low the gap may be elsewhere; infinite if there is no elsewhere.
+    tilt: T,
+    beyond: T,
+}
+
+/// The gap between two points, as far as it is known.
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Convex,
+    Open,
+    Bent,
+}
+
+impl<T: Real> Survey<T> {
+    /// Tells whether the bodies touch in one interval whatever the load: the gap is seen to be convex all over.
+    pub fn is_convex(&self) -> bool {
+        self.stretch.is_some_and(|stretch| stretch.nodes == [0, self.nodes.len() - 1])
+    }
+
+    /// Tells whether a load F/κ that presses the bodies together on an interval touches nothing else, as they are
+    /// convex around it; halves panels as long as more points may show that.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn prove(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        load: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        loop {
+            let level = self.level_reached(gap, on, load);
+            if self.is_untouched_beyond(gap, on, level) {
+                return Ok(true);
+            }
+            let Some(open) = self.open_below(gap, on, level) else { return Ok(false) };
+            let (mut more, mut converges) = (0, true);
+            for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(&open)) {
+                more += body.cost(surface, |panel| is_in(open, panel) && panel.may_gain(T::zero()));
+                let marked = body.panels.iter().filter(|panel| is_in(open, panel));
+                converges &= marked.clone().all(Panel::converges);
+            }
+            let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;
+            let [lower, upper] = &open;
+            if is_dear || !self.refine_at(gap, [lower, upper], T::zero(), cost)? {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// Returns the height up to which a load may reach that touches an interval in a convex gap.
+    fn level_reached(&self, gap: &Gap<'_, T>, on: Interval<T>, load: T) -> T {
+        let [from, to] = self.range;
+        let farthest = (on.right - from).max(to - on.left);
+        let half = T::of(0.5);
+        let mean = half * self.chord_at(gap, on.left) + half * self.chord_at(gap, on.right);
+        mean + load * ((farthest + farthest) / on.half_width()).ln()
+    }
+
+    /// Returns the height at x of the chord between the points around it.
+    fn chord_at(&self, gap: &Gap<'_, T>, x: T) -> T {
+        let after = self.nodes.partition_point(|node| node.x < x);
+        let after = after.max(1).min(self.nodes.len() - 1);
+        let [before, after] = [&self.nodes[after - 1], &self.nodes[after]];
+        let share = (x - before.x) / (after.x - before.x);
+        gap.turned(x, before.height + share * (after.height - before.height))
+    }
+
+    fn is_untouched_beyond(&mut self, gap: &Gap<'_, T>, on: Interval<T>, level: T) -> bool {
+        let holds = |stretch: &Stretch<T>| {
+            let [first, last] = stretch.nodes;
+            same(stretch.tilt, gap.tilt())
+                && self.nodes[first].x <= on.left
+                && on.right <= self.nodes[last].x
+        };
+        let stretch = match self.stretch.filter(holds) {
+            Some(stretch) => stretch,
+            None => *self.stretch.insert(self.stretch_around(gap, on)),
+        };
+        let [first, last] = stretch.nodes.map(|i| self.nodes[i].x);
+        first <= on.left && on.right <= last && stretch.beyond >= level
+    }
+
+    /// Finds the longest stretch around the middle of an interval on which the gap is convex.
+    fn stretch_around(&self, gap: &Gap<'_, T>, on: Interval<T>) -> Stretch<T> {
+        let end = self.nodes.len() - 1;
+        let centre = on.centre();
+        let start = self.nodes.partition_point(|node| node.x <= centre).max(1) - 1;
+        let convex = |i: usize| self.shape_after(i) == Shape::Convex;
+        let kinks_up = |i: usize| !self.nodes[i].falls();
+        let (mut first, mut last) = (start, start);
+        while last < end && convex(last) && (last == start || kinks_up(last)) {
+            last += 1;
+        }
+        while last > start && first > 0 && kinks_up(first) && convex(first - 1) {
+            first -= 1;
+        }
+        let elsewhere = (0..first).chain(last..end);
+        let beyond = elsewhere.map(|i| self.floor(gap, i));
+        let beyond = beyond.fold(T::one() / T::zero(), |least, floor| least.min(floor));
+        Stretch { nodes: [first, last], tilt: gap.tilt(), beyond }
+    }
+
+    /// Returns about how low the gap may be between a point and the next; minus infinity where nothing is known.
+    fn floor(&self, gap: &Gap<'_, T>, i: usize) -> T {
+        let least = |low: T, x: T, height: T| low.min(gap.turned(x, height));
+        let [from, to] = [&self.nodes[i], &self.nodes[i + 1]];
+        let ends = least(gap.turned(from.x, from.height), to.x, to.height);
+        let floor = self.low_between(i).map(|low| least(ends, low.x, low.height) - low.doubt);
+        floor.filter(|floor| floor.is_finite()).unwrap_or(-T::one() / T::zero())
+    }
+
+    /// Lists the spans below a level, and those of an interval, that more points may show to be convex, each for the body
+    /// that is less certain; `None` if one of them is not.
+    fn open_below(&self, gap: &Gap<'_, T>, on: Interval<T>, level: T) -> Option<[Vec<[T; 2]>; 2]> {
+        let mut open = [Vec::new(), Vec::new()];
+        for (i, pair) in self.nodes.windows(2).enumerate() {
+            let [from, to] = [pair[0].x, pair[1].x];
+            let is_touched = from < on.right && on.left < to;
+            let shape = self.shape_after(i);
+            if shape == Shape::Convex && !pair[0].falls()
+                || !is_touched && self.floor(gap, i) >= level
+            {
+                continue;
+            }
+            if shape == Shape::Bent || pair[0].falls() {
+                return None;
+            }
+            let [lower, upper] = [0, 1].map(|body| pair[0].doubts[body] + pair[1].doubts[body]);
+            if lower >= upper {
+                open[0].push([from, to]);
+            }
+            if upper >= lower {
+                open[1].push([from, to]);
+            }
+        }
+        Some(open)
+    }
+
+    /// Tells whether the slope rises from a point to the next, as far as is known.
+    fn shape_after(&self, i: usize) -> Shape {
+        let [node, next] = [&self.nodes[i], &self.nodes[i + 1]];
+        let width = next.x - node.x;
+        let (rise, doubt) = (next.slopes[0] - node.slopes[1], node.doubt() + next.doubt());
+        let chord = (next.height - node.height) / width;
+        let rounding = node.rounding(next);
+        let most = doubt + rounding + T::of(8.0) * node.after / width;
+        if rise < -most || chord < node.slopes[1] - most || chord > next.slopes[0] + most {
+            return Shape::Bent;
+        }
+        let is_known = rise >= -rounding && doubt <= T::of(PROOF) * rise.max(T::zero());
+        if node.is_open || node.is_void || !is_known { Shape::Open } else { Shape::Convex }
+    }
+}
+
+impl<T: Real> Node<T> {
+    /// Tells whether the slope is less on the right than on the left.
+    fn falls(&self) -> bool {
+        self.slopes[1] < self.slopes[0] - (T::of(2.0) * self.doubt() + self.rounding(self))
+    }
+}

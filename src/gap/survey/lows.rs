@@ -1,0 +1,362 @@
+//! Where the gap is low, from the points that a survey knows.
+
+use super::segment::Segment;
+use super::{Asked, Node, Survey};
+use crate::gap::Gap;
+use crate::{Interval, Real};
+
+/// Cosines of the angles `(i + 1/2) π/8` up to a right angle, at which slopes are looked at for what a contact would
+/// bear.
+const COSINES: [f64; 4] = [
+    0.980_785_280_403_230_4,
+    0.831_469_612_302_545_2,
+    0.555_570_233_019_602_2,
+    0.195_090_322_016_128_3,
+];
+
+/// The share of the steepest slope by which others may seem to fall.
+const SHARE_OF_SLOPES: f64 = 1e-3;
+
+/// The share of the rise of the slope between two points that is left of it where the gap is lowest; at a kink more is.
+const SHARE_OF_RISE: f64 = 0.01;
+
+/// Steps to the place of the lowest gap from where a cubic has it.
+const MOST_POLISHES: usize = 6;
+
+/// How often an interval is halved in search of a width or of a place.
+const MOST_HALVES: usize = 200;
+
+/// A height of the gap, or between two of them about how low it may be, and its uncertainty.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LowPoint<T> {
+    pub x: T,
+    pub height: T,
+    pub between: Option<[T; 2]>,
+    pub doubt: T,
+}
+
+fn segment<T: Real>(from: &Node<T>, to: &Node<T>) -> Segment<T> {
+    Segment::new([from.x, from.height], [to.x, to.height], [from.slopes[1], to.slopes[0]])
+}
+
+impl<T: Real> Survey<T> {
+    /// Returns the height of the gap `Y₂ - Y₁` at x, as far as it is known.
+    pub fn height(&self, x: T) -> T {
+        let [lower, upper] = self.bodies.each_ref().map(|body| body.at(body.panels_at(x)[1], x).y);
+        upper - lower
+    }
+
+    /// Returns the uncertainty of the height at x, that of x itself with it.
+    pub fn doubt_at(&self, x: T) -> T {
+        let doubt = |body: &super::Body<T>| {
+            let panel = body.panels_at(x)[1];
+            let at = body.at(panel, x);
+            let rounding = if at.slope.is_finite() { x.abs() * at.slope.abs() } else { T::zero() };
+            body.panels[panel].doubt + T::of(8.0) * T::epsilon() * (at.y.abs() + rounding)
+        };
+        self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
+    }
+
+    /// Returns the slope of the gap at x, as far as it is known; at a breakpoint that on its right.
+    pub fn slope(&self, x: T) -> T {
+        let slope = |body: &super::Body<T>| body.at(body.panels_at(x)[1], x).slope;
+        let [lower, upper] = self.bodies.each_ref().map(slope);
+        upper - lower
+    }
+
+    /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
+    pub fn heights(&self, gap: &Gap<'_, T>) -> Vec<[T; 2]> {
+        self.nodes.iter().map(|node| [node.x, gap.turned(node.x, node.height)]).collect()
+    }
+
+    /// Returns where the gap may be low between a node and the next: where their tangents cross, than which no convex
+    /// piece of the gap is lower. A cubic that turns may be: it is no lower than its tangents at a third and at two
+    /// thirds of the way. Elsewhere it is the middle.
+    pub(super) fn low_between(&self, i: usize) -> Option<LowPoint<T>> {
+        let (zero, third) = (T::zero(), T::of(1.0 / 3.0));
+        let chord = |i: usize| {
+            let [from, to] = [self.nodes.get(i)?, self.nodes.get(i + 1)?];
+            Some((to.height - from.height) / (to.x - from.x))
+        };
+        let (from, to, over) = (self.nodes[i], self.nodes.get(i + 1)?, chord(i)?);
+        let width = to.x - from.x;
+        let [first, second] = [over - from.slopes[1], to.slopes[0] - over];
+        // An end that is all but upright, or a kink, says nothing of what is between.
+        let leap = |beside: Option<T>| beside.map_or(zero, |beside| (over - beside).abs());
+        let [before, behind] = [i.checked_sub(1).and_then(chord), chord(i + 1)].map(leap);
+        let within = |bend: T, other: T, leap: T| bend.min(leap.max(other + other));
+        let [first, second] = [within(first, second, before), within(second, first, behind)];
+        let (t, height) = if first > zero || second > zero {
+            let crossing = second.max(zero) / (first.max(zero) + second.max(zero));
+            let t = crossing.max(third).min(third + third);
+            let below = (first * t).max(second * (T::one() - t));
+            (t, from.height + width * (t * over - below))
+        } else {
+            let half = T::of(0.5);
+            (half, segment(&from, to).at(half)[0])
+        };
+        let (x, between) = (from.x + t * width, Some([from.x, to.x]));
+        Some(LowPoint { x, height, between, doubt: from.after })
+    }
+
+    /// Returns all places where the gap may be low: the nodes, and one between each two.
+    pub fn low_points(&self) -> impl Iterator<Item = LowPoint<T>> {
+        let both = move |(i, &Node { x, height, .. }): (usize, &Node<T>)| {
+            [Some(LowPoint { x, height, between: None, doubt: T::zero() }), self.low_between(i)]
+        };
+        self.nodes.iter().enumerate().flat_map(both).flatten()
+    }
+
+    /// Returns the place of the lowest gap; the middle of it where that is a span.
+    pub fn lowest(&self) -> T {
+        self.lowest
+    }
+
+    /// Tells whether the slope rises from point to point, and no chord between two is steeper or less steep than both.
+    /// What the panels are uncertain by, and formulas that cancel, is allowed for up to a share of all slopes: more
+    /// would hide waves.
+    pub fn bulges(&self) -> bool {
+        let slopes = self.nodes.iter().flat_map(|node| node.slopes);
+        let steepest = slopes.filter(|slope| slope.is_finite());
+        let steepest = steepest.fold(T::zero(), |most, slope| most.max(slope.abs()));
+        let most = T::of(SHARE_OF_SLOPES) * steepest;
+        let highest = self.nodes.iter().fold(T::zero(), |most, node| most.max(node.size));
+        let cancelled = T::of(64.0) * T::epsilon() * highest;
+        let jumps_down = |node: &Node<T>| node.slopes[1] < node.slopes[0] - node.rounding(node);
+        !self.nodes.iter().any(jumps_down)
+            && !self.nodes.windows(2).any(|pair| {
+                let [from, to] = [&pair[0], &pair[1]];
+                let width = to.x - from.x;
+                let chord = (to.height - from.height) / width;
+                let doubt =
+                    from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
+                let allowed = from.rounding(to) + doubt.min(most);
+                // A slope at an end may be no number.
+                chord < from.slopes[1] - allowed || chord > to.slopes[0] + allowed
+            })
+    }
+
+    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks, as far as the load reaches
+    /// that was asked for.
+    pub fn is_one_valley(&self) -> bool {
+        self.is_one
+            || self.nodes.windows(2).all(|pair| {
+                let [one, other] = [&pair[0], &pair[1]];
+                let rise = other.height - one.height;
+                let rounding = T::of(8.0) * T::epsilon() * (one.height.abs() + other.height.abs());
+                if other.x <= self.lowest {
+                    rise <= rounding
+                } else {
+                    one.x < self.lowest || rise >= -rounding
+                }
+            })
+    }
+
+    /// Returns about the load that a contact of a half-width around the lowest gap bears, as F/κ:
+    /// `F = (L/π) ∫ g cos θ dθ`.
+    fn borne(&self, half_width: T) -> T {
+        let sum = COSINES.iter().fold(T::zero(), |sum, &cosine| {
+            let (cosine, aside) = (T::of(cosine), T::of(cosine) * half_width);
+            let [left, right] =
+                [self.lowest - aside, self.lowest + aside].map(|x| self.slope_near(x));
+            sum + cosine * (right - left)
+        });
+        half_width * sum / T::count(2 * COSINES.len())
+    }
+
+    /// Returns about the slope of the gap at x, by the points around it.
+    fn slope_near(&self, x: T) -> T {
+        let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
+        let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
+        let t = (x - self.nodes[after - 1].x) / segment.width;
+        segment.at(t.max(T::zero()).min(T::one()))[1]
+    }
+
+    /// Returns about the load that is asked for, as F/κ.
+    pub(super) fn load_of(&self, asked: Asked<T>) -> T {
+        match asked {
+            Asked::Load(load) | Asked::Turning(load) => load,
+            Asked::HalfWidth(half_width) => self.borne(half_width),
+            Asked::Peak(pressure) => {
+                // P = 2 F/(π L) of a round body.
+                let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
+                let mut load = self.borne(reach);
+                for _ in 0..MOST_HALVES {
+                    if T::of(2.0) * load <= T::pi() * reach * pressure {
+                        break;
+                    }
+                    reach *= T::of(0.5);
+                    load = self.borne(reach);
+                }
+                load
+            }
+        }
+    }
+
+    /// Returns an interval about the lowest gap, somewhat wider than one that bears a load F/κ.
+    ///
+    /// At the limits of a round body the gap is higher by F/κ, and by less where it rises late and steeply: of the
+    /// intervals up to a level, each half as high as the one before, it is the last that bears the load.
+    pub fn around_lowest(&self, load: Option<T>) -> Interval<T> {
+        let (half, quarter, [from, to]) = (T::of(0.5), T::of(0.25), self.range);
+        let around = |reach: T| {
+            // No further than half the way to an end, where the slope may be infinite.
+            let x = self.lowest;
+            let room = [half * (x - from), half * (to - x)].map(|room| reach.min(room));
+            let least = T::of(64.0) * T::epsilon() * (from.abs() + to.abs());
+            Interval {
+                left: (x - room[0].max(least)).max(from),
+                right: (x + room[1].max(least)).min(to),
+            }
+        };
+        let Some(load) = load.filter(|&load| load > T::zero()) else {
+            return around(quarter * (to - from));
+        };
+        match self.reach {
+            Some([known, reach]) if known == load => around(reach),
+            _ => around(self.reach_of(load)),
+        }
+    }
+
+    /// Returns the half-width of the narrowest interval about the lowest gap, of some each half as wide as the one
+    /// before, that bears a load.
+    pub(super) fn reach_of(&self, load: T) -> T {
+        let half = T::of(0.5);
+        let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
+        for _ in 0..MOST_HALVES {
+            // Not a number where nothing is known of the slope.
+            let bears = self.borne(half * reach) >= load;
+            if !bears {
+                break;
+            }
+            reach *= half;
+        }
+        reach
+    }
+
+    /// The interval about the lowest gap in which it rises by less than so much, as it looks; to an end of the bodies,
+    /// where the slope may be infinite, half the way.
+    pub fn below(&self, rise: T) -> Interval<T> {
+        let (x, [from, to]) = (self.lowest, self.range);
+        let heights = self.bodies.each_ref().map(|body| body.at(body.panels_at(x)[1], x).y.abs());
+        let rounding = T::of(8.0) * T::epsilon() * (heights[0] + heights[1]);
+        let level = self.height(x) + rise.max(rounding);
+        let (left, right) = self.nodes.split_at(self.nodes.partition_point(|node| node.x < x));
+        Interval {
+            left: self.rises_to(level, left.iter().rev(), from),
+            right: self.rises_to(level, right.iter(), to),
+        }
+    }
+
+    /// Where the gap rises to a level, over samples from the lowest gap outward.
+    fn rises_to<'n>(&self, level: T, outward: impl Iterator<Item = &'n Node<T>>, end: T) -> T
+    where
+        T: 'n,
+    {
+        let (half, mut low, mut high) = (T::of(0.5), self.lowest, end);
+        for node in outward.filter(|node| node.x != end) {
+            if node.height > level {
+                high = node.x;
+                break;
+            }
+            low = node.x;
+        }
+        if high == end {
+            return half * low + half * end;
+        }
+        let from = low;
+        for _ in 0..MOST_HALVES {
+            if (high - low).abs() <= T::of(0.0625) * (low - from).abs() {
+                break;
+            }
+            let middle = half * low + half * high;
+            *(if self.height(middle) > level { &mut high } else { &mut low }) = middle;
+        }
+        high
+    }
+
+    /// The interval of a half-width about the lowest gap at whose two ends that is as high, as it looks, if there is
+    /// room for it.
+    pub fn level(&self, half_width: T) -> Interval<T> {
+        let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
+        let mut left = (x - half_width).max(from + half_width);
+        let mut right = (x + half_width).min(to - half_width);
+        for _ in 0..MOST_HALVES {
+            let middle = half * left + half * right;
+            if !(left < middle && middle < right) {
+                break;
+            }
+            let rises = self.height(middle + half_width) > self.height(middle - half_width);
+            *(if rises { &mut right } else { &mut left }) = middle;
+        }
+        let centre = half * left + half * right;
+        Interval { left: centre - half_width, right: centre + half_width }
+    }
+
+    pub(super) fn find_lowest(&self, nodes: &[Node<T>]) -> T {
+        // Heights far off may be so large that all of the others are nothing beside their rounding.
+        let rounding = |one: T, other: T| T::of(8.0) * T::epsilon() * (one.abs() + other.abs());
+        let mut lowest: Option<(T, [T; 2])> = None;
+        let mut consider = |x: T, height: T| match &mut lowest {
+            // Next to the last that was as low.
+            Some((least, on)) if (height - *least).abs() <= rounding(height, *least) => {
+                on[1] = x;
+            }
+            Some((least, _)) if height > *least => {}
+            lowest => *lowest = Some((height, [x, x])),
+        };
+        for (i, from) in nodes.iter().enumerate() {
+            consider(from.x, from.height);
+            let Some(to) = nodes.get(i + 1) else { break };
+            let segment = segment(from, to);
+            if let Some(t) = segment.minimum() {
+                consider(from.x + t * segment.width, segment.at(t)[0]);
+            }
+        }
+        let [from, to] = lowest.map_or(self.range, |(_, on)| on);
+        let middle = T::of(0.5) * from + T::of(0.5) * to;
+        if from == to {
+            return from;
+        }
+        // As low at two places apart: the first of them.
+        let [least, height] = [self.height(from), self.height(middle)];
+        if height <= least + rounding(height, least) { middle } else { from }
+    }
+
+    /// Returns the place between two nodes where the slope passes through zero, near one where a cubic has it.
+    pub(super) fn polished(&self, x: T) -> T {
+        let nodes = &self.nodes;
+        let after = nodes.partition_point(|node| node.x < x);
+        let Some(before) =
+            after.checked_sub(1).filter(|_| nodes.get(after).is_some_and(|node| node.x > x))
+        else {
+            return x;
+        };
+        let (mut low, mut high) = (nodes[before].x, nodes[after].x);
+        let (mut falls, mut rises) = (nodes[before].slopes[1], nodes[after].slopes[0]);
+        if !(falls < T::zero() && rises > T::zero() && (rises - falls).is_finite()) {
+            return x;
+        }
+        let rise = rises - falls;
+        let mut at = x;
+        for _ in 0..MOST_POLISHES {
+            let slope = self.slope(at);
+            if slope.abs() <= T::of(64.0) * T::epsilon() * rise {
+                return at;
+            }
+            // Of two slopes on one side in a row the other one counts half (Illinois).
+            if slope > T::zero() {
+                (high, rises, falls) = (at, slope, T::of(0.5) * falls);
+            } else {
+                (low, falls, rises) = (at, slope, T::of(0.5) * rises);
+            }
+            let next = low + (high - low) * (falls / (falls - rises));
+            let step = (next - at).abs();
+            at = next;
+            if step <= T::of(1e-3) * (high - low) {
+                break;
+            }
+        }
+        if self.slope(at).abs() <= T::of(SHARE_OF_RISE) * rise { at } else { x }
+    }
+}

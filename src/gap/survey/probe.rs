@@ -1,0 +1,290 @@
+//! Features narrower than the distance of the points of a panel.
+//!
+//! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
+//! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
+
+use super::body::{Body, Missed, Scratch};
+use super::{Cost, Survey, is_in};
+use crate::gap::{Gap, Surface};
+use crate::real::same;
+use crate::{Body as Which, ContactError, Interval, Real};
+
+/// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies next to.
+const NARROWEST: f64 = 0.02;
+
+/// The distance of points, in such widths.
+const APART: f64 = 4.5;
+
+/// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
+const AHEAD: f64 = 1.05;
+
+/// Times the distance of points that serves as well, of those at hand.
+const KEPT: f64 = 2.0;
+
+/// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
+const EXACT: f64 = 1e-3;
+
+/// The share of F/κ by which a point may be missed besides, as where formulas cancel.
+const FOOT: f64 = 1e-6;
+
+/// Times the uncertainty of a panel by which a point may miss it.
+const MISSED: f64 = 8.0;
+
+/// Looks at stretches, each at the panels that the one before has refined.
+const MOST_ROUNDS: usize = 40;
+
+/// Points on one stretch.
+const MOST_POINTS: usize = 1 << 12;
+
+/// Halvings in search of the place where the gap leaves the reach of a load.
+const MOST_HALVES: usize = 60;
+
+/// A span of x outside the contacts between two points of the survey, and the distance of points to have there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<T> {
+    x: [T; 2],
+    apart: T,
+    /// Whether a point there is missed.
+    is_missed: bool,
+}
+
+/// A point to be asked for: the numbers of its stretch and its panel, its place there and its parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Probe<T> {
+    stretch: usize,
+    panel: usize,
+    t: T,
+    k: T,
+}
+
+impl<T: Real> Stretch<T> {
+    /// Tells whether another one has points about as close all over this one.
+    fn is_seen_by(&self, other: &Self) -> bool {
+        let [from, to] = other.x;
+        from <= self.x[0] && to >= self.x[1] && other.apart <= T::of(KEPT) * self.apart
+    }
+}
+
+impl<T: Real> Survey<T> {
+    /// Looks for narrow features that the load F/κ may press on beside the contacts, and refines panels that miss one.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn resolve(
+        &mut self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        // Beside the contacts of a heavier load a lighter one touches nothing.
+        let is_lighter =
+            self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()));
+        if is_lighter {
+            return Ok(());
+        }
+        let mut stretches = std::mem::take(&mut self.stretches);
+        let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
+        self.stretches = stretches;
+        self.resolved = Some([T::of(AHEAD) * load, gap.tilt()]);
+        found
+    }
+
+    fn resolve_stretches(
+        &mut self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        stretches: &mut Vec<Stretch<T>>,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        for _ in 0..MOST_ROUNDS {
+            self.list_stretches(gap, load, contacts, stretches);
+            if stretches.iter().all(|stretch| self.is_seen(stretch)) {
+                break;
+            }
+            self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
+            let tolerance = T::of(EXACT) * load;
+            let mut marked = std::mem::take(&mut self.marked);
+            marked.clear();
+            let spans = stretches.iter().map(|stretch| stretch.x);
+            // Noise does not get less.
+            marked.extend(spans.filter(|x| self.converges_in(x, tolerance)));
+            let is_finer = self.refine_at(gap, [&marked; 2], tolerance, cost);
+            marked.clear();
+            self.marked = marked;
+            if is_finer? {
+                continue;
+            }
+            stretches.retain(|stretch| !self.is_seen(stretch));
+            let least = T::of(FOOT) * load;
+            for which in [Which::Lower, Which::Upper] {
+                let surface = &gap.bodies[which as usize];
+                self.bodies[which as usize].probe(surface, stretches, least, &mut cost.heights);
+            }
+            let mut missed = Vec::new();
+            for stretch in &*stretches {
+                if stretch.is_missed {
+                    missed.push(stretch.x);
+                } else {
+                    self.seen
+                        .retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
+                    self.seen.push(*stretch);
+                }
+            }
+            if missed.is_empty() {
+                continue;
+            }
+            (self.stretch, self.is_one, self.known) = (None, false, None);
+            // Those that are void.
+            let most = T::max_value().unwrap_or(T::one() / T::epsilon());
+            if !self.refine_at(gap, [&missed; 2], most, cost)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
+        let panels = self.bodies.iter().flat_map(|body| &body.panels);
+        let mut inside = panels.filter(|panel| is_in(std::slice::from_ref(span), panel));
+        inside.all(|panel| panel.doubt <= tolerance || panel.converges())
+    }
+
+    fn is_seen(&self, stretch: &Stretch<T>) -> bool {
+        self.seen.iter().any(|seen| stretch.is_seen_by(seen))
+    }
+
+    /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
+    /// further apart than the distance to have.
+    fn list_stretches(
+        &self,
+        gap: &Gap<'_, T>,
+        load: T,
+        contacts: &[Interval<T>],
+        found: &mut Vec<Stretch<T>>,
+    ) {
+        found.clear();
+        let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return };
+        let hull = T::of(0.5) * (last.right - first.left);
+        let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
+        let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
+        let heights = nodes.chain(limits.map(|x| [x, self.height(x)]));
+        let heights = heights.map(|[x, height]| gap.turned(x, height));
+        let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
+        let ratio = (self.range[1] - self.range[0]) / hull;
+        let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
+        let mut next = 0;
+        for pair in self.nodes.windows(2) {
+            let [mut from, to] = [pair[0].x, pair[1].x];
+            while from < to {
+                while contacts.get(next).is_some_and(|on| on.right <= from) {
+                    next += 1;
+                }
+                let on = contacts.get(next);
+                let end = on.map_or(to, |on| to.min(on.left));
+                let beside = contacts[next.saturating_sub(1)..].iter().take(2);
+                let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
+                let apart = T::of(2.0 * APART * NARROWEST) * narrow;
+                if end - from > apart
+                    && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
+                    && x[1] - x[0] > apart
+                {
+                    found.push(Stretch { x, apart, is_missed: false });
+                }
+                from = on.map_or(to, |on| end.max(on.right));
+            }
+        }
+    }
+
+    /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
+    fn within(&self, gap: &Gap<'_, T>, x: [T; 2], level: T) -> Option<[T; 2]> {
+        let is_below = |x: T| gap.turned(x, self.height(x)) < level;
+        let (from, mut low, mut high) = match x.map(is_below) {
+            [true, true] => return Some(x),
+            [true, false] => (x[0], x[0], x[1]),
+            [false, true] => (x[1], x[1], x[0]),
+            [false, false] => return None,
+        };
+        for _ in 0..MOST_HALVES {
+            if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
+                break;
+            }
+            let middle = T::of(0.5) * (low + high);
+            *(if is_below(middle) { &mut low } else { &mut high }) = middle;
+        }
+        Some([from.min(high), from.max(high)])
+    }
+}
+
+impl<T: Real> Body<T> {
+    /// Asks the curve for points on some stretches, those of a piece in one batch, and voids panels that they miss.
+    fn probe(
+        &mut self,
+        surface: &Surface<'_, T>,
+        stretches: &mut [Stretch<T>],
+        least: T,
+        heights: &mut usize,
+    ) {
+        let mut probes = std::mem::take(&mut self.scratch.probes);
+        probes.clear();
+        for (i, stretch) in stretches.iter_mut().enumerate() {
+            self.place_probes(i, stretch, &mut probes);
+        }
+        let mut rest = &probes[..];
+        while let [first, ..] = *rest {
+            let piece = self.panels[first.panel].piece;
+            let count = rest.partition_point(|probe| self.panels[probe.panel].piece == piece);
+            let batch;
+            (batch, rest) = rest.split_at(count);
+            let curve = surface.piece(piece);
+            let Scratch { k, points, .. } = &mut self.scratch;
+            k.clear();
+            k.extend(batch.iter().map(|probe| probe.k));
+            points.clear();
+            points.resize(count, curve.ends[0]);
+            curve.curve.at_many(k, points);
+            *heights = heights.saturating_add(count);
+            for (&Probe { stretch, panel, t, k }, &point) in batch.iter().zip(&*points) {
+                let (stretch, panel) = (&mut stretches[stretch], &mut self.panels[panel]);
+                let Some(number) = panel.series else { continue };
+                let series = &self.series[number];
+                let by = series.miss(t, &point);
+                let is_met = by <= least + T::of(MISSED) * series.doubt;
+                if !is_met {
+                    self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
+                    (panel.doubt, panel.vain, panel.is_void) = (T::one() / T::zero(), 0, true);
+                    stretch.is_missed = true;
+                }
+            }
+        }
+        self.scratch.probes = probes;
+    }
+
+    /// Places points on a stretch.
+    fn place_probes(&self, number: usize, stretch: &mut Stretch<T>, probes: &mut Vec<Probe<T>>) {
+        let (one, half) = (T::one(), T::of(0.5));
+        let [first, last] = stretch.x.map(|x| self.panels_at(x));
+        for i in first[1]..=last[0].max(first[1]) {
+            let panel = &self.panels[i];
+            let Some(series) = panel.series.map(|number| &self.series[number]) else { continue };
+            if !panel.doubt.is_finite() {
+                stretch.is_missed = true;
+                continue;
+            }
+            let between = panel.x();
+            let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
+            let ends = [from, to].map(|x| series.parameter(x, between));
+            let mut count = 1;
+            while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
+                count += 1;
+            }
+            probes.extend((0..count).map(|j| {
+                let share = (T::count(j) + half) / T::count(count);
+                let t = ends[0] + share * (ends[1] - ends[0]);
+                let k = half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
+                Probe { stretch: number, panel: i, t, k }
+            }));
+        }
+    }
+}

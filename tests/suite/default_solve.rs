@@ -1,0 +1,30 @@
+//! Evaluations of the default solve, as docs/speed.md and README say.
+#![allow(missing_docs)]
+
+use crate::common::speed_scenes::{SCENES, Scene, scene};
+use linecontact::{Contact, Control, Solver};
+
+/// Columns of evaluations, heights, and both at the next load.
+const COUNTS: [usize; 3] = [3, 4, 7];
+
+/// `cargo bench --bench default` prints the table.
+#[test]
+fn counts_are_those_of_the_table_of_times() {
+    let text = include_str!("../../docs/speed.md");
+    for name in SCENES {
+        let line = text.lines().find(|line| line.starts_with(&format!("|{name}|")));
+        let cells: Vec<&str> = line.unwrap().trim_matches('|').split('|').collect();
+        let kept = COUNTS.map(|column| cells[column].parse::<usize>().unwrap());
+        let Scene { lower, upper, load } = scene(name);
+        let contact = Contact::new(&*lower, &*upper).unwrap();
+        let cold = contact.solve(Control::Load(load)).unwrap().cost();
+        let mut solver = Solver::new();
+        solver.solve(&contact, Control::Load(load)).unwrap();
+        let next = solver.solve(&contact, Control::Load(1.02 * load)).unwrap().cost();
+        let found = [cold.evaluations, cold.heights, next.evaluations + next.heights];
+        assert_eq!(kept, found, "{name}: run `cargo bench --bench default`");
+        let row = format!("|{}, and {} for heights|", found[0], found[1]);
+        let is_in_readme = ["circle", "example4"].contains(&name);
+        assert!(!is_in_readme || include_str!("../../README.md").contains(&row), "{row}");
+    }
+}
