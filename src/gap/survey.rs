@@ -60,8 +60,8 @@ pub(crate) struct Survey<T> {
     seen: Vec<probe::Stretch<T>>,
     /// The heaviest load that they serve, as F/κ, and the tilt.
     resolved: Option<[T; 2]>,
-    /// Room for spans to be refined, and for those that a load asks for.
-    marked: Vec<[T; 2]>,
+    /// Room for spans to be refined of either body, and for those that a load asks for.
+    marked: [Vec<[T; 2]>; 2],
     stretches: Vec<probe::Stretch<T>>,
 }
 
@@ -124,7 +124,7 @@ impl<T: Real> Survey<T> {
             known: None,
             seen: Vec::new(),
             resolved: None,
-            marked: Vec::new(),
+            marked: [Vec::new(), Vec::new()],
             stretches: Vec::new(),
         }
     }
@@ -154,6 +154,10 @@ impl<T: Real> Survey<T> {
         }
         self.spent = cost.heights - before;
         self.join();
+        for spans in &mut self.marked {
+            spans.clear();
+            spans.reserve(self.nodes.capacity());
+        }
         Ok(())
     }
 
@@ -194,11 +198,15 @@ impl<T: Real> Survey<T> {
             let tolerance = share * load;
             let ratio = (self.range[1] - self.range[0]) / on.half_width();
             let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
-            let wanted = self.wanted(gap, level, tolerance);
-            if wanted.is_empty() || cost.heights - before > MOST_HEIGHTS {
-                break;
-            }
-            if !self.refine_at(gap, [&wanted; 2], tolerance, cost)? {
+            let mut wanted = std::mem::take(&mut self.marked);
+            self.list_wanted(gap, level, tolerance, &mut wanted[0]);
+            let is_dear = cost.heights - before > MOST_HEIGHTS;
+            let refined = match wanted[0].is_empty() || is_dear {
+                true => Ok(false),
+                false => self.refine_at(gap, [&wanted[0]; 2], tolerance, cost),
+            };
+            self.marked = wanted;
+            if !refined? {
                 break;
             }
         }
@@ -207,9 +215,9 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Returns the spans between two nodes where the gap may be below a level and is uncertain.
-    fn wanted(&self, gap: &Gap<'_, T>, level: T, tolerance: T) -> Vec<[T; 2]> {
-        let mut wanted = Vec::new();
+    /// Lists the spans between two nodes where the gap may be below a level and is uncertain.
+    fn list_wanted(&self, gap: &Gap<'_, T>, level: T, tolerance: T, wanted: &mut Vec<[T; 2]>) {
+        wanted.clear();
         for i in 0..self.nodes.len() {
             let Some(low) = self.low_between(i) else { continue };
             let ends = [&self.nodes[i], &self.nodes[i + 1]];
@@ -220,7 +228,6 @@ impl<T: Real> Survey<T> {
                 wanted.push(ends.map(|node| node.x));
             }
         }
-        wanted
     }
 
     /// Refines the panels of either body that are more uncertain than half a tolerance in any of its spans; whether there
@@ -254,7 +261,7 @@ impl<T: Real> Survey<T> {
     fn join(&mut self) {
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.clear();
-        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.len()).sum::<usize>());
+        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
         let [first, last] = self.range;
         let mut next = [0; 2];
         let mut x = first;
@@ -305,7 +312,8 @@ impl<T: Real> Survey<T> {
 /// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
 /// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
 /// flank, or where X is no polynomial.
-fn convex_stretches<T: Real>(nodes: &mut [Node<T>], rates: &mut Vec<T>) {
+fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Vec<T>) {
+    let room = nodes.capacity();
     let rate = |from: &Node<T>, to: &Node<T>| {
         let (width, rise) = (to.x - from.x, to.slopes[0] - from.slopes[1]);
         let chord = (to.height - from.height) / width;
@@ -313,6 +321,7 @@ fn convex_stretches<T: Real>(nodes: &mut [Node<T>], rates: &mut Vec<T>) {
         if bulges { rise / width } else { T::one() / T::zero() }
     };
     rates.clear();
+    rates.reserve(room);
     rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
     for i in 0..rates.len() {
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];

@@ -165,6 +165,9 @@ impl<T: Real> Body<T> {
                 before: T::one() / T::zero(),
             });
         }
+        // Room for each to be halved once.
+        self.rows.clear();
+        self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         self.sample(surface, range, heights)?;
         for i in 0..self.panels.len() {
             self.narrow(i, surface, range, heights)?;
@@ -368,7 +371,6 @@ impl<T: Real> Body<T> {
     fn list(&mut self, [first, last]: [T; 2]) {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
-        self.rows.reserve((NODES + 2) * self.panels.len().min(FEW_PIECES));
         for panel in &self.panels {
             let inner = panel.series.map_or(&[][..], |number| &self.series[number].rows[..]);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));

@@ -65,19 +65,33 @@ impl<T: Real> Survey<T> {
             if self.is_untouched_beyond(gap, on, level) {
                 return Ok(true);
             }
-            let Some(open) = self.open_below(gap, on, level) else { return Ok(false) };
-            let (mut more, mut converges) = (0, true);
-            for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(&open)) {
-                more += body.cost(surface, |panel| is_in(open, panel) && panel.may_gain(T::zero()));
-                let marked = body.panels.iter().filter(|panel| is_in(open, panel));
-                converges &= marked.clone().all(Panel::converges);
-            }
-            let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;
-            let [lower, upper] = &open;
-            if is_dear || !self.refine_at(gap, [lower, upper], T::zero(), cost)? {
+            let mut open = std::mem::take(&mut self.marked);
+            let refined = match self.open_below(gap, on, level, &mut open) {
+                true => self.refine_for_proof(gap, open.each_ref().map(|open| &open[..]), cost),
+                false => Ok(false),
+            };
+            self.marked = open;
+            if !refined? {
                 return Ok(false);
             }
         }
+    }
+
+    /// Refines the panels of either body on some spans, if that is not too dear; whether there were any.
+    fn refine_for_proof(
+        &mut self,
+        gap: &Gap<'_, T>,
+        open: [&[[T; 2]]; 2],
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let (mut more, mut converges) = (0, true);
+        for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(open)) {
+            more += body.cost(surface, |panel| is_in(open, panel) && panel.may_gain(T::zero()));
+            let marked = body.panels.iter().filter(|panel| is_in(open, panel));
+            converges &= marked.clone().all(Panel::converges);
+        }
+        let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;
+        Ok(!is_dear && self.refine_at(gap, open, T::zero(), cost)?)
     }
 
     /// Returns the height up to which a load may reach that touches an interval in a convex gap.
@@ -143,9 +157,15 @@ impl<T: Real> Survey<T> {
     }
 
     /// Lists the spans below a level, and those of an interval, that more points may show to be convex, each for the body
-    /// that is less certain; `None` if one of them is not.
-    fn open_below(&self, gap: &Gap<'_, T>, on: Interval<T>, level: T) -> Option<[Vec<[T; 2]>; 2]> {
-        let mut open = [Vec::new(), Vec::new()];
+    /// that is less certain; tells whether all of them may be.
+    fn open_below(
+        &self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        level: T,
+        open: &mut [Vec<[T; 2]>; 2],
+    ) -> bool {
+        open.iter_mut().for_each(Vec::clear);
         for (i, pair) in self.nodes.windows(2).enumerate() {
             let [from, to] = [pair[0].x, pair[1].x];
             let is_touched = from < on.right && on.left < to;
@@ -156,7 +176,7 @@ impl<T: Real> Survey<T> {
                 continue;
             }
             if shape == Shape::Bent || pair[0].falls() {
-                return None;
+                return false;
             }
             let [lower, upper] = [0, 1].map(|body| pair[0].doubts[body] + pair[1].doubts[body]);
             if lower >= upper {
@@ -166,7 +186,7 @@ impl<T: Real> Survey<T> {
                 open[1].push([from, to]);
             }
         }
-        Some(open)
+        true
     }
 
     /// Tells whether the slope rises from a point to the next, as far as is known.

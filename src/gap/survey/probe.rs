@@ -106,12 +106,11 @@ impl<T: Real> Survey<T> {
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
             let tolerance = T::of(EXACT) * load;
             let mut marked = std::mem::take(&mut self.marked);
-            marked.clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
             // Noise does not get less.
-            marked.extend(spans.filter(|x| self.converges_in(x, tolerance)));
-            let is_finer = self.refine_at(gap, [&marked; 2], tolerance, cost);
-            marked.clear();
+            marked[0].clear();
+            marked[0].extend(spans.filter(|x| self.converges_in(x, tolerance)));
+            let is_finer = self.refine_at(gap, [&marked[0]; 2], tolerance, cost);
             self.marked = marked;
             if is_finer? {
                 continue;
