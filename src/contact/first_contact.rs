@@ -21,7 +21,7 @@ pub(super) fn first_contact<T: Real>(
     let mut signs = widen(sampler, gap, Interval { left: range[0], right: range[1] }, start)?;
     match jump(sampler, gap, &mut signs)? {
         Some(breakpoint) => Ok(breakpoint),
-        None => zero(sampler, gap, signs),
+        None => zero(sampler, gap, signs, start.is_some()),
     }
 }
 
@@ -108,16 +108,22 @@ fn jump<T: Real>(
     Ok(None)
 }
 
-/// The zero of the slope in the bracket.
+/// Finds the zero of the slope in the bracket, whose ends are about those of the contact or say nothing of it.
 fn zero<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     Signs { x, slope }: Signs<T>,
+    is_about_contact: bool,
 ) -> Result<T, ContactError<T>> {
-    let bracket = Bracket::new(x[0], x[1]).values(slope[0], slope[1]);
-    match try_find(&Brent::default(), |x| sampler.slope(gap, x), &bracket) {
+    // Beside x = 0 a relative tolerance is no end; that of the share of the bracket, plus one, is.
+    let [one, width] = [T::one(), x[1] - x[0]];
+    let by_share = is_about_contact && x[0] < T::zero() && x[1] > T::zero();
+    let at = |u: T| if by_share { x[0] + (u - one) * width } else { u };
+    let ends = if by_share { [one, one + one] } else { x };
+    let bracket = Bracket::new(ends[0], ends[1]).values(slope[0], slope[1]);
+    match try_find(&Brent::default(), |u| sampler.slope(gap, at(u)), &bracket) {
         // Any point of a bracket this tight lies in the contact.
-        Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => Ok(root.x),
+        Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => Ok(at(root.x)),
         Err(error) => Err(error.or_else(|_| ContactError::NoFirstContact { x, slope })),
     }
 }

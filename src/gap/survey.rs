@@ -27,6 +27,7 @@ use body::{Body, Panel};
 use convex::Stretch;
 pub(crate) use lows::LowPoint;
 use panel::Row;
+use std::cmp::Ordering;
 
 /// Halvings after which a panel is as fine as it gets, and evaluations for one load.
 const MOST_ROUNDS: usize = 40;
@@ -43,6 +44,8 @@ pub(crate) struct Survey<T> {
     range: [T; 2],
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
+    /// That before panels were refined last.
+    before: Vec<Node<T>>,
     /// Room for the rates at which slopes rise between two points.
     rates: Vec<T>,
     lowest: T,
@@ -115,6 +118,7 @@ impl<T: Real> Survey<T> {
             bodies: [Body::new(), Body::new()],
             range: [zero; 2],
             nodes: Vec::new(),
+            before: Vec::new(),
             rates: Vec::new(),
             lowest: zero,
             reach: None,
@@ -239,6 +243,21 @@ impl<T: Real> Survey<T> {
         tolerance: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
+        let changes = self.refine_bodies(gap, wanted, tolerance, cost)?;
+        if changes {
+            self.join();
+        }
+        Ok(changes)
+    }
+
+    /// Does the same for either body alone.
+    fn refine_bodies(
+        &mut self,
+        gap: &Gap<'_, T>,
+        wanted: [&[[T; 2]]; 2],
+        tolerance: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
         let mut changes = false;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
@@ -251,31 +270,37 @@ impl<T: Real> Survey<T> {
             self.spent += cost.heights - before;
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
-        if changes {
-            self.join();
-        }
         Ok(changes)
     }
 
-    /// Lists the gap at all points of either body, in the range of both and with its ends.
+    /// Lists the gap at all points of either body, in the range of both and with its ends. Where no panel is new it
+    /// is as it was.
     fn join(&mut self) {
-        let mut nodes = std::mem::take(&mut self.nodes);
+        std::mem::swap(&mut self.nodes, &mut self.before);
+        let (nodes, before) = (&mut self.nodes, &self.before);
+        for body in &mut self.bodies {
+            body.fresh.sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
+        }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
         let [first, last] = self.range;
-        let mut next = [0; 2];
+        let (mut next, mut fresh, mut known) = ([0; 2], [0; 2], 0);
         let mut x = first;
         loop {
-            let [lower, upper] = [0, 1].map(|i| at(&self.bodies[i], x, &mut next[i]));
-            nodes.push(Node {
-                x,
-                height: upper[1].y - lower[1].y,
-                size: upper[1].y.abs().max(lower[1].y.abs()),
-                slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
-                doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
-                after: T::zero(),
-                is_open: false,
-                is_void: false,
+            let mut is_fresh = false;
+            let mut own = [&[][..]; 2];
+            for (i, body) in self.bodies.iter().enumerate() {
+                let start = next[i];
+                advance(&mut next[i], &body.rows, |row| row.x <= x);
+                own[i] = &body.rows[start..next[i]];
+                advance(&mut fresh[i], &body.fresh, |span| span[1] < x);
+                is_fresh |= body.fresh.get(fresh[i]).is_some_and(|span| span[0] <= x);
+            }
+            advance(&mut known, before, |node| node.x < x);
+            let same = before.get(known).filter(|node| !is_fresh && node.x == x);
+            nodes.push(match same {
+                Some(node) => Node { is_open: false, is_void: false, ..*node },
+                None => node([0, 1].map(|i| at(&self.bodies[i], x, own[i])), x),
             });
             if x >= last {
                 break;
@@ -283,27 +308,50 @@ impl<T: Real> Survey<T> {
             let beyond = [0, 1].map(|i| self.bodies[i].rows.get(next[i]).map_or(last, |row| row.x));
             x = beyond[0].min(beyond[1]).min(last);
         }
+        let mut panels = [[0; 2]; 2];
         for i in 1..nodes.len() {
-            let between = [nodes[i - 1].x, nodes[i].x];
-            let [mut is_open, mut is_void] = [false; 2];
-            let mut doubt = |body: &Body<T>| {
-                let [first, last] = between.map(|x| body.panels_at(x));
-                let panels = &body.panels[first[1]..=last[0].max(first[1])];
-                is_open |= panels.iter().any(|panel| !panel.is_sampled);
-                is_void |= panels.iter().any(|panel| panel.is_void);
-                panels.iter().fold(
-                    T::zero(),
-                    |most, panel| if most > panel.doubt { most } else { panel.doubt },
-                )
-            };
-            let after = self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body));
+            let [from, to] = [nodes[i - 1].x, nodes[i].x];
             let node = &mut nodes[i - 1];
-            (node.after, node.is_open, node.is_void) = (after, is_open, is_void);
+            node.after = T::zero();
+            for (body, [start, end]) in self.bodies.iter().zip(&mut panels) {
+                let inner = &body.panels[..body.panels.len() - 1];
+                advance(start, inner, |panel| panel.x()[1] <= from);
+                advance(end, inner, |panel| panel.x()[1] < to);
+                let mut most = T::zero();
+                for panel in &body.panels[*start..=*end.max(start)] {
+                    node.is_open |= !panel.is_sampled;
+                    node.is_void |= panel.is_void;
+                    // Not a number is more than any.
+                    most = if most > panel.doubt { most } else { panel.doubt };
+                }
+                node.after += most;
+            }
         }
-        convex_stretches(&mut nodes, &mut self.rates);
-        self.lowest = self.find_lowest(&nodes);
-        self.nodes = nodes;
+        convex_stretches(&mut self.nodes, &mut self.rates);
+        self.lowest = self.find_lowest(&self.nodes);
+        self.bodies.iter_mut().for_each(|body| body.fresh.clear());
         (self.stretch, self.reach) = (None, None);
+    }
+}
+
+/// Moves an index on past items.
+fn advance<I>(index: &mut usize, items: &[I], is_before: impl Fn(&I) -> bool) {
+    while items.get(*index).is_some_and(&is_before) {
+        *index += 1;
+    }
+}
+
+/// Makes a node of both bodies at x, on its left and on its right.
+fn node<T: Real>([lower, upper]: [[Row<T>; 2]; 2], x: T) -> Node<T> {
+    Node {
+        x,
+        height: upper[1].y - lower[1].y,
+        size: upper[1].y.abs().max(lower[1].y.abs()),
+        slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
+        doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
+        after: T::zero(),
+        is_open: false,
+        is_void: false,
     }
 }
 
@@ -340,17 +388,14 @@ fn is_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> bool {
     spans.get(first).is_some_and(|span| span[0] < to)
 }
 
-/// Returns a body at x, on its left and on its right, and moves `next` to the first point beyond.
-fn at<T: Real>(body: &Body<T>, x: T, next: &mut usize) -> [Row<T>; 2] {
-    let start = *next;
-    while body.rows.get(*next).is_some_and(|row| row.x <= x) {
-        *next += 1;
-    }
-    let own = body.rows[start..*next].iter().rev().take_while(|row| row.x == x);
+/// Returns a body at x, on its left and on its right, given its points up to x.
+fn at<T: Real>(body: &Body<T>, x: T, own: &[Row<T>]) -> [Row<T>; 2] {
     let mut found = [None; 2];
-    for row in own {
+    for row in own.iter().rev().take_while(|row| row.x == x) {
         found = [Some(*row), found[1].or(Some(*row))];
     }
-    let [before, after] = body.panels_at(x);
-    [found[0].unwrap_or_else(|| body.at(before, x)), found[1].unwrap_or_else(|| body.at(after, x))]
+    if let [Some(left), Some(right)] = found {
+        return [left, right];
+    }
+    body.panels_at(x).map(|panel| body.at(panel, x))
 }

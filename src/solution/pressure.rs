@@ -74,7 +74,7 @@ impl<T: Real> Pressure<'_, T> {
     ///
     /// # Errors
     /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than
-    /// a third of what the quadrature gives, as it becomes very close to an edge;
+    /// a third of the pressure, as it becomes very close to an edge, unless `x` is the limit but for rounding;
     /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
     /// beyond either body, and for NaN; those of sampling the gap at `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
@@ -82,11 +82,20 @@ impl<T: Real> Pressure<'_, T> {
         let Estimate { value: pressure, error } = estimate;
         // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
         let free = self.load_case.free == Ends::both(true);
-        if free && !estimate.is_resolved() && self.on.contains(x) {
+        if free && !estimate.is_resolved() && self.on.contains(x) && !self.is_at_limit(x) {
             Err(ContactError::Unresolved { x, pressure, error })
         } else {
             Ok(pressure)
         }
+    }
+
+    /// Tells whether x is a limit of a contact but for rounding of `-b + (a + b) t`.
+    fn is_at_limit(&self, x: T) -> bool {
+        let first = self.contacts.partition_point(|on| on.right <= x);
+        self.contacts.get(first).is_some_and(|on| {
+            let rounding = T::of(4.0) * T::epsilon() * (on.left.abs() + on.right.abs());
+            (x - on.left).min(on.right - x) <= rounding
+        })
     }
 
     /// `P(x)` at any number of points, in any order: cheaper than one by one. What

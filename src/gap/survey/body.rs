@@ -34,6 +34,8 @@ pub(super) struct Body<T> {
     pub series: Vec<Series<T>>,
     /// All points inside the common range and the ends of pieces, by rising x.
     pub rows: Vec<Row<T>>,
+    /// The spans of x of the panels that are new since the points were last joined with those of the other body.
+    pub fresh: Vec<[T; 2]>,
     /// Points of the curve that a series has missed.
     pub missed: Vec<Missed<T>>,
     pub scratch: Scratch<T>,
@@ -112,8 +114,8 @@ impl<T: Real> Body<T> {
             panels: Vec::new(),
             wanted: Vec::new(),
         };
-        let (panels, series, rows, missed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { panels, series, rows, missed, scratch }
+        let (panels, series, rows) = (Vec::new(), Vec::new(), Vec::new());
+        Self { panels, series, rows, fresh: Vec::new(), missed: Vec::new(), scratch }
     }
 
     /// Takes a first look at a surface, over the range of x that both bodies cover.
@@ -166,6 +168,8 @@ impl<T: Real> Body<T> {
             });
         }
         // Room for each to be halved once.
+        self.fresh.clear();
+        self.fresh.push(range);
         self.rows.clear();
         self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         self.sample(surface, range, heights)?;
@@ -256,6 +260,7 @@ impl<T: Real> Body<T> {
                 continue;
             }
             changes = true;
+            self.fresh.push(panel.x());
             if !panel.is_sampled {
                 let settled = settled(surface, panel);
                 if settled.is_none() {

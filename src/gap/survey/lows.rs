@@ -166,10 +166,21 @@ impl<T: Real> Survey<T> {
 
     /// Returns about the slope of the gap at x, by the points around it.
     fn slope_near(&self, x: T) -> T {
+        let [_, slope] = self.near(x);
+        slope
+    }
+
+    /// Returns about the height of the gap at x, by the points around it.
+    pub(super) fn height_near(&self, x: T) -> T {
+        let [height, _] = self.near(x);
+        height
+    }
+
+    fn near(&self, x: T) -> [T; 2] {
         let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
         let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
         let t = (x - self.nodes[after - 1].x) / segment.width;
-        segment.at(t.max(T::zero()).min(T::one()))[1]
+        segment.at(t.max(T::zero()).min(T::one()))
     }
 
     /// Returns about the load that is asked for, as F/κ.

@@ -98,43 +98,31 @@ impl<T: Real> Survey<T> {
         stretches: &mut Vec<Stretch<T>>,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
+        let tolerance = T::of(EXACT) * load;
         for _ in 0..MOST_ROUNDS {
-            self.list_stretches(gap, load, contacts, stretches);
-            if stretches.iter().all(|stretch| self.is_seen(stretch)) {
+            self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
+            stretches.retain(|stretch| !self.is_seen(stretch));
+            if stretches.is_empty() {
                 break;
             }
-            self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
-            let tolerance = T::of(EXACT) * load;
-            let mut marked = std::mem::take(&mut self.marked);
-            let spans = stretches.iter().map(|stretch| stretch.x);
-            // Noise does not get less.
-            marked[0].clear();
-            marked[0].extend(spans.filter(|x| self.converges_in(x, tolerance)));
-            let is_finer = self.refine_at(gap, [&marked[0]; 2], tolerance, cost);
-            self.marked = marked;
-            if is_finer? {
+            if self.refine_stretches(gap, stretches, tolerance, cost)? {
                 continue;
             }
-            stretches.retain(|stretch| !self.is_seen(stretch));
             let least = T::of(FOOT) * load;
             for which in [Which::Lower, Which::Upper] {
                 let surface = &gap.bodies[which as usize];
                 self.bodies[which as usize].probe(surface, stretches, least, &mut cost.heights);
             }
-            let mut missed = Vec::new();
-            for stretch in &*stretches {
-                if stretch.is_missed {
-                    missed.push(stretch.x);
-                } else {
-                    self.seen
-                        .retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
-                    self.seen.push(*stretch);
-                }
+            for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
+                self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
+                self.seen.push(*stretch);
             }
-            if missed.is_empty() {
-                continue;
+            stretches.retain(|stretch| stretch.is_missed);
+            if stretches.is_empty() {
+                break;
             }
             (self.stretch, self.is_one, self.known) = (None, false, None);
+            let missed: Vec<_> = stretches.iter().map(|stretch| stretch.x).collect();
             // Those that are void.
             let most = T::max_value().unwrap_or(T::one() / T::epsilon());
             if !self.refine_at(gap, [&missed; 2], most, cost)? {
@@ -142,6 +130,34 @@ impl<T: Real> Survey<T> {
             }
         }
         Ok(())
+    }
+
+    /// Refines panels on some stretches until they are as exact as a tolerance, or noise; whether there were any.
+    fn refine_stretches(
+        &mut self,
+        gap: &Gap<'_, T>,
+        stretches: &[Stretch<T>],
+        tolerance: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let mut is_finer = false;
+        for _ in 0..MOST_ROUNDS {
+            let mut marked = std::mem::take(&mut self.marked);
+            marked[0].clear();
+            let spans = stretches.iter().map(|stretch| stretch.x);
+            // Noise does not get less.
+            marked[0].extend(spans.filter(|x| self.converges_in(x, tolerance)));
+            let refined = self.refine_bodies(gap, [&marked[0]; 2], tolerance, cost);
+            self.marked = marked;
+            if !refined? {
+                break;
+            }
+            is_finer = true;
+        }
+        if is_finer {
+            self.join();
+        }
+        Ok(is_finer)
     }
 
     fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
@@ -168,7 +184,7 @@ impl<T: Real> Survey<T> {
         let hull = T::of(0.5) * (last.right - first.left);
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
         let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
-        let heights = nodes.chain(limits.map(|x| [x, self.height(x)]));
+        let heights = nodes.chain(limits.map(|x| [x, self.height_near(x)]));
         let heights = heights.map(|[x, height]| gap.turned(x, height));
         let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
@@ -198,7 +214,7 @@ impl<T: Real> Survey<T> {
 
     /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
     fn within(&self, gap: &Gap<'_, T>, x: [T; 2], level: T) -> Option<[T; 2]> {
-        let is_below = |x: T| gap.turned(x, self.height(x)) < level;
+        let is_below = |x: T| gap.turned(x, self.height_near(x)) < level;
         let (from, mut low, mut high) = match x.map(is_below) {
             [true, true] => return Some(x),
             [true, false] => (x[0], x[0], x[1]),

@@ -202,14 +202,16 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
         return Resolution::Good(error.max(rounded));
     }
     // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
-    // one third of them to the next.
-    let third = |i: usize| {
-        let terms = &series[i * n / 3..(i + 1) * n / 3];
+    // one third of them to the next, and to half from the third quarter to the last.
+    let mean = |i: usize, parts: usize| {
+        let terms = &series[i * n / parts..(i + 1) * n / parts];
         terms.iter().fold(T::zero(), |sum, a| sum + a.abs()) / T::count(terms.len())
     };
-    let plateau = third(2);
+    let plateau = mean(2, 3);
     let faint = plateau <= rounded / T::epsilon().cbrt();
-    if n >= 12 && faint && plateau >= T::of(0.42) * third(1) {
+    let levels_off = plateau >= T::of(0.42) * mean(1, 3)
+        || n >= 24 && mean(3, 4) >= T::of(0.6) * mean(2, 4);
+    if n >= 12 && faint && levels_off {
         return Resolution::Noise(plateau);
     }
     if faint && n < 24 {
