@@ -279,7 +279,8 @@ impl<T: Real> Survey<T> {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
-            body.fresh.sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
+            body.fresh
+                .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
         }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
