@@ -54,7 +54,7 @@ class Counted:
 
 
 # Calls of the curves in one solve, and those for single points, by which the first point of each piece is found.
-CALLS = {"three": (example_three, 20, 6), "four": (example_four, 36, 8), "five": (example_five, 31, 4)}
+CALLS = {"three": (example_three, 14, 0), "four": (example_four, 32, 6), "five": (example_five, 31, 4)}
 
 
 @pytest.mark.parametrize("example", CALLS)

@@ -269,6 +269,9 @@ impl<T: Real> Single<'_, '_, T> {
             }
             // The last contact was no help.
             self.integrator.clear_samples();
+        } else if let Some(look) = self.look {
+            let guides = look.guides(self.start());
+            panels::guide(self.integrator, guides);
         }
         let (guess, doubt) = match self.initial_guess()? {
             Some(guess) => guess,

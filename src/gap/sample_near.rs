@@ -8,13 +8,15 @@
 //! more than a tenth of the distance to its neighbours is approached by a few steps of Newton's
 //! rule, as is the first where nothing is known but the far ends of a piece. Where they do not
 //! get there it is searched for with the user's strategy, which is stopped as soon as it is near:
-//! it meets a zero there.
+//! it meets a zero there. Where the [survey](super::survey) knows the piece its series say about where
+//! the first targets are: one batch, and no single point.
 
 mod curve_samples;
 mod inverse_hermite;
 
 pub(crate) use curve_samples::CurveSample;
 
+use super::survey::Series;
 use super::{Cost, Gap};
 use crate::profile::{Noise, Piece, first_turn};
 use crate::real::is_finite;
@@ -35,18 +37,21 @@ pub(crate) struct SampleCache<T> {
     /// The piece they lie on.
     piece: Option<usize>,
     curve_samples: CurveSamples<T>,
+    /// Series of some pieces that are about right, each until its piece is sampled first.
+    pub guides: [Option<(usize, Series<T>)>; 2],
     /// Where `X(k) = x` needs no solving there is no `Y`, and the curve_samples are at their targets.
     pub direct: bool,
 }
 
 impl<T: Real> SampleCache<T> {
     pub fn new() -> Self {
-        Self { piece: None, curve_samples: CurveSamples::new(), direct: false }
+        let guides = [None, None];
+        Self { piece: None, curve_samples: CurveSamples::new(), guides, direct: false }
     }
 
     /// Forgets what was sampled: the body is another.
     pub fn clear(&mut self) {
-        self.piece = None;
+        (self.piece, self.guides) = (None, [None, None]);
     }
 
     /// The piece they lie on; `None` where it is given by x itself.
@@ -110,6 +115,13 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (trace.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let shot = TargetBatch { gap, body, piece, ends, rises, targets, room };
+    for guide in &mut trace.guides {
+        if let Some((_, guide)) = guide.take_if(|(piece, _)| *piece == index)
+            && trace.curve_samples.len() == 0
+        {
+            shot.follow(&guide, &mut trace.curve_samples, cost);
+        }
+    }
     shot.take(&mut trace.curve_samples, cost).map_err(|error| turns(piece, error))
 }
 
@@ -153,6 +165,26 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         }
         known.set(ends, &curve_samples);
         Ok(())
+    }
+
+    /// Asks for points where a guide has the targets, all in one batch, and keeps them if they rise.
+    fn follow(&self, guide: &Series<T>, known: &mut CurveSamples<T>, cost: &mut Cost) {
+        let mut k = [T::zero(); N];
+        for (k, &target) in k.iter_mut().zip(self.targets) {
+            let Some(found) = guide.parameter_near(target) else { return };
+            *k = found;
+        }
+        let mut points = [self.piece.ends[0]; N];
+        self.piece.curve.at_many(&k, &mut points);
+        cost.evaluations = cost.evaluations.saturating_add(N);
+        let samples: [_; N] = std::array::from_fn(|i| CurveSample::new(k[i], points[i]));
+        let [start, end] = self.ends;
+        let rise = |one: &CurveSample<T>, other: &CurveSample<T>| one.x < other.x;
+        let inside = rise(&start, &samples[0]) && rise(&samples[N - 1], &end);
+        let is_finite = samples.iter().all(|sample| is_finite(sample.slope));
+        if inside && is_finite && samples.windows(2).all(|pair| rise(&pair[0], &pair[1])) {
+            known.set(self.ends, &samples);
+        }
     }
 
     fn is_near(&self, i: usize, curve_sample: &CurveSample<T>) -> bool {

@@ -27,6 +27,9 @@ use body::{Body, Panel};
 use convex::Stretch;
 pub(crate) use lows::LowPoint;
 use panel::Row;
+pub(super) use panel::Series;
+/// Series of either body that say about where its parameters are, with the numbers of their pieces.
+pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
 use std::cmp::Ordering;
 
 /// Halvings after which a panel is as fine as it gets, and evaluations for one load.
@@ -271,6 +274,16 @@ impl<T: Real> Survey<T> {
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
         Ok(changes)
+    }
+
+    /// Returns the series around both ends of an interval.
+    pub fn guides(&self, on: Interval<T>) -> Guides<T> {
+        self.bodies.each_ref().map(|body| {
+            [on.left, on.right].map(|x| {
+                let panel = &body.panels[body.panels_at(x)[1]];
+                panel.series.map(|number| (panel.piece, body.series[number].clone()))
+            })
+        })
     }
 
     /// Lists the gap at all points of either body, in the range of both and with its ends. Where no panel is new it

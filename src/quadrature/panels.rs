@@ -25,7 +25,7 @@ mod several;
 mod treecode;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
-use crate::gap::{Cost, Gap};
+use crate::gap::{Cost, Gap, Guides};
 use crate::numerics::chebyshev::{MOST, SIZES};
 use crate::{ContactError, Ends, Interval, Real, Side};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
@@ -220,6 +220,14 @@ pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option
     let integrator: &mut PanelIntegrator<T> = integrator.downcast_mut()?;
     integrator.is_several = true;
     Some(&mut integrator.several)
+}
+
+/// Hands guides to an integrator of panels.
+pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
+    let integrator: &mut dyn Any = integrator;
+    if let Some(panels) = integrator.downcast_mut::<PanelIntegrator<T>>() {
+        panels.panel_set.guide(guides);
+    }
 }
 
 /// Whether an integrator is one of panels.

@@ -38,11 +38,13 @@ pub(super) struct Row<T> {
 
 /// X and Y over a variable t from -1, the left end of a stretch, to 1.
 #[derive(Clone, Debug)]
-pub(super) struct Series<T> {
+pub(crate) struct Series<T> {
+    /// The range of the parameter of the curve.
+    k: [T; 2],
     x: [T; NODES + 1],
     y: [T; NODES + 1],
     /// The points it is made from, by rising x.
-    pub rows: [Row<T>; NODES],
+    pub(super) rows: [Row<T>; NODES],
     /// Uncertainty of the heights, a length; infinite where a point is not finite.
     pub doubt: T,
     /// Whether that is rounding.
@@ -89,7 +91,17 @@ impl<T: Real> Series<T> {
         let known = doubt.is_finite() && astray <= T::of(0.1) * length;
         let is_exact = known && doubt <= rounding;
         let doubt = if known { doubt } else { T::one() / zero };
-        Self { x: x.series, y: y.series, rows, doubt, is_exact }
+        Self { k: [left, right], x: x.series, y: y.series, rows, doubt, is_exact }
+    }
+
+    /// Returns about the parameter of the curve at x; `None` outside the outermost points.
+    pub fn parameter_near(&self, x: T) -> Option<T> {
+        let between = [self.rows[0].x, self.rows[NODES - 1].x];
+        if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
+            return None;
+        }
+        let (half, t) = (T::of(0.5), self.parameter(x, between));
+        Some(half * (T::one() - t) * self.k[0] + half * (T::one() + t) * self.k[1])
     }
 
     /// Returns x, height and slope at one end: t is -1 or 1.

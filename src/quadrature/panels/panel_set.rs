@@ -8,7 +8,7 @@ mod seams;
 pub(crate) use derivative_check::Rises;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, SampleCache, Sampler};
+use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
 use crate::numerics::chebyshev::{MOST, Row, size_for};
 use crate::profile::Noise;
 use crate::real::same;
@@ -123,6 +123,13 @@ impl<T: Real> PanelSet<T> {
         if !same_bodies {
             self.traces.iter_mut().for_each(SampleCache::clear);
             self.held = Ends::both(None);
+        }
+    }
+
+    /// Keeps guides to the parameters of either body on pieces that are not sampled yet.
+    pub fn guide(&mut self, guides: Guides<T>) {
+        for (trace, guides) in self.traces.iter_mut().zip(guides) {
+            trace.guides = guides;
         }
     }
 
