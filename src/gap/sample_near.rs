@@ -12,6 +12,7 @@
 //! the first targets are: one batch, and no single point.
 
 mod curve_samples;
+mod guided;
 mod inverse_hermite;
 
 pub(crate) use curve_samples::CurveSample;
@@ -165,26 +166,6 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         }
         known.set(ends, &curve_samples);
         Ok(())
-    }
-
-    /// Asks for points where a guide has the targets, all in one batch, and keeps them if they rise.
-    fn follow(&self, guide: &Series<T>, known: &mut CurveSamples<T>, cost: &mut Cost) {
-        let mut k = [T::zero(); N];
-        for (k, &target) in k.iter_mut().zip(self.targets) {
-            let Some(found) = guide.parameter_near(target) else { return };
-            *k = found;
-        }
-        let mut points = [self.piece.ends[0]; N];
-        self.piece.curve.at_many(&k, &mut points);
-        cost.evaluations = cost.evaluations.saturating_add(N);
-        let samples: [_; N] = std::array::from_fn(|i| CurveSample::new(k[i], points[i]));
-        let [start, end] = self.ends;
-        let rise = |one: &CurveSample<T>, other: &CurveSample<T>| one.x < other.x;
-        let inside = rise(&start, &samples[0]) && rise(&samples[N - 1], &end);
-        let is_finite = samples.iter().all(|sample| is_finite(sample.slope));
-        if inside && is_finite && samples.windows(2).all(|pair| rise(&pair[0], &pair[1])) {
-            known.set(self.ends, &samples);
-        }
     }
 
     fn is_near(&self, i: usize, curve_sample: &CurveSample<T>) -> bool {

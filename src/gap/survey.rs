@@ -15,19 +15,22 @@
 //! joints, is [convex](convex): where it is, as far as a load reaches, the bodies touch in one interval.
 
 mod body;
+mod check;
 mod convex;
 mod lows;
 mod panel;
 mod probe;
 mod segment;
+mod series;
 
 use super::{Cost, Gap};
 use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
-use body::{Body, Panel};
-use convex::Stretch;
+use body::Body;
+use convex::{Stretch, convex_stretches};
 pub(crate) use lows::LowPoint;
-use panel::Row;
-pub(super) use panel::Series;
+use panel::Panel;
+use series::Row;
+pub(super) use series::Series;
 /// Series of either body that say about where its parameters are, with the numbers of their pieces.
 pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
 use std::cmp::Ordering;
@@ -35,9 +38,6 @@ use std::cmp::Ordering;
 /// Halvings after which a panel is as fine as it gets, and evaluations for one load.
 const MOST_ROUNDS: usize = 40;
 const MOST_HEIGHTS: usize = 1 << 14;
-
-/// Spans on either side of one that must bulge like it.
-const IN_A_ROW: usize = 2;
 
 /// Heights and slopes of two bodies.
 #[derive(Clone, Debug)]
@@ -366,32 +366,6 @@ fn node<T: Real>([lower, upper]: [[Row<T>; 2]; 2], x: T) -> Node<T> {
         after: T::zero(),
         is_open: false,
         is_void: false,
-    }
-}
-
-/// Lowers the uncertainty of heights where the gap is seen to bulge at several points in a row.
-///
-/// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
-/// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
-/// flank, or where X is no polynomial.
-fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Vec<T>) {
-    let room = nodes.capacity();
-    let rate = |from: &Node<T>, to: &Node<T>| {
-        let (width, rise) = (to.x - from.x, to.slopes[0] - from.slopes[1]);
-        let chord = (to.height - from.height) / width;
-        let bulges = chord >= from.slopes[1] && chord <= to.slopes[0] && rise.is_finite();
-        if bulges { rise / width } else { T::one() / T::zero() }
-    };
-    rates.clear();
-    rates.reserve(room);
-    rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
-    for i in 0..rates.len() {
-        let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
-        if !nodes[i].is_void && around.iter().all(|rate| rate.is_finite()) {
-            let width = nodes[i + 1].x - nodes[i].x;
-            let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
-            nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, graph, on_flat};
-use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat};
+use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval, ParametricProfile};
 use std::f64::consts::PI;
 
 /// Between -1 and 1, at random but the same for the same k.
@@ -87,4 +87,51 @@ fn a_circle_whose_height_has_few_digits_or_none() {
     touch_lightly::<f64>(&[1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12], 1e-14);
     let single = [1e-1, 1e-2, 2e-3, 1e-3, 7.5e-4, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6];
     touch_lightly::<f32>(&single, 1e-5);
+}
+
+/// The tooth of a gear, as the angle rolled off beyond the pitch point.
+fn flank(base_radius: f64, side: f64) -> impl ParametricProfile<f64> {
+    let pitch = 93.0 / 256.0;
+    let scale = side * base_radius;
+    Curve::new([-0.36, 1.0], move |k: f64| {
+        let ((sin, cos), roll) = (k.sin_cos(), pitch + k);
+        CurvePoint {
+            x: scale * (cos + roll * sin - 1.0),
+            y: scale * (sin - roll * cos + pitch),
+            dx: scale * roll * cos,
+            dy: scale * roll * sin,
+        }
+    })
+}
+
+/// The terms of X are a thousand times larger than the contact: coefficients fall fast and level off.
+#[test]
+fn the_rounding_of_involutes_is_not_followed_from_any_start() {
+    let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));
+    let contact = Contact::new(&pinion, &wheel).unwrap().contact_modulus(113.187e9);
+    for half_width in [2e-4, 2.4e-4, 2.9e-4, 3.06e-4, 4e-4, 1e-3, 2e-3] {
+        for aside in [8.2e-8, 3e-7] {
+            let start = Interval { left: aside - half_width, right: aside + half_width };
+            let contact = contact.clone().start(start).single_interval(true);
+            let solution = contact.solve(Control::Load(1571e3 / PI)).unwrap();
+            let (evaluations, error) = (solution.cost().evaluations, solution.limits_error());
+            assert!(evaluations <= 100, "{half_width:e} {aside:e}: {evaluations}");
+            assert!(error.unwrap() <= 2e-14, "{half_width:e} {aside:e}: {error:?}");
+            assert!((solution.a() / 2.3773942151913456e-4 - 1.0).abs() < 1e-13);
+        }
+    }
+}
+
+/// As in a row of even places from -b to a, the last of which may be an ulp inside.
+#[test]
+fn a_pressure_at_a_limit_but_for_rounding_is_a_number() {
+    let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));
+    let contact = Contact::new(&pinion, &wheel).unwrap().contact_modulus(113.187e9);
+    let solution = contact.solve(Control::Load(1571e3 / PI)).unwrap();
+    let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
+    let peak = solution.peak().unwrap().pressure;
+    for x in [on.left, on.left.next_up(), on.right.next_down(), on.right] {
+        let value = pressure.at(x).unwrap();
+        assert!((0.0..1e-6 * peak).contains(&value), "{x:e}: {value:e}");
+    }
 }

@@ -1,9 +1,11 @@
 //! One body of a survey: a row of panels, each as fine as it has been asked for.
 
-use super::panel::{NODES, POINTS, Row, Series};
+use super::check::check;
+use super::panel::{MOST_IN_VAIN, Missed, Panel, bulge, missed_by, row, settled};
 use super::segment::Segment;
+use super::series::{NODES, POINTS, Row, Series};
 use crate::gap::Surface;
-use crate::profile::{Convexity, Piece, first_turn};
+use crate::profile::Convexity;
 use crate::{CurvePoint, ProfileError, Real, Side};
 
 /// Pieces of a joined body below which each is sampled at once; of more, where bodies may touch.
@@ -11,18 +13,6 @@ const FEW_PIECES: usize = 16;
 
 /// Windows by which a long body is narrowed to the other one.
 const MOST_WINDOWS: usize = 8;
-
-/// Halvings in a row after which a panel that is as uncertain as before is taken for noise: a wave that is finer than
-/// that, of some 300 in the body, is seen before.
-const MOST_IN_VAIN: usize = 10;
-
-/// The share of the distance by which a point was missed that may be left of it: a series that is closer has seen the
-/// feature, not only its foot.
-const LEFT: f64 = 0.01;
-
-/// The share of its uncertainty that halving leaves at most of a panel that resolves the body: of a series of eight
-/// terms 1/256 or less.
-const GAIN: f64 = 0.125;
 
 /// The x-length of a body beyond that of the common range from which on it is narrowed.
 const LONG: f64 = 4.0;
@@ -41,56 +31,6 @@ pub(super) struct Body<T> {
     pub scratch: Scratch<T>,
 }
 
-/// A point of a piece.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Missed<T> {
-    pub piece: usize,
-    pub k: T,
-    pub point: CurvePoint<T>,
-    /// The distance by which it was missed, a length.
-    pub by: T,
-    /// The distance of points at which it was found, along x.
-    pub apart: T,
-}
-
-/// A stretch of a smooth piece.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Panel<T> {
-    pub piece: usize,
-    pub k: [T; 2],
-    /// The points at both ends, of which those inside a piece are not among the rows.
-    ends: [Row<T>; 2],
-    is_inside: [bool; 2],
-    /// Its number among the series; without one it is the cubic between its ends.
-    pub series: Option<usize>,
-    /// Uncertainty of the heights, a length.
-    pub doubt: T,
-    /// Whether anything but the ends has been looked at.
-    pub is_sampled: bool,
-    /// Halvings in a row that have left it as uncertain.
-    pub vain: usize,
-    /// Whether it misses points of the curve that are known.
-    pub is_void: bool,
-    /// Uncertainty of the panel that it is a half of; infinite if there is none.
-    before: T,
-}
-
-impl<T: Real> Panel<T> {
-    pub fn x(&self) -> [T; 2] {
-        self.ends.map(|end| end.x)
-    }
-
-    /// Tells whether more points may leave it less uncertain than by a tolerance.
-    pub fn may_gain(&self, tolerance: T) -> bool {
-        !self.is_sampled || self.doubt > tolerance && self.vain < MOST_IN_VAIN
-    }
-
-    /// Tells whether its halving has brought it much nearer to being known.
-    pub fn converges(&self) -> bool {
-        self.doubt <= T::of(GAIN) * self.before
-    }
-}
-
 #[derive(Clone, Debug)]
 pub(super) struct Scratch<T> {
     pub probes: Vec<super::probe::Probe<T>>,
@@ -99,10 +39,6 @@ pub(super) struct Scratch<T> {
     panels: Vec<Panel<T>>,
     /// Panels to be sampled.
     wanted: Vec<usize>,
-}
-
-fn row<T: Real>(end: CurvePoint<T>) -> Row<T> {
-    Row { x: end.x, y: end.y, slope: end.dy / end.dx, doubt: T::zero() }
 }
 
 impl<T: Real> Body<T> {
@@ -430,102 +366,4 @@ impl<T: Real> Body<T> {
         };
         Row { x, y, slope, doubt }
     }
-}
-
-/// Returns a point of a panel that its series misses, as another one has.
-fn missed_by<'m, T: Real>(
-    series: &Series<T>,
-    panel: &Panel<T>,
-    known: &'m [Missed<T>],
-) -> Option<&'m Missed<T>> {
-    let ([from, to], [left, right]) = (panel.k, panel.x());
-    known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
-        let t = ((missed.k - from) - (to - missed.k)) / (to - from);
-        let error = series.doubt.max(series.miss(t, &missed.point));
-        let is_met = error <= T::of(LEFT) * missed.by;
-        // A shorter one has points all over the feature.
-        t.abs() <= T::one() && right - left > T::of(0.5) * missed.apart && !is_met
-    })
-}
-
-/// How far the cubic between two ends bulges from the line through both.
-fn bulge<T: Real>([start, end]: &[Row<T>; 2]) -> T {
-    let size = (end.slope - start.slope).abs() * (end.x - start.x);
-    if size.is_finite() { size } else { (end.y - start.y).abs() }
-}
-
-/// A cubic between two ends that the slopes inside bear out, where the curve gives them by x.
-fn settled<T: Real>(surface: &Surface<'_, T>, panel: &Panel<T>) -> Option<Panel<T>> {
-    let piece = surface.piece(panel.piece);
-    let [start, end] = panel.ends;
-    let segment = Segment::exact([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);
-    let size = start.slope.abs() + end.slope.abs() + segment.chord.abs();
-    let rounding =
-        T::of(64.0) * T::epsilon() * (size + (start.y.abs() + end.y.abs()) / segment.width);
-    let agrees = |share: f64| {
-        let slope = segment.at(T::of(share))[1];
-        let given = piece.curve.slope_at(start.x + T::of(share) * segment.width)?;
-        Some((given - slope).abs() <= rounding)
-    };
-    let both = agrees(0.3)? && agrees(0.7)?;
-    both.then_some(Panel { doubt: T::zero(), ..*panel })
-}
-
-/// Refuses points where X or Y is not finite inside the common range, where X turns, and slopes by x that are not
-/// those of the points.
-fn check<T: Real>(
-    piece: &Piece<'_, T>,
-    panel: &Panel<T>,
-    points: &[CurvePoint<T>; POINTS],
-    range: [T; 2],
-) -> Result<(), ProfileError<T>> {
-    let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
-    let rounding = T::of(32.0) * T::epsilon() * from.abs().max(to.abs());
-    let [first, last] = piece.x();
-    let mut reached = from;
-    for (i, point) in points[..NODES].iter().enumerate() {
-        let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });
-        let CurvePoint { x, y, .. } = *point;
-        if !x.is_finite() {
-            let next = points[i..NODES].iter().map(|point| point.x).find(|x| x.is_finite());
-            if reached < range[1] && next.unwrap_or(to) > range[0] {
-                return fault("X", x);
-            }
-            continue;
-        }
-        // An end inside a piece is only about where the series has it.
-        let turns = i > 0 && x < reached - rounding;
-        if turns || x < first - rounding || x > last + rounding {
-            let back = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
-            let j = (0..NODES - 1).find(back).unwrap_or(i.saturating_sub(1));
-            let met = [k[j], k[(j + 1).min(NODES - 1)]];
-            return Err(first_turn(piece.curve, piece.k, met));
-        }
-        if !y.is_finite() && x > range[0] && x < range[1] {
-            return fault("Y", y);
-        }
-        reached = if i == 0 { x } else { reached.max(x) };
-    }
-    check_slopes(piece, &k, points)
-}
-
-/// Compares the slopes that a curve gives by x, if it does, with those of its points.
-fn check_slopes<T: Real>(
-    piece: &Piece<'_, T>,
-    k: &[T; POINTS],
-    points: &[CurvePoint<T>; POINTS],
-) -> Result<(), ProfileError<T>> {
-    let slope = |i: usize| points[i].dy / points[i].dx;
-    for i in 1..NODES - 1 {
-        let Some(given) = piece.curve.slope_at(points[i].x) else { return Ok(()) };
-        let difference = slope(i);
-        let changes = (slope(i + 1) - slope(i - 1)).abs();
-        let allowed =
-            T::epsilon().cbrt() * (given.abs() + difference.abs()) + T::of(1e-3) * changes;
-        if (given - difference).abs() > allowed {
-            let quantity = "slope_at(x)";
-            return Err(ProfileError::Derivative { quantity, k: k[i], given, difference });
-        }
-    }
-    Ok(())
 }

@@ -12,7 +12,8 @@
 //! Between places that a load touches in a convex gap it leaves nothing open: h - V would be convex there, and zero
 //! at both ends. So one interval in a convex stretch, beyond which the gap is higher than that, is the contact.
 
-use super::{Node, Panel, Survey, is_in};
+use super::panel::Panel;
+use super::{Node, Survey, is_in};
 use crate::gap::{Cost, Gap};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
@@ -23,6 +24,9 @@ const MOST_FOR_PROOF: usize = 81;
 /// The share of the rise of a slope from one point to the next by which both may be uncertain in a proof. A wave
 /// that hides in it has a length of about this share of the distance of the points.
 const PROOF: f64 = 1e-3;
+
+/// Spans on either side of one that must bulge like it.
+const IN_A_ROW: usize = 2;
 
 /// A stretch between two points on which the gap is convex.
 #[derive(Clone, Copy, Debug)]
@@ -209,5 +213,31 @@ impl<T: Real> Node<T> {
     /// Tells whether the slope is less on the right than on the left.
     fn falls(&self) -> bool {
         self.slopes[1] < self.slopes[0] - (T::of(2.0) * self.doubt() + self.rounding(self))
+    }
+}
+
+/// Lowers the uncertainty of heights where the gap is seen to bulge at several points in a row.
+///
+/// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
+/// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
+/// flank, or where X is no polynomial.
+pub(super) fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Vec<T>) {
+    let room = nodes.capacity();
+    let rate = |from: &Node<T>, to: &Node<T>| {
+        let (width, rise) = (to.x - from.x, to.slopes[0] - from.slopes[1]);
+        let chord = (to.height - from.height) / width;
+        let bulges = chord >= from.slopes[1] && chord <= to.slopes[0] && rise.is_finite();
+        if bulges { rise / width } else { T::one() / T::zero() }
+    };
+    rates.clear();
+    rates.reserve(room);
+    rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
+    for i in 0..rates.len() {
+        let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
+        if !nodes[i].is_void && around.iter().all(|rate| rate.is_finite()) {
+            let width = nodes[i + 1].x - nodes[i].x;
+            let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
+            nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
+        }
     }
 }

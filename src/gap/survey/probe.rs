@@ -3,7 +3,8 @@
 //! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
 //! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
-use super::body::{Body, Missed, Scratch};
+use super::body::{Body, Scratch};
+use super::panel::Missed;
 use super::{Cost, Survey, is_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;

@@ -1,0 +1,65 @@
+//! What a survey refuses at the points that it takes.
+
+use super::panel::Panel;
+use super::series::{NODES, POINTS, Series};
+use crate::profile::{Piece, first_turn};
+use crate::{CurvePoint, ProfileError, Real};
+
+/// Refuses points where X or Y is not finite inside the common range, where X turns, and slopes by x that are not
+/// those of the points.
+pub(super) fn check<T: Real>(
+    piece: &Piece<'_, T>,
+    panel: &Panel<T>,
+    points: &[CurvePoint<T>; POINTS],
+    range: [T; 2],
+) -> Result<(), ProfileError<T>> {
+    let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
+    let rounding = T::of(32.0) * T::epsilon() * from.abs().max(to.abs());
+    let [first, last] = piece.x();
+    let mut reached = from;
+    for (i, point) in points[..NODES].iter().enumerate() {
+        let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });
+        let CurvePoint { x, y, .. } = *point;
+        if !x.is_finite() {
+            let next = points[i..NODES].iter().map(|point| point.x).find(|x| x.is_finite());
+            if reached < range[1] && next.unwrap_or(to) > range[0] {
+                return fault("X", x);
+            }
+            continue;
+        }
+        // An end inside a piece is only about where the series has it.
+        let turns = i > 0 && x < reached - rounding;
+        if turns || x < first - rounding || x > last + rounding {
+            let back = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
+            let j = (0..NODES - 1).find(back).unwrap_or(i.saturating_sub(1));
+            let met = [k[j], k[(j + 1).min(NODES - 1)]];
+            return Err(first_turn(piece.curve, piece.k, met));
+        }
+        if !y.is_finite() && x > range[0] && x < range[1] {
+            return fault("Y", y);
+        }
+        reached = if i == 0 { x } else { reached.max(x) };
+    }
+    check_slopes(piece, &k, points)
+}
+
+/// Compares the slopes that a curve gives by x, if it does, with those of its points.
+fn check_slopes<T: Real>(
+    piece: &Piece<'_, T>,
+    k: &[T; POINTS],
+    points: &[CurvePoint<T>; POINTS],
+) -> Result<(), ProfileError<T>> {
+    let slope = |i: usize| points[i].dy / points[i].dx;
+    for i in 1..NODES - 1 {
+        let Some(given) = piece.curve.slope_at(points[i].x) else { return Ok(()) };
+        let difference = slope(i);
+        let changes = (slope(i + 1) - slope(i - 1)).abs();
+        let allowed =
+            T::epsilon().cbrt() * (given.abs() + difference.abs()) + T::of(1e-3) * changes;
+        if (given - difference).abs() > allowed {
+            let quantity = "slope_at(x)";
+            return Err(ProfileError::Derivative { quantity, k: k[i], given, difference });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! A stretch of a smooth curve as two series in its parameter, made from few points of it.
+//!
+//! A call of a curve gives a place and its rate. The rates X'(k), Y'(k) at Chebyshev's nodes make two
+//! series; their integrals are compared with X and Y there, which are independent data. The mismatch
+//! and the last coefficients say how far the series can be trusted: a wave too fine for them shows in
+//! the mismatch.
+
+use crate::numerics::chebyshev::{Table, evaluate, values};
+use crate::{CurvePoint, Real};
+use std::array::from_fn;
+
+/// Chebyshev nodes of a stretch.
+pub(super) const NODES: usize = 8;
+
+/// All points of a stretch: one more, which the series must meet. Nothing that vanishes at all nodes, as a Chebyshev
+/// polynomial does, vanishes there.
+pub(super) const POINTS: usize = NODES + 1;
+
+/// The place of that one.
+const PROBE: f64 = 0.086;
+
+/// Steps to the root of `X(t) = x`, each by Newton's rule or a bisection.
+const MOST_STEPS: usize = 60;
+
+/// Units in the last place by which a sum of a series may be off.
+const ROUNDING: f64 = 32.0;
+
+/// A point of a body as a graph over x.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<T> {
+    pub x: T,
+    pub y: T,
+    /// dY/dX; may be infinite, or NaN where `Y'/X'` is 0/0.
+    pub slope: T,
+    /// Uncertainty of the slopes around it, beyond rounding.
+    pub doubt: T,
+}
+
+/// X and Y over a variable t from -1, the left end of a stretch, to 1.
+#[derive(Clone, Debug)]
+pub(crate) struct Series<T> {
+    /// The range of the parameter of the curve.
+    k: [T; 2],
+    x: [T; NODES + 1],
+    y: [T; NODES + 1],
+    /// The points it is made from, by rising x.
+    pub(super) rows: [Row<T>; NODES],
+    /// Uncertainty of the heights, a length; infinite where a point is not finite.
+    pub doubt: T,
+    /// Whether that is rounding.
+    pub is_exact: bool,
+}
+
+impl<T: Real> Series<T> {
+    /// Returns the parameters of the points that a series on a range of k is made from.
+    pub fn parameters([left, right]: [T; 2]) -> [T; POINTS] {
+        let (half, table) = (T::of(0.5), Table::of(NODES));
+        let (middle, reach) = (half * left + half * right, half * right - half * left);
+        from_fn(|j| middle + reach * T::of(if j < NODES { table.z[j] } else { PROBE }))
+    }
+
+    /// Makes the series on a range of k.
+    pub fn new([left, right]: [T; 2], points: &[CurvePoint<T>; POINTS]) -> Self {
+        let (zero, reach) = (T::zero(), T::of(0.5) * right - T::of(0.5) * left);
+        let x = Primitive::new(points.map(|at| at.x), points.map(|at| at.dx * reach));
+        let y = Primitive::new(points.map(|at| at.y), points.map(|at| at.dy * reach));
+        let steep =
+            ((points[NODES - 1].y - points[0].y) / (points[NODES - 1].x - points[0].x)).abs();
+        let slopes: [T; NODES] = from_fn(|j| points[j].dy / points[j].dx);
+        // A point of the series lies beside the curve; what counts is its distance along y.
+        let missed = (0..POINTS).fold(zero, |most, j| {
+            let slope = points[j].dy / points[j].dx;
+            let slope = if slope.is_finite() { slope } else { steep };
+            most.max((y.missed[j] - slope * x.missed[j]).abs())
+        });
+        let tail = y.tail + if x.tail.is_zero() { zero } else { steep * x.tail };
+        // The next coefficients of the heights are those of the rates, halved and divided by their number.
+        let rounding = y.rounding + if x.rounding.is_zero() { zero } else { steep * x.rounding };
+        let doubt = missed + tail / T::count(NODES);
+        let rows = from_fn(|j| {
+            let along = if slopes[j].is_finite() { slopes[j].abs() } else { zero };
+            let error = T::count(NODES) * missed + y.tail + along * x.tail;
+            let beyond = error - (y.rounding + along * x.rounding);
+            let rate = (points[j].dx * reach).abs();
+            let doubt = if beyond > zero { beyond / rate } else { zero };
+            Row { x: points[j].x, y: points[j].y, slope: slopes[j], doubt }
+        });
+        // Between points at which X stands still nothing is known.
+        let length = points[NODES - 1].x - points[0].x;
+        let astray = x.missed.iter().fold(zero, |most, missed| most.max(missed.abs()));
+        let known = doubt.is_finite() && astray <= T::of(0.1) * length;
+        let is_exact = known && doubt <= rounding;
+        let doubt = if known { doubt } else { T::one() / zero };
+        Self { k: [left, right], x: x.series, y: y.series, rows, doubt, is_exact }
+    }
+
+    /// Returns about the parameter of the curve at x; `None` outside the outermost points.
+    pub fn parameter_near(&self, x: T) -> Option<T> {
+        let between = [self.rows[0].x, self.rows[NODES - 1].x];
+        if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
+            return None;
+        }
+        let (half, t) = (T::of(0.5), self.parameter(x, between));
+        Some(half * (T::one() - t) * self.k[0] + half * (T::one() + t) * self.k[1])
+    }
+
+    /// Returns x, height and slope at one end: t is -1 or 1.
+    pub fn at_end(&self, t: T) -> [T; 3] {
+        let ([x], [dx]) = evaluate(&self.x, &[t]);
+        let ([y], [dy]) = evaluate(&self.y, &[t]);
+        [x, y, dy / dx]
+    }
+
+    /// Returns by how much it misses a point of the curve at t, along y and beyond rounding.
+    pub fn miss(&self, t: T, point: &CurvePoint<T>) -> T {
+        let [x, y, _] = self.at_end(t);
+        let slope = point.dy / point.dx;
+        let missed = (point.y - y - slope * (point.x - x)).abs();
+        let size = point.y.abs() + (slope * point.x).abs();
+        (missed - T::of(ROUNDING) * T::epsilon() * size).max(T::zero())
+    }
+
+    /// Returns height and slope at x, on a stretch between two places.
+    pub fn at(&self, x: T, between: [T; 2]) -> [T; 2] {
+        let [_, y, slope] = self.at_end(self.parameter(x, between));
+        [y, slope]
+    }
+
+    /// Solves `X(t) = x`, given x at both ends.
+    pub fn parameter(&self, x: T, [from, to]: [T; 2]) -> T {
+        let (one, half) = (T::one(), T::of(0.5));
+        let [mut low, mut high] = [-one, one];
+        if x <= from || x >= to {
+            return if x <= from { low } else { high };
+        }
+        let mut t = self.guess(x, [from, to]);
+        // Newton's rule squares what is left.
+        let small = T::of(0.125) * T::epsilon().sqrt();
+        let mut more = T::DERIVATIVE_ORDER;
+        for _ in 0..MOST_STEPS {
+            let ([at], [rate]) = evaluate(&self.x, &[t]);
+            *(if at > x { &mut high } else { &mut low }) = t;
+            let newton = t + (x - at) / rate;
+            let is_inside = newton >= low && newton <= high;
+            let next = if is_inside { newton } else { half * (low + high) };
+            let step = (next - t).abs();
+            t = next;
+            if step <= small {
+                if more == 0 {
+                    break;
+                }
+                more -= 1;
+            }
+        }
+        t
+    }
+
+    /// Returns about where X(t) = x, by the points around x.
+    fn guess(&self, x: T, [from, to]: [T; 2]) -> T {
+        let one = T::one();
+        let after = self.rows.partition_point(|row| row.x <= x);
+        let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.rows[i].x);
+        let (start, x0) = after.checked_sub(1).map_or((-one, from), place);
+        let (end, x1) = if after < NODES { place(after) } else { (one, to) };
+        let t = start + (end - start) * ((x - x0) / (x1 - x0));
+        if t > -one && t < one { t } else { T::zero() }
+    }
+}
+
+/// One coordinate, from its rates.
+struct Primitive<T> {
+    series: [T; NODES + 1],
+    /// The values less the series.
+    missed: [T; POINTS],
+    /// The last two coefficients of the rates, and what they miss of the last one.
+    tail: T,
+    rounding: T,
+}
+
+impl<T: Real> Primitive<T> {
+    fn new(at: [T; POINTS], rates: [T; POINTS]) -> Self {
+        let (zero, table) = (T::zero(), Table::of(NODES));
+        let c = table.coefficients(&from_fn::<T, NODES, _>(|j| rates[j]));
+        let mut series = [zero; NODES + 1];
+        // ∫ T_k dt = T_{k+1}/(2(k+1)) - T_{k-1}/(2(k-1)), and T₁ of T₀, T₂/4 of T₁.
+        for k in 1..=NODES {
+            let before = if k == 1 { c[0] + c[0] } else { c[k - 1] };
+            let after = c.get(k + 1).copied().unwrap_or(zero);
+            series[k] = (before - after) / T::count(2 * k);
+        }
+        let places = from_fn(|j| T::of(if j < NODES { table.z[j] } else { PROBE }));
+        let integral: [T; POINTS] = values(&series, &places);
+        let rest: [T; POINTS] = from_fn(|j| at[j] - integral[j]);
+        let mean = rest.iter().fold(zero, |sum, &rest| sum + rest) / T::count(POINTS);
+        series[0] = mean;
+        let [rate] = values(&c, &[places[NODES]]);
+        let size = at.iter().chain(&c).fold(zero, |sum, value| sum + value.abs());
+        Self {
+            series,
+            missed: rest.map(|rest| rest - mean),
+            tail: c[NODES - 1].abs() + c[NODES - 2].abs() + (rates[NODES] - rate).abs(),
+            rounding: T::of(ROUNDING) * T::epsilon() * size,
+        }
+    }
+}
