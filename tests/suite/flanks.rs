@@ -6,7 +6,7 @@ use crate::common::{Counting, Profile, Strategy};
 use crate::random_scenes::Dice;
 use linecontact::profile::{Involute, Placed, Placement};
 use linecontact::search::SearchError;
-use linecontact::{Body, Contact, ContactError, Control, Curve, CurvePoint, Flat};
+use linecontact::{Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Evaluations of a solve under half the load that are not worth counting: a look at heights took as many.
@@ -110,8 +110,9 @@ fn a_strategy_that_stops_in_the_middle_is_refused_beside_noise() {
     let middle = Strategy(|f, b| Strategy::take(0.5 * b.lo + 0.5 * b.hi, f, b));
     let flank = Flank { radius: 47.0, at: 0.03, angles: [0.0, 0.9] };
     let body = flank.noisy(true, 90.0, false);
-    // With the heights of the bodies at hand no strategy is needed.
-    let contact = Contact::new(&Flat, &*body).unwrap().inversion(&middle).single_interval(true);
+    // Where a start is given no height is known, by which points would be found without it.
+    let start = Interval { left: -3e-6, right: 3e-6 };
+    let contact = Contact::new(&Flat, &*body).unwrap().inversion(&middle).start(start);
     let error = contact.solve(Control::Load(1e-12)).map(|_| ()).unwrap_err();
     let source = SearchError::NotConverged { x: 0.0, residual: 0.0 };
     let same =
