@@ -34,8 +34,9 @@ const MISSED: f64 = 8.0;
 /// Looks at stretches, each at the panels that the one before has refined.
 const MOST_ROUNDS: usize = 40;
 
-/// Points on one stretch.
-const MOST_POINTS: usize = 1 << 12;
+/// Points for one load. Where a load reaches further than so many are close, as between steps of narrow flanks, they
+/// are further apart.
+const MOST_POINTS: usize = 1 << 10;
 
 /// Halvings in search of the place where the gap leaves the reach of a load.
 const MOST_HALVES: usize = 60;
@@ -210,6 +211,14 @@ impl<T: Real> Survey<T> {
                 }
                 from = on.map_or(to, |on| end.max(on.right));
             }
+        }
+        let points = found
+            .iter()
+            .fold(T::zero(), |sum, Stretch { x, apart, .. }| sum + (x[1] - x[0]) / *apart);
+        let times = points / T::count(MOST_POINTS);
+        if times > T::one() {
+            found.iter_mut().for_each(|stretch| stretch.apart *= times);
+            found.retain(|Stretch { x, apart, .. }| x[1] - x[0] > *apart);
         }
     }
 
