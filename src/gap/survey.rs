@@ -262,11 +262,9 @@ impl<T: Real> Survey<T> {
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
             let half = T::of(0.5);
-            let is_marked = |panel: &Panel<T>| {
-                is_in(wanted[which as usize], panel) && panel.may_gain(half * tolerance)
-            };
-            let before = cost.heights;
-            let found = body.refine(surface, self.range, is_marked, &mut cost.heights);
+            let is_marked = |panel: &Panel<T>| panel.may_gain(half * tolerance);
+            let (before, wanted) = (cost.heights, wanted[which as usize]);
+            let found = body.refine(surface, self.range, wanted, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
@@ -279,7 +277,8 @@ impl<T: Real> Survey<T> {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
-            body.fresh.sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
+            body.fresh
+                .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
         }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
@@ -379,13 +378,6 @@ fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Vec<T>) {
             nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
         }
     }
-}
-
-/// Tells whether a panel overlaps one of some spans, in rising order.
-fn is_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> bool {
-    let [from, to] = panel.x();
-    let first = spans.partition_point(|span| span[1] <= from);
-    spans.get(first).is_some_and(|span| span[0] < to)
 }
 
 /// Returns a body at x, on its left and on its right, given its points up to x.

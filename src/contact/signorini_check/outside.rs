@@ -212,6 +212,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             if verdict == Verdict::Overlap {
+                if std::env::var("DBG").is_ok() {
+                    eprintln!(
+                        "verify x {x:?} low {low:?} hidden {hidden:?} from.hidden {:?} edge {:?} kappa {:?} load {:?}",
+                        from.hidden, from.edge, self.kappa, load
+                    );
+                    look.dump(x);
+                    look.dump(from.edge);
+                }
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
                 is_hidden |= is_open;
                 worst =

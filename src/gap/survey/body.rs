@@ -3,6 +3,7 @@
 use super::panel::{NODES, POINTS, Row, Series};
 use super::segment::Segment;
 use crate::gap::Surface;
+use crate::numerics::chebyshev::Table;
 use crate::profile::{Convexity, Piece, first_turn};
 use crate::{CurvePoint, ProfileError, Real, Side};
 
@@ -24,8 +25,8 @@ const LEFT: f64 = 0.01;
 /// terms 1/256 or less.
 const GAIN: f64 = 0.125;
 
-/// The x-length of a body beyond that of the common range from which on it is narrowed.
-const LONG: f64 = 4.0;
+/// The share of a panel up to which what is asked for of it is cut out of it; of more it is halved.
+const WINDOW: f64 = 0.25;
 
 /// A body, as it is known by now.
 #[derive(Clone, Debug)]
@@ -173,92 +174,69 @@ impl<T: Real> Body<T> {
         self.rows.clear();
         self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         self.sample(surface, range, heights)?;
-        for i in 0..self.panels.len() {
-            self.narrow(i, surface, range, heights)?;
-        }
         self.list(range);
-        Ok(())
-    }
-
-    /// Brings a panel that is far longer than the common range to where that is.
-    fn narrow(
-        &mut self,
-        i: usize,
-        surface: &Surface<'_, T>,
-        range: [T; 2],
-        heights: &mut usize,
-    ) -> Result<(), ProfileError<T>> {
         for _ in 0..MOST_WINDOWS {
-            let panel = self.panels[i];
-            let ([from, to], Some(number)) = (panel.x(), panel.series) else { return Ok(()) };
-            let series = &self.series[number];
-            if !(to - from > T::of(LONG) * (range[1] - range[0]) && series.doubt.is_finite()) {
-                return Ok(());
-            }
-            let [left, right] = range.map(|x| series.parameter(x, [from, to]));
-            let (one, half) = (T::one(), T::of(0.5));
-            let margin = half * half * (right - left) + T::of(1e-3);
-            let [left, right] = [(left - margin).max(-one), (right + margin).min(one)];
-            let at = |t: T| half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
-            let mut next = Panel { k: [at(left), at(right)], ..panel };
-            for (end, t) in [left, right].into_iter().enumerate() {
-                if t.abs() < one {
-                    let [x, y, slope] = series.at_end(t);
-                    next.ends[end] = Row { x, y, slope, doubt: T::zero() };
-                    next.is_inside[end] = true;
-                }
-            }
-            self.panels[i] = next;
-            self.scratch.wanted.clear();
-            self.scratch.wanted.push(i);
-            self.sample(surface, range, heights)?;
-            let next = &mut self.panels[i];
-            let series = next.series.map(|number| &self.series[number]);
-            for (end, t) in [-one, one].into_iter().enumerate() {
-                if let Some(series) = series.filter(|_| next.is_inside[end]) {
-                    next.ends[end].x = series.at_end(t)[0];
-                }
-            }
-            let [from, to] = next.x();
-            if !(from <= range[0] && to >= range[1]) {
-                // The window has missed the range.
-                self.panels[i] = panel;
-                self.scratch.wanted.clear();
-                self.scratch.wanted.push(i);
-                return self.sample(surface, range, heights);
+            let is_long = |panel: &Panel<T>| {
+                let [from, to] = panel.x();
+                panel.series.is_some()
+                    && panel.doubt.is_finite()
+                    && to - from > (range[1] - range[0]) / T::of(WINDOW)
+            };
+            if !self.refine(surface, range, &[range], is_long, heights)? {
+                break;
             }
         }
         Ok(())
     }
 
-    /// Returns the evaluations that it may take to refine the panels that are marked.
-    pub fn cost(&self, surface: &Surface<'_, T>, is_marked: impl Fn(&Panel<T>) -> bool) -> usize {
-        let batches = |panel: &Panel<T>| match panel.series {
-            Some(_) => 2,
-            None => usize::from(!panel.is_sampled && settled(surface, panel).is_none()),
+    /// Returns the evaluations that it may take to refine the panels on some spans that are marked.
+    pub fn cost(
+        &self,
+        surface: &Surface<'_, T>,
+        spans: &[[T; 2]],
+        is_marked: impl Fn(&Panel<T>) -> bool,
+    ) -> usize {
+        let batches = |panel: &Panel<T>| {
+            let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else { return 0 };
+            match panel.series {
+                Some(number) if self.window(panel, &self.series[number], hull).is_some() => 1,
+                Some(_) => 2,
+                None => usize::from(!panel.is_sampled && settled(surface, panel).is_none()),
+            }
         };
-        POINTS * self.panels.iter().filter(|panel| is_marked(panel)).map(batches).sum::<usize>()
+        POINTS * self.panels.iter().map(batches).sum::<usize>()
     }
 
-    /// Refines the panels that are marked: halves those that are sampled, and looks into the others.
+    /// Returns where to cut a panel that is far longer than a span of x: on either side of that, as its series has it.
+    fn window(&self, panel: &Panel<T>, series: &Series<T>, hull: [T; 2]) -> Option<[T; 2]> {
+        let [start, end] = panel.k.map(|k| series.t(k));
+        let [left, right] = hull.map(|x| series.parameter(x));
+        let margin = T::of(0.25) * (right - left) + T::of(5e-4) * (end - start);
+        let cuts = [(left - margin).max(start), (right + margin).min(end)];
+        let is_short = cuts[1] - cuts[0] <= T::of(WINDOW) * (end - start);
+        (series.doubt.is_finite() && is_short).then_some(cuts)
+    }
+
+    /// Refines the panels on some spans that are marked: cuts out of those that are far longer what is on them, halves
+    /// others that are sampled, and looks into the rest.
     pub fn refine(
         &mut self,
         surface: &Surface<'_, T>,
         range: [T; 2],
+        spans: &[[T; 2]],
         is_marked: impl Fn(&Panel<T>) -> bool,
         heights: &mut usize,
     ) -> Result<bool, ProfileError<T>> {
-        let half = T::of(0.5);
         let mut old = std::mem::take(&mut self.scratch.panels);
         std::mem::swap(&mut old, &mut self.panels);
         self.panels.clear();
         self.scratch.wanted.clear();
         let mut changes = false;
         for panel in &old {
-            if !is_marked(panel) {
+            let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else {
                 self.panels.push(*panel);
                 continue;
-            }
+            };
             changes = true;
             self.fresh.push(panel.x());
             if !panel.is_sampled {
@@ -269,21 +247,7 @@ impl<T: Real> Body<T> {
                 self.panels.push(Panel { is_sampled: true, ..settled.unwrap_or(*panel) });
                 continue;
             }
-            let middle = half * panel.k[0] + half * panel.k[1];
-            let [from, to] = panel.x();
-            let centre = half * from + half * to;
-            let at = panel.series.map_or(panel.ends[0], |number| {
-                let [x, y, slope] = self.series[number].at_end(T::zero());
-                Row { x: if x > from && x < to { x } else { centre }, y, slope, doubt: T::zero() }
-            });
-            let (mut left, mut right) = (*panel, *panel);
-            (left.k[1], left.ends[1], left.is_inside[1]) = (middle, at, true);
-            (right.k[0], right.ends[0], right.is_inside[0]) = (middle, at, true);
-            right.series = None;
-            for part in [left, right] {
-                self.scratch.wanted.push(self.panels.len());
-                self.panels.push(part);
-            }
+            self.split(panel, hull);
         }
         old.clear();
         self.scratch.panels = old;
@@ -292,6 +256,53 @@ impl<T: Real> Body<T> {
             self.list(range);
         }
         Ok(changes)
+    }
+
+    /// Puts the parts of a sampled panel in its place.
+    fn split(&mut self, panel: &Panel<T>, hull: [T; 2]) {
+        let Some(series) = panel.series.map(|number| &self.series[number]) else {
+            return self.panels.push(*panel);
+        };
+        let (half, [start, end]) = (T::of(0.5), panel.k.map(|k| series.t(k)));
+        let window = self.window(panel, series, hull);
+        let cuts = window.unwrap_or([half * (start + end), end]);
+        let (mut parts, mut rest) = ([None; 3], *panel);
+        for (part, &t) in parts.iter_mut().zip(&cuts) {
+            let k = series.k(t);
+            if t <= start || t >= end || k <= rest.k[0] || k >= panel.k[1] {
+                continue;
+            }
+            let ([x, y, slope], [from, to]) = (series.at_t(t), rest.x());
+            let x = if x > from && x < to { x } else { half * (from + to) };
+            let at = Row { x, y, slope, doubt: T::zero() };
+            let mut before = rest;
+            (before.k[1], before.ends[1], before.is_inside[1]) = (k, at, true);
+            (rest.k[0], rest.ends[0], rest.is_inside[0]) = (k, at, true);
+            *part = Some(before);
+        }
+        // No parameter lies between its ends.
+        if parts.iter().all(Option::is_none) {
+            return self.panels.push(Panel {
+                vain: MOST_IN_VAIN,
+                doubt: series.doubt,
+                is_void: false,
+                ..*panel
+            });
+        }
+        // Of a window that reaches to the end there is no rest.
+        let last = if parts[1].is_none() { 1 } else { 2 };
+        parts[last] = Some(rest);
+        let doubt = series.doubt;
+        for (i, part) in parts.into_iter().enumerate() {
+            let Some(part) = part else { continue };
+            // On either side of a window the series is as good as it was.
+            if window.is_some() && i != 1 {
+                self.panels.push(Panel { doubt, is_void: false, ..part });
+            } else {
+                self.scratch.wanted.push(self.panels.len());
+                self.panels.push(Panel { series: None, ..part });
+            }
+        }
     }
 
     /// Samples the panels that are wanted, those of a piece in one batch.
@@ -318,6 +329,11 @@ impl<T: Real> Body<T> {
             for (&i, points) in batch.iter().zip(points.as_chunks::<POINTS>().0) {
                 let panel = &mut self.panels[i];
                 let mut series = Series::new(panel.k, points);
+                for (end, t) in [-T::one(), T::one()].into_iter().enumerate() {
+                    let outer = panel.ends[end].x;
+                    series.between[end] =
+                        if panel.is_inside[end] { series.at_t(t)[0] } else { outer };
+                }
                 let missed = missed_by(&series, panel, &self.missed);
                 let is_void = missed.is_some();
                 if is_void {
@@ -335,25 +351,21 @@ impl<T: Real> Body<T> {
                 }
                 (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
                 check(&piece, panel, points, range)?;
-                match panel.series {
-                    Some(number) => self.series[number] = series,
-                    None => {
-                        panel.series = Some(self.series.len());
-                        self.series.push(series);
-                    }
-                }
+                panel.series = Some(self.series.len());
+                self.series.push(series);
             }
             for &i in batch {
                 self.meet(i);
+                self.meet(i + 1);
             }
         }
         self.scratch.wanted = wanted;
         Ok(())
     }
 
-    /// Sets the place where a panel and the one before it meet, inside a piece, by what both say.
+    /// Sets the place where a panel and the one before it meet, inside a piece, by what the better known of both says.
     fn meet(&mut self, i: usize) {
-        let Some(before) = i.checked_sub(1) else { return };
+        let Some(before) = i.checked_sub(1).filter(|_| i < self.panels.len()) else { return };
         let [left, right] = [self.panels[before], self.panels[i]];
         let both = left
             .series
@@ -361,14 +373,12 @@ impl<T: Real> Body<T> {
             .filter(|_| right.is_inside[0] && left.piece == right.piece);
         let Some((one, other)) = both else { return };
         let (one, other) = (&self.series[one], &self.series[other]);
-        let ([x, y, slope], [after, ..]) = (one.at_end(T::one()), other.at_end(-T::one()));
-        let between = [one.rows[NODES - 1].x, other.rows[0].x];
-        let half = T::of(0.5);
-        let mut at = half * x + half * after;
-        if !(at >= between[0] && at <= between[1]) {
-            at = half * between[0] + half * between[1];
-        }
-        let end = Row { x: at, y, slope, doubt: T::zero() };
+        let known = if other.doubt < one.doubt { other } else { one };
+        let [x, y, slope] = known.at_t(known.t(right.k[0]));
+        let from = inner(&self.series, &left).last().map_or(left.ends[0].x, |row| row.x);
+        let to = inner(&self.series, &right).first().map_or(right.ends[1].x, |row| row.x);
+        let x = if x >= from && x <= to { x } else { T::of(0.5) * from + T::of(0.5) * to };
+        let end = Row { x, y, slope, doubt: T::zero() };
         (self.panels[before].ends[1], self.panels[i].ends[0]) = (end, end);
     }
 
@@ -377,7 +387,7 @@ impl<T: Real> Body<T> {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
         for panel in &self.panels {
-            let inner = panel.series.map_or(&[][..], |number| &self.series[number].rows[..]);
+            let inner = inner(&self.series, panel);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
             // X may stand still for its rounding, where a body is all but upright.
             let mut reached = None;
@@ -415,7 +425,7 @@ impl<T: Real> Body<T> {
         let [y, slope, doubt] = match usable {
             Some(number) => {
                 let series = &self.series[number];
-                let [y, slope] = series.at(x, panel.x());
+                let [y, slope] = series.at(x);
                 let near = series.rows.partition_point(|row| row.x < x).min(NODES - 1);
                 [y, slope, series.rows[near].doubt]
             }
@@ -432,15 +442,33 @@ impl<T: Real> Body<T> {
     }
 }
 
+/// Returns the points inside a panel.
+fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [Row<T>] {
+    let Some(series) = panel.series.map(|number| &series[number]) else { return &[] };
+    let [from, to] = panel.k.map(|k| series.t(k));
+    let nodes = &Table::of(NODES).z[..NODES];
+    let first = nodes.partition_point(|&node| T::of(node) < from);
+    let last = nodes.partition_point(|&node| T::of(node) <= to);
+    &series.rows[first..last.max(first)]
+}
+
+/// Returns the hull of the spans, in rising order, that a panel overlaps, as far as it lies on it.
+pub(super) fn hull_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> Option<[T; 2]> {
+    let [from, to] = panel.x();
+    let first = spans.partition_point(|span| span[1] <= from);
+    let after = spans.partition_point(|span| span[0] < to);
+    (first < after).then(|| [spans[first][0].max(from), spans[after - 1][1].min(to)])
+}
+
 /// Returns a point of a panel that its series misses, as another one has.
 fn missed_by<'m, T: Real>(
     series: &Series<T>,
     panel: &Panel<T>,
     known: &'m [Missed<T>],
 ) -> Option<&'m Missed<T>> {
-    let ([from, to], [left, right]) = (panel.k, panel.x());
+    let [left, right] = panel.x();
     known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
-        let t = ((missed.k - from) - (to - missed.k)) / (to - from);
+        let t = series.t(missed.k);
         let error = series.doubt.max(series.miss(t, &missed.point));
         let is_met = error <= T::of(LEFT) * missed.by;
         // A shorter one has points all over the feature.
@@ -480,8 +508,9 @@ fn check<T: Real>(
     range: [T; 2],
 ) -> Result<(), ProfileError<T>> {
     let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
-    let rounding = T::of(32.0) * T::epsilon() * from.abs().max(to.abs());
     let [first, last] = piece.x();
+    // That of the largest terms which X may be made of.
+    let rounding = T::of(32.0) * T::epsilon() * first.abs().max(last.abs());
     let mut reached = from;
     for (i, point) in points[..NODES].iter().enumerate() {
         let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });

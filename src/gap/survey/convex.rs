@@ -12,7 +12,8 @@
 //! Between places that a load touches in a convex gap it leaves nothing open: h - V would be convex there, and zero
 //! at both ends. So one interval in a convex stretch, beyond which the gap is higher than that, is the contact.
 
-use super::{Node, Panel, Survey, is_in};
+use super::body::hull_in;
+use super::{Node, Panel, Survey};
 use crate::gap::{Cost, Gap};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
@@ -86,8 +87,8 @@ impl<T: Real> Survey<T> {
     ) -> Result<bool, ContactError<T>> {
         let (mut more, mut converges) = (0, true);
         for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(open)) {
-            more += body.cost(surface, |panel| is_in(open, panel) && panel.may_gain(T::zero()));
-            let marked = body.panels.iter().filter(|panel| is_in(open, panel));
+            more += body.cost(surface, open, |panel| panel.may_gain(T::zero()));
+            let marked = body.panels.iter().filter(|panel| hull_in(open, panel).is_some());
             converges &= marked.clone().all(Panel::converges);
         }
         let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;

@@ -46,6 +46,21 @@ impl<T: Real> Survey<T> {
         upper - lower
     }
 
+    pub fn dump(&self, x: T) {
+        for b in &self.bodies {
+            let [_, i] = b.panels_at(x);
+            for j in i.saturating_sub(1)..(i + 2).min(b.panels.len()) {
+                let p = &b.panels[j];
+                eprintln!(
+                    "   panel {:?} doubt {:?} vain {} void {}",
+                    p.x(),
+                    p.doubt,
+                    p.vain,
+                    p.is_void
+                );
+            }
+        }
+    }
     /// Returns the uncertainty of the height at x, that of x itself with it.
     pub fn doubt_at(&self, x: T) -> T {
         let doubt = |body: &super::Body<T>| {

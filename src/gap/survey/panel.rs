@@ -39,6 +39,9 @@ pub(super) struct Row<T> {
 /// X and Y over a variable t from -1, the left end of a stretch, to 1.
 #[derive(Clone, Debug)]
 pub(super) struct Series<T> {
+    /// The ranges of the parameter and of x.
+    k: [T; 2],
+    pub between: [T; 2],
     x: [T; NODES + 1],
     y: [T; NODES + 1],
     /// The points it is made from, by rising x.
@@ -89,11 +92,24 @@ impl<T: Real> Series<T> {
         let known = doubt.is_finite() && astray <= T::of(0.1) * length;
         let is_exact = known && doubt <= rounding;
         let doubt = if known { doubt } else { T::one() / zero };
-        Self { x: x.series, y: y.series, rows, doubt, is_exact }
+        let (k, between) = ([left, right], [points[0].x, points[NODES - 1].x]);
+        Self { k, between, x: x.series, y: y.series, rows, doubt, is_exact }
     }
 
-    /// Returns x, height and slope at one end: t is -1 or 1.
-    pub fn at_end(&self, t: T) -> [T; 3] {
+    /// Returns the parameter of the curve at t.
+    pub fn k(&self, t: T) -> T {
+        let half = T::of(0.5);
+        half * (T::one() - t) * self.k[0] + half * (T::one() + t) * self.k[1]
+    }
+
+    /// Returns t at a parameter of the curve.
+    pub fn t(&self, k: T) -> T {
+        let [from, to] = self.k;
+        ((k - from) - (to - k)) / (to - from)
+    }
+
+    /// Returns x, height and slope at t.
+    pub fn at_t(&self, t: T) -> [T; 3] {
         let ([x], [dx]) = evaluate(&self.x, &[t]);
         let ([y], [dy]) = evaluate(&self.y, &[t]);
         [x, y, dy / dx]
@@ -101,21 +117,22 @@ impl<T: Real> Series<T> {
 
     /// Returns by how much it misses a point of the curve at t, along y and beyond rounding.
     pub fn miss(&self, t: T, point: &CurvePoint<T>) -> T {
-        let [x, y, _] = self.at_end(t);
+        let [x, y, _] = self.at_t(t);
         let slope = point.dy / point.dx;
         let missed = (point.y - y - slope * (point.x - x)).abs();
         let size = point.y.abs() + (slope * point.x).abs();
         (missed - T::of(ROUNDING) * T::epsilon() * size).max(T::zero())
     }
 
-    /// Returns height and slope at x, on a stretch between two places.
-    pub fn at(&self, x: T, between: [T; 2]) -> [T; 2] {
-        let [_, y, slope] = self.at_end(self.parameter(x, between));
+    /// Returns height and slope at x.
+    pub fn at(&self, x: T) -> [T; 2] {
+        let [_, y, slope] = self.at_t(self.parameter(x));
         [y, slope]
     }
 
-    /// Solves `X(t) = x`, given x at both ends.
-    pub fn parameter(&self, x: T, [from, to]: [T; 2]) -> T {
+    /// Solves `X(t) = x`.
+    pub fn parameter(&self, x: T) -> T {
+        let [from, to] = self.between;
         let (one, half) = (T::one(), T::of(0.5));
         let [mut low, mut high] = [-one, one];
         if x <= from || x >= to {

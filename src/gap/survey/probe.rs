@@ -3,8 +3,8 @@
 //! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
 //! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
-use super::body::{Body, Missed, Scratch};
-use super::{Cost, Survey, is_in};
+use super::body::{Body, Missed, Scratch, hull_in};
+use super::{Cost, Survey};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
@@ -162,7 +162,8 @@ impl<T: Real> Survey<T> {
 
     fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
         let panels = self.bodies.iter().flat_map(|body| &body.panels);
-        let mut inside = panels.filter(|panel| is_in(std::slice::from_ref(span), panel));
+        let mut inside =
+            panels.filter(|panel| hull_in(std::slice::from_ref(span), panel).is_some());
         inside.all(|panel| panel.doubt <= tolerance || panel.converges())
     }
 
@@ -278,7 +279,7 @@ impl<T: Real> Body<T> {
 
     /// Places points on a stretch.
     fn place_probes(&self, number: usize, stretch: &mut Stretch<T>, probes: &mut Vec<Probe<T>>) {
-        let (one, half) = (T::one(), T::of(0.5));
+        let half = T::of(0.5);
         let [first, last] = stretch.x.map(|x| self.panels_at(x));
         for i in first[1]..=last[0].max(first[1]) {
             let panel = &self.panels[i];
@@ -289,7 +290,7 @@ impl<T: Real> Body<T> {
             }
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
-            let ends = [from, to].map(|x| series.parameter(x, between));
+            let ends = [from, to].map(|x| series.parameter(x));
             let mut count = 1;
             while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
                 count += 1;
@@ -297,8 +298,7 @@ impl<T: Real> Body<T> {
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
                 let t = ends[0] + share * (ends[1] - ends[0]);
-                let k = half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
-                Probe { stretch: number, panel: i, t, k }
+                Probe { stretch: number, panel: i, t, k: series.k(t) }
             }));
         }
     }

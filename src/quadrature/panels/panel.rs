@@ -209,8 +209,8 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     };
     let plateau = mean(2, 3);
     let faint = plateau <= rounded / T::epsilon().cbrt();
-    let levels_off = plateau >= T::of(0.42) * mean(1, 3)
-        || n >= 24 && mean(3, 4) >= T::of(0.6) * mean(2, 4);
+    let levels_off =
+        plateau >= T::of(0.42) * mean(1, 3) || n >= 24 && mean(3, 4) >= T::of(0.6) * mean(2, 4);
     if n >= 12 && faint && levels_off {
         return Resolution::Noise(plateau);
     }
