@@ -16,7 +16,7 @@ use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
 use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
-use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::gap::{Asked, Cost, Gap, NARROWEST, Survey};
 use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::real::same;
@@ -28,6 +28,13 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 /// alone where they do.
 const ROUGHLY: f64 = 0.25;
 const CLOSELY: f64 = 0.002;
+
+/// The distance of places in a contact, in widths of the narrowest feature to be seen: at three of them from its top the
+/// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
+const BETWEEN: f64 = 6.0;
+
+/// Times that panels which miss a feature are sampled anew.
+const MOST_MISSED: usize = 8;
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
@@ -256,7 +263,6 @@ impl<T: Real> Search<'_, '_, T> {
         let asked = self.asked();
         let (contact, cost) = (self.contact, &mut *self.cost);
         let last = self.workspace.last.first().copied();
-        let mut look = None;
         let told = last.is_some() || contact.start.is_some();
         if looks && !told {
             start = Start::LowestGap;
@@ -264,24 +270,52 @@ impl<T: Real> Search<'_, '_, T> {
                 return (start, Err(error));
             }
         }
-        let Workspace { look: survey, of, .. } = &*self.workspace;
-        if looks && *of == Some(contact.gap.number()) {
-            look = Some(survey);
-        }
         start = match (last, contact.start) {
             (Some(_), _) => Start::Last,
             (_, Some(_)) => Start::Given,
             _ => start,
         };
-        let integrator = &mut *self.integrator;
-        let found = match self.sought {
+        let mut found = self.one_from(last, looks);
+        for _ in 0..MOST_MISSED {
+            let Ok(state) = &found else { break };
+            match self.misses(state) {
+                Ok(false) => break,
+                Ok(true) => found = self.one_from(Some(state.interval), looks),
+                Err(error) => found = Err(error),
+            }
+        }
+        (start, found)
+    }
+
+    /// Seeks one contact around the last one, if any; without it where a survey may say.
+    fn one_from(
+        &mut self,
+        last: Option<Interval<T>>,
+        looks: bool,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        let (contact, integrator) = (self.contact, &mut *self.integrator);
+        let Workspace { look, of, .. } = &*self.workspace;
+        let look = Some(look).filter(|_| looks && *of == Some(contact.gap.number()));
+        let cost = &mut *self.cost;
+        match self.sought {
             Sought::By(conditions) => {
                 let (start, bears) = (contact.start, None);
                 Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
             }
             Sought::Peak(pressure) => peak::find(contact, pressure, look, integrator, last, cost),
-        };
-        (start, found)
+        }
+    }
+
+    /// Looks for narrow features in the contacts that were found; tells whether the panels missed one.
+    fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
+        let (contact, Workspace { look, of, .. }) = (self.contact, &*self.workspace);
+        let gap = &contact.gap.tilted(found.tilt);
+        let load = found.load.abs() / contact.kappa;
+        let is_seen = *of == Some(gap.number()) && look.is_resolved(gap, load);
+        if contact.single_interval || gap.is_convex() || is_seen {
+            return Ok(false);
+        }
+        panels::probe(self.integrator, gap, found.interval, T::of(2.0 * BETWEEN * NARROWEST))
     }
 
     /// Tells whether the gap is lowest elsewhere than it was thought to be, where only one contact can be sought.
@@ -607,8 +641,26 @@ impl<T: Real> Search<'_, '_, T> {
         Err(first.filter(says).or(runs_out).or(fault).unwrap_or(no_balance))
     }
 
-    /// Moves the contacts at hand to where they bear the load.
+    /// Moves the contacts at hand to where they bear the load, again as long as their panels miss narrow features.
     fn converge(
+        &mut self,
+        conditions: &Conditions<T>,
+        corners: Ends<bool>,
+        ends: Ends<T>,
+    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+        let mut found = self.converge_once(conditions, corners, ends)?;
+        for _ in 0..MOST_MISSED {
+            match &found {
+                Ok(state) if self.misses(state)? => {
+                    found = self.converge_once(conditions, corners, ends)?;
+                }
+                _ => break,
+            }
+        }
+        Ok(found)
+    }
+
+    fn converge_once(
         &mut self,
         conditions: &Conditions<T>,
         corners: Ends<bool>,
@@ -679,7 +731,7 @@ impl<T: Real> Search<'_, '_, T> {
                 }
                 let mut corners = corners;
                 corners[side] = false;
-                return self.converge(conditions, corners, ends);
+                return self.converge_once(conditions, corners, ends);
             }
         }
         Ok(Ok(found))

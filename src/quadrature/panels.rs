@@ -230,6 +230,31 @@ pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<
     }
 }
 
+/// Looks between the nodes of the panels of each contact, at places no further apart than a share of its half-width;
+/// tells whether panels have missed a feature, and have been sampled anew.
+///
+/// # Errors
+/// Those of sampling the bodies.
+pub(crate) fn probe<T: Real>(
+    integrator: &mut dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    on: Interval<T>,
+    share: T,
+) -> Result<bool, ContactError<T>> {
+    let integrator: &mut dyn Any = integrator;
+    let Some(integrator) = integrator.downcast_mut::<PanelIntegrator<T>>() else {
+        return Ok(false);
+    };
+    if integrator.is_several {
+        return integrator.several.probe(gap, share);
+    }
+    let is_missed = integrator.panel_set.probe(gap, on, share * on.half_width())?;
+    if is_missed {
+        (integrator.moments, integrator.is_prepared) = (None, false);
+    }
+    Ok(is_missed)
+}
+
 /// Whether an integrator is one of panels.
 pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
     let integrator: &dyn Any = integrator;

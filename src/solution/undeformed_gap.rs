@@ -161,7 +161,8 @@ impl<T: Real> UndeformedGap<T> {
                 if let Some(stop) = stop.filter(|&stop| stop <= start && stop >= end) {
                     found.at = Some(height + slopes.span([start, stop])?.sum[0]);
                 }
-                for node in half.nodes {
+                // They fall, as those of a Gauss rule.
+                for node in half.nodes.into_iter().rev() {
                     slopes.dip(&mut found, [before, Some(node)], height, start)?;
                     before = Some(node);
                 }

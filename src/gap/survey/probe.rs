@@ -10,8 +10,8 @@ use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
 
-/// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies next to.
-const NARROWEST: f64 = 0.02;
+/// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies in or next to.
+pub(crate) const NARROWEST: f64 = 0.02;
 
 /// The distance of points, in such widths.
 const APART: f64 = 4.5;
@@ -68,6 +68,12 @@ impl<T: Real> Stretch<T> {
 }
 
 impl<T: Real> Survey<T> {
+    /// Tells whether narrow features were looked for under a heavier load: beside its contacts a lighter one touches
+    /// nothing.
+    pub fn is_resolved(&self, gap: &Gap<'_, T>, load: T) -> bool {
+        self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()))
+    }
+
     /// Looks for narrow features that the load F/κ may press on beside the contacts, and refines panels that miss one.
     ///
     /// # Errors
@@ -79,10 +85,7 @@ impl<T: Real> Survey<T> {
         contacts: &[Interval<T>],
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        // Beside the contacts of a heavier load a lighter one touches nothing.
-        let is_lighter =
-            self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()));
-        if is_lighter {
+        if self.is_resolved(gap, load) {
             return Ok(());
         }
         let mut stretches = std::mem::take(&mut self.stretches);

@@ -16,6 +16,9 @@ pub(crate) struct Panel<T> {
     pub counting: usize,
     /// Estimated largest error of the series.
     pub tail: T,
+    /// The largest distance of places in a contact at which the series is known to be right; infinite if nothing
+    /// but its nodes was looked at.
+    pub apart: T,
     /// The first coefficient before the bodies were turned.
     pub(super) untilted: T,
 }
@@ -23,8 +26,8 @@ pub(crate) struct Panel<T> {
 impl<T: Real> Panel<T> {
     /// Not sampled yet.
     pub fn new(x: [T; 2]) -> Self {
-        let zero = T::zero();
-        Self { x, n: 0, series: [zero; MOST], counting: 0, tail: zero, untilted: zero }
+        let (zero, apart) = (T::zero(), T::one() / T::zero());
+        Self { x, n: 0, series: [zero; MOST], counting: 0, tail: zero, apart, untilted: zero }
     }
 
     /// Takes the series for that of a panel with n nodes.

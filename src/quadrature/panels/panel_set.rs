@@ -2,6 +2,7 @@
 
 mod candidate;
 mod derivative_check;
+mod probing;
 mod sampling;
 mod seams;
 

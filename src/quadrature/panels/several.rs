@@ -171,6 +171,16 @@ impl<T: Real> Several<T> {
         Ok(())
     }
 
+    /// Looks between the nodes of all contacts.
+    pub fn probe(&mut self, gap: &Gap<'_, T>, share: T) -> Result<bool, ContactError<T>> {
+        let mut is_missed = false;
+        for part in &mut self.parts[..self.count] {
+            let on = part.on;
+            is_missed |= part.panel_set.probe(gap, on, share * on.half_width())?;
+        }
+        Ok(is_missed)
+    }
+
     /// Makes ready for pressures.
     pub fn press(&mut self) {
         for i in 0..self.count {
