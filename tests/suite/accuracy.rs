@@ -146,7 +146,8 @@ fn the_papers_example_3_takes_few_calls() {
     let (calls, cost) = (calls.load(Ordering::Relaxed) - before, solution.cost());
     println!("{calls} calls, {cost:?} of them by solve");
     assert_eq!(calls, cost.evaluations + cost.heights);
-    assert!(cost.evaluations <= 32 && cost.heights <= 2 * 64, "{cost:?}");
+    // Of the heights 24 are slopes between the nodes.
+    assert!(cost.evaluations <= 32 && cost.heights <= 2 * (64 + 12), "{cost:?}");
 }
 
 #[test]

@@ -7,8 +7,8 @@ use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Material, Midpoint, PlaneState, Reference,
-    References, Solution, Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Material, Midpoint,
+    ParametricProfile, Piecewise, PlaneState, Reference, References, Solution, Solver,
 };
 use std::f64::consts::{E, PI};
 
@@ -493,4 +493,43 @@ fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
         }
     }
     assert!(lifted > 10, "{lifted}");
+}
+
+/// `[w, a, phase, F/κ]` of x²/2 + a cos(w x + phase): one or three contacts, and a lowest gap that lies between nodes.
+const WAVES: [[f64; 4]; 4] = [
+    [80.80260641686415, 0.001721908468471409, 6.183185815255985, 0.12782336085816706],
+    [202.4333852216777, 0.00031982018516524664, 2.5301362929552536, 0.004726301162679326],
+    [160.23849996902157, 0.0005107267983487047, 1.6206137264615368, 0.04624980849022112],
+    [40.60496642778215, 0.008443102511219413, 1.3734004202307304, 0.11400674544746076],
+];
+
+/// The approach counts from first touch. Where a piece ends there the lowest gap is at a point that is known.
+#[test]
+fn first_touch_of_wavy_bodies_is_at_the_lowest_gap() {
+    for [w, a, phase, load] in WAVES {
+        let height = move |x: f64| 0.5 * x * x + a * (w * x + phase).cos();
+        let places = (0..40_000).map(|i| -1.0 + 2.0 * f64::from(i) / 40_000.0);
+        let lowest = places.min_by(|&one, &other| height(one).total_cmp(&height(other)));
+        let mut lowest = lowest.unwrap();
+        for _ in 0..20 {
+            let (sine, cosine) = (w * lowest + phase).sin_cos();
+            lowest -= (lowest - a * w * sine) / (1.0 - a * w * w * cosine);
+        }
+        let piece = |from: f64, to: f64| {
+            Curve::new([from, to], move |k: f64| {
+                let (sine, cosine) = (w * k + phase).sin_cos();
+                CurvePoint { x: k, y: 0.5 * k * k + a * cosine, dx: 1.0, dy: k - a * w * sine }
+            })
+        };
+        let (whole, cut) = (piece(-1.0, 1.0), [piece(-1.0, lowest), piece(lowest, 1.0)]);
+        let cut = Piecewise::new(cut.into()).unwrap();
+        let bodies: [&dyn ParametricProfile<f64>; 2] = [&whole, &cut];
+        let [found, want] = bodies.map(|body| {
+            let contact = Contact::new(&Flat, body).unwrap();
+            let contact = contact.materials(Material::Rigid, STEEL, PlaneState::Strain);
+            let solution = contact.solve(Control::Load(load / share(STEEL) / 2.0)).unwrap();
+            solution.approach(&deep(0.3, 0.5)).unwrap().bodies
+        });
+        assert!((found / want - 1.0).abs() < 1e-11, "{w}: {found} for {want}");
+    }
 }
