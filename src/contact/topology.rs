@@ -308,11 +308,14 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Looks for narrow features in the contacts that were found; tells whether the panels missed one.
     fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
-        let (contact, Workspace { look, of, .. }) = (self.contact, &*self.workspace);
+        let contact = self.contact;
+        if contact.single_interval || contact.gap.is_convex() {
+            return Ok(false);
+        }
+        let (Workspace { look, of, .. }, load) =
+            (&*self.workspace, found.load.abs() / contact.kappa);
         let gap = &contact.gap.tilted(found.tilt);
-        let load = found.load.abs() / contact.kappa;
-        let is_seen = *of == Some(gap.number()) && look.is_resolved(gap, load);
-        if contact.single_interval || gap.is_convex() || is_seen {
+        if *of == Some(gap.number()) && look.is_resolved(gap, load) {
             return Ok(false);
         }
         panels::probe(self.integrator, gap, found.interval, T::of(2.0 * BETWEEN * NARROWEST))
