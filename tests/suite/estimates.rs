@@ -275,3 +275,29 @@ fn the_estimate_covers_the_error_at_a_breakpoint() {
     let peak = beside - value;
     assert!(peak > 0.0 && peak <= error && error <= 100.0 * kink, "{peak:e} {error:e}");
 }
+
+/// Panels of 32 nodes each hold three waves, so that no polynomial reaches far beyond its own: where two meet the pressure is
+/// as smooth as elsewhere.
+#[test]
+fn the_pressure_of_waves_is_smooth_where_panels_meet() {
+    for [w, a, phase, load] in [
+        [134.6638762193053, 0.0003638433659293389, 4.786343212359192, 0.029679263050086776],
+        [123.47355143279809, 0.000761695177435083, 1.8147298237483107, 0.385216060474525],
+    ] {
+        let body = Curve::new([-1.0, 1.0], move |k: f64| {
+            let (sine, cosine) = (w * k + phase).sin_cos();
+            CurvePoint { x: k, y: 0.5 * k * k + a * cosine, dx: 1.0, dy: k - a * w * sine }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let (on, count) = (solution.hull(), 100_000);
+        let angle = |i: usize| PI * (i as f64 + 0.5) / count as f64;
+        let x: Vec<f64> = (0..count).map(|i| on.at_angle(angle(i))).collect();
+        let mut p = vec![0.0; count];
+        solution.pressure().unwrap().at_many(&x, &mut p).unwrap();
+        // The fourth difference of an analytic function.
+        let rough = |p: &[f64]| (p[0] + p[4] - 4.0 * (p[1] + p[3]) + 6.0 * p[2]).abs();
+        let worst = p.windows(5).map(rough).fold(0.0, f64::max);
+        assert!(worst < 1e-11, "{w}: {worst:e}");
+    }
+}

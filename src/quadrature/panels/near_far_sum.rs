@@ -14,7 +14,11 @@ use crate::numerics::chebyshev::{MOST, Row, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 
-/// How far beyond its panel, in half-lengths, a polynomial may be used.
+/// How far from the middle of its panel, in half-lengths, a polynomial is used whatever its terms: from closer by, the
+/// finest Gauss rule, of 64 nodes, leaves more than rounding, 1.32^-128 of the integral here.
+const LEAST_REACH: f64 = 1.04;
+
+/// How far it may be used.
 const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
 
 /// The panels of a contact.
@@ -253,11 +257,11 @@ impl<T: Real> FarPanel<T> {
     }
 }
 
-/// How far from its panel a polynomial may be used: while its terms are no larger than the values
-/// that it has on the panel.
+/// Returns how far from the middle of its panel, in half-lengths, a polynomial may be used: while its terms are no
+/// larger than the values that it has on the panel.
 fn reach<T: Real>(series: &[T], farthest: T) -> T {
     let largest = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-    let mut reach = T::one();
+    let mut reach = T::of(LEAST_REACH).min(farthest).max(T::one());
     for further in REACHES {
         let further = T::of(further).min(farthest).max(T::one());
         // T_k grows like a power of this.
