@@ -161,7 +161,7 @@ impl<T: Real> UndeformedGap<T> {
                 if let Some(stop) = stop.filter(|&stop| stop <= start && stop >= end) {
                     found.at = Some(height + slopes.span([start, stop])?.sum[0]);
                 }
-                // They fall, as those of a Gauss rule.
+                // A Gauss rule lists its nodes from right to left.
                 for node in half.nodes.into_iter().rev() {
                     slopes.dip(&mut found, [before, Some(node)], height, start)?;
                     before = Some(node);
