@@ -16,7 +16,7 @@ use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
 use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
-use crate::gap::{Asked, Cost, Gap, NARROWEST, Survey};
+use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
 use crate::real::same;
@@ -28,13 +28,6 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 /// alone where they do.
 const ROUGHLY: f64 = 0.25;
 const CLOSELY: f64 = 0.002;
-
-/// The distance of places in a contact, in widths of the narrowest feature to be seen: at three of them from its top the
-/// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
-const BETWEEN: f64 = 6.0;
-
-/// Times that panels which miss a feature are sampled anew.
-const MOST_MISSED: usize = 8;
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
@@ -276,7 +269,7 @@ impl<T: Real> Search<'_, '_, T> {
             _ => start,
         };
         let mut found = self.one_from(last, looks);
-        for _ in 0..MOST_MISSED {
+        for _ in 0..panels::MOST_MISSED {
             let Ok(state) = &found else { break };
             match self.misses(state) {
                 Ok(false) => break,
@@ -318,7 +311,7 @@ impl<T: Real> Search<'_, '_, T> {
         if *of == Some(gap.number()) && look.is_resolved(gap, load) {
             return Ok(false);
         }
-        panels::probe(self.integrator, gap, found.interval, T::of(2.0 * BETWEEN * NARROWEST))
+        panels::probe(self.integrator, gap, found.interval)
     }
 
     /// Tells whether the gap is lowest elsewhere than it was thought to be, where only one contact can be sought.
@@ -652,7 +645,7 @@ impl<T: Real> Search<'_, '_, T> {
         ends: Ends<T>,
     ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
         let mut found = self.converge_once(conditions, corners, ends)?;
-        for _ in 0..MOST_MISSED {
+        for _ in 0..panels::MOST_MISSED {
             match &found {
                 Ok(state) if self.misses(state)? => {
                     found = self.converge_once(conditions, corners, ends)?;

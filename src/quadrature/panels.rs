@@ -32,7 +32,7 @@ use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
-pub(crate) use panel_set::{PanelSet, Rises};
+pub(crate) use panel_set::{MOST_MISSED, PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
 
@@ -230,8 +230,8 @@ pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<
     }
 }
 
-/// Looks between the nodes of the panels of each contact, at places no further apart than a share of its half-width;
-/// tells whether panels have missed a feature, and have been sampled anew.
+/// Looks between the nodes of the panels of each contact; tells whether panels have missed a feature, and have been
+/// sampled anew.
 ///
 /// # Errors
 /// Those of sampling the bodies.
@@ -239,16 +239,15 @@ pub(crate) fn probe<T: Real>(
     integrator: &mut dyn Integrator<T>,
     gap: &Gap<'_, T>,
     on: Interval<T>,
-    share: T,
 ) -> Result<bool, ContactError<T>> {
     let integrator: &mut dyn Any = integrator;
     let Some(integrator) = integrator.downcast_mut::<PanelIntegrator<T>>() else {
         return Ok(false);
     };
     if integrator.is_several {
-        return integrator.several.probe(gap, share);
+        return integrator.several.probe(gap);
     }
-    let is_missed = integrator.panel_set.probe(gap, on, share * on.half_width())?;
+    let is_missed = integrator.panel_set.probe(gap, on)?;
     if is_missed {
         (integrator.moments, integrator.is_prepared) = (None, false);
     }

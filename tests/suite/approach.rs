@@ -7,8 +7,8 @@ use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Material, Midpoint,
-    ParametricProfile, Piecewise, PlaneState, Reference, References, Solution, Solver,
+    Contact, ContactError, Control, Edge, Flat, Material, Midpoint, ParametricProfile, Piecewise,
+    PlaneState, Reference, References, Solution, Solver,
 };
 use std::f64::consts::{E, PI};
 
@@ -516,14 +516,14 @@ fn first_touch_of_wavy_bodies_is_at_the_lowest_gap() {
             lowest -= (lowest - a * w * sine) / (1.0 - a * w * w * cosine);
         }
         let piece = |from: f64, to: f64| {
-            Curve::new([from, to], move |k: f64| {
-                let (sine, cosine) = (w * k + phase).sin_cos();
-                CurvePoint { x: k, y: 0.5 * k * k + a * cosine, dx: 1.0, dy: k - a * w * sine }
+            graph(from, to, move |x| {
+                let (sine, cosine) = (w * x + phase).sin_cos();
+                [0.5 * x * x + a * cosine, x - a * w * sine]
             })
         };
         let (whole, cut) = (piece(-1.0, 1.0), [piece(-1.0, lowest), piece(lowest, 1.0)]);
         let cut = Piecewise::new(cut.into()).unwrap();
-        let bodies: [&dyn ParametricProfile<f64>; 2] = [&whole, &cut];
+        let bodies: [&dyn ParametricProfile<f64>; 2] = [&*whole, &cut];
         let [found, want] = bodies.map(|body| {
             let contact = Contact::new(&Flat, body).unwrap();
             let contact = contact.materials(Material::Rigid, STEEL, PlaneState::Strain);

@@ -284,11 +284,11 @@ fn the_pressure_of_waves_is_smooth_where_panels_meet() {
         [134.6638762193053, 0.0003638433659293389, 4.786343212359192, 0.029679263050086776],
         [123.47355143279809, 0.000761695177435083, 1.8147298237483107, 0.385216060474525],
     ] {
-        let body = Curve::new([-1.0, 1.0], move |k: f64| {
-            let (sine, cosine) = (w * k + phase).sin_cos();
-            CurvePoint { x: k, y: 0.5 * k * k + a * cosine, dx: 1.0, dy: k - a * w * sine }
+        let body = graph(-1.0, 1.0, move |x| {
+            let (sine, cosine) = (w * x + phase).sin_cos();
+            [0.5 * x * x + a * cosine, x - a * w * sine]
         });
-        let contact = Contact::new(&Flat, &body).unwrap();
+        let contact = Contact::new(&Flat, &*body).unwrap();
         let solution = contact.solve(Control::Load(load)).unwrap();
         let (on, count) = (solution.hull(), 100_000);
         let angle = |i: usize| PI * (i as f64 + 0.5) / count as f64;

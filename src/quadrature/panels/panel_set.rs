@@ -7,6 +7,7 @@ mod sampling;
 mod seams;
 
 pub(crate) use derivative_check::Rises;
+pub(crate) use probing::MOST_MISSED;
 
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};

@@ -172,11 +172,11 @@ impl<T: Real> Several<T> {
     }
 
     /// Looks between the nodes of all contacts.
-    pub fn probe(&mut self, gap: &Gap<'_, T>, share: T) -> Result<bool, ContactError<T>> {
+    pub fn probe(&mut self, gap: &Gap<'_, T>) -> Result<bool, ContactError<T>> {
         let mut is_missed = false;
         for part in &mut self.parts[..self.count] {
             let on = part.on;
-            is_missed |= part.panel_set.probe(gap, on, share * on.half_width())?;
+            is_missed |= part.panel_set.probe(gap, on)?;
         }
         Ok(is_missed)
     }

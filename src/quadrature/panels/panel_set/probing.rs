@@ -1,15 +1,22 @@
 //! Slopes between the nodes of a panel, where a feature shows that is too narrow for them.
 //!
 //! A Gaussian bump of a full width w at half its height has at a distance d from its top a share
-//! `exp(-2.77 (d/w)²)` of it. A panel of a smooth body takes eight nodes, a fifth of the contact apart; what lies between two
-//! of them may be a bump that no node feels. Slopes there contradict the series.
+//! `exp(-2.77 (d/w)²)` of it. A panel of a smooth body takes eight nodes, a fifth of the contact apart: a bump between two of them
+//! may be felt by none. Slopes there contradict the series.
 
 use super::PanelSet;
-use crate::gap::{Cost, Gap, sample_near};
+use crate::gap::{Cost, Gap, NARROWEST, sample_near};
 use crate::numerics::chebyshev::{Table, by_size};
 use crate::quadrature::panels::Panel;
 use crate::quadrature::panels::interpolation::at_nodes;
 use crate::{Body, ContactError, Interval, Real};
+
+/// The distance of places in a contact, in widths of the narrowest feature to be seen: at three of them from its top the
+/// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
+const BETWEEN: f64 = 6.0;
+
+/// Times that panels which miss a feature are sampled anew.
+pub(crate) const MOST_MISSED: usize = 8;
 
 /// Times the uncertainty of a panel by which a slope may miss it.
 const MISSED: f64 = 32.0;
@@ -21,17 +28,13 @@ const NEAR: f64 = 0.1;
 const MOST_PARTS: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
-    /// Asks for slopes between the nodes of the panels of a contact that are further apart than a distance, and covers
-    /// the span anew where a panel misses one; tells whether any does.
+    /// Asks for slopes between the nodes of the panels of a contact where a narrow feature has room, and covers the span
+    /// anew where a panel misses one; tells whether any does.
     ///
     /// # Errors
     /// Those of sampling the bodies.
-    pub fn probe(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-        apart: T,
-    ) -> Result<bool, ContactError<T>> {
+    pub fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<bool, ContactError<T>> {
+        let apart = T::of(2.0 * BETWEEN * NARROWEST) * on.half_width();
         let (tilt, before) = (self.tilt, self.cost);
         self.turn(T::zero());
         let mut cuts = Vec::new();

@@ -4,7 +4,7 @@ use super::super::edge_integrals;
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::NearFarSum;
 use super::super::panel::{Panel, Series, within};
-use super::super::panel_set::PanelSet;
+use super::super::panel_set::{MOST_MISSED, PanelSet};
 use super::distant_contacts::DistantContacts;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MOST, SIZES, Table, by_size, size_for};
@@ -121,13 +121,26 @@ impl<T: Real> OneOfSeveral<T> {
         self.panel_set.turn(gap.tilt());
         if self.height.is_none() {
             let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
-            let mut cost = Cost::default();
-            let [height, _] = self.panel_set.heights(gap, places, &mut cost)?;
-            self.panel_set.cost += cost;
-            self.height = Some([places[0], height]);
+            self.height = Some([places[0], self.height_at(gap, places)?]);
         }
         self.tilt = gap.tilt();
         Ok(())
+    }
+
+    /// Returns the height of the gap at the first of two places. Heights that contradict the slopes may tell of a narrow
+    /// feature.
+    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<T, ContactError<T>> {
+        for trial in 0.. {
+            let mut cost = Cost::default();
+            let heights = self.panel_set.heights(gap, places, &mut cost);
+            self.panel_set.cost += cost;
+            let may_hide = matches!(heights, Err(ContactError::InconsistentHeights { .. }));
+            let looks = may_hide && trial < MOST_MISSED;
+            if !(looks && self.panel_set.probe(gap, self.on.plain())?) {
+                return heights.map(|[height, _]| height);
+            }
+        }
+        unreachable!("a trial is the last one")
     }
 
     /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
