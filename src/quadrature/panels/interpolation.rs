@@ -23,6 +23,8 @@ const ONE: [f64; 2 * MOST] = {
 /// ```
 ///
 /// whose terms are small where the rounding would be large; and it takes no division for a node.
+// As `sample_near`, for the sake of a bare solve.
+#[inline(always)]
 pub(super) fn at_nodes<const N: usize, T: Real>(
     nodes: &[T; N],
     trace: &SampleCache<T>,
