@@ -19,6 +19,7 @@ mod check;
 mod convex;
 mod lows;
 mod panel;
+mod pieces;
 mod probe;
 mod segment;
 mod series;
@@ -266,11 +267,9 @@ impl<T: Real> Survey<T> {
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
             let half = T::of(0.5);
-            let is_marked = |panel: &Panel<T>| {
-                is_in(wanted[which as usize], panel) && panel.may_gain(half * tolerance)
-            };
-            let before = cost.heights;
-            let found = body.refine(surface, self.range, is_marked, &mut cost.heights);
+            let is_marked = |panel: &Panel<T>| panel.may_gain(half * tolerance);
+            let (before, spans) = (cost.heights, wanted[which as usize]);
+            let found = body.refine(surface, self.range, spans, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;
             changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
         }
@@ -370,11 +369,12 @@ fn node<T: Real>([lower, upper]: [[Row<T>; 2]; 2], x: T) -> Node<T> {
     }
 }
 
-/// Tells whether a panel overlaps one of some spans, in rising order.
-fn is_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> bool {
+/// Returns the hull of the spans, in rising order, that a panel overlaps, as far as it lies on it.
+fn hull_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> Option<[T; 2]> {
     let [from, to] = panel.x();
     let first = spans.partition_point(|span| span[1] <= from);
-    spans.get(first).is_some_and(|span| span[0] < to)
+    let after = spans.partition_point(|span| span[0] < to);
+    (first < after).then(|| [spans[first][0].max(from), spans[after - 1][1].min(to)])
 }
 
 /// Returns a body at x, on its left and on its right, given its points up to x.

@@ -1,21 +1,29 @@
 //! One body of a survey: a row of panels, each as fine as it has been asked for.
 
 use super::check::check;
-use super::panel::{MOST_IN_VAIN, Missed, Panel, bulge, missed_by, row, settled};
+use super::hull_in;
+use super::panel::{Missed, Panel, missed_by};
 use super::segment::Segment;
 use super::series::{NODES, POINTS, Row, Series};
 use crate::gap::Surface;
-use crate::profile::Convexity;
+use crate::numerics::chebyshev::Table;
 use crate::{CurvePoint, ProfileError, Real, Side};
 
-/// Pieces of a joined body below which each is sampled at once; of more, where bodies may touch.
+/// The most pieces of a joined body that are sampled at once; of more, where bodies may touch.
 const FEW_PIECES: usize = 16;
 
-/// Windows by which a long body is narrowed to the other one.
+/// The most runs that the pieces of a body are taken together in at first.
+const MOST_RUNS: usize = 256;
+
+/// The most windows by which a long body is narrowed to the other one.
 const MOST_WINDOWS: usize = 8;
 
-/// The x-length of a body beyond that of the common range from which on it is narrowed.
-const LONG: f64 = 4.0;
+/// The share of a panel up to which what is asked for of it is cut out of it as a window; for more it is halved.
+const WINDOW: f64 = 0.25;
+
+/// The margins of a window, as shares of it and of the panel: where X(k) = x is known no better.
+const MARGIN: f64 = 0.25;
+const LEAST_MARGIN: f64 = 5e-4;
 
 /// A body, as it is known by now.
 #[derive(Clone, Debug)]
@@ -61,164 +69,92 @@ impl<T: Real> Body<T> {
         range: [T; 2],
         heights: &mut usize,
     ) -> Result<(), ProfileError<T>> {
-        let count = surface.len();
         self.panels.clear();
         self.series.clear();
         self.missed.clear();
         self.scratch.wanted.clear();
         let first = surface.index_at(range[0], Side::Left);
         let last = surface.index_at(range[1], Side::Right).max(first);
-        let few = last - first < FEW_PIECES;
-        let mut before: Option<T> = None;
-        for index in first..=last {
-            let piece = surface.piece(index);
-            let [from, to] = piece.x();
-            // As where it is sampled.
-            let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
-            let apart = |end: T| (from - end).abs() >= allowed;
-            if surface.joined.is_some() && (from >= to || before.is_some_and(apart)) {
-                return Err(ProfileError::Pieces { count, index });
-            }
-            before = Some(to);
-            let ends = piece.ends.map(row);
-            // A body without ends is known by them.
-            let endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
-            let straight = piece.curve.convexity() == Convexity::Straight;
-            let is_sampled = endless || straight;
-            let doubt = if is_sampled { T::zero() } else { bulge(&ends) };
-            if few && !is_sampled {
-                self.scratch.wanted.push(self.panels.len());
-            }
-            let (k, is_inside, series) = (piece.k, [false; 2], None);
-            self.panels.push(Panel {
-                piece: index,
-                k,
-                ends,
-                is_inside,
-                series,
-                doubt,
-                is_sampled,
-                vain: 0,
-                is_void: false,
-                before: T::one() / T::zero(),
-            });
+        check_joints(surface, [first, last])?;
+        let count = (last - first + 1).div_ceil(MOST_RUNS);
+        for from in (first..=last).step_by(count) {
+            let pieces = [from, (from + count - 1).min(last)];
+            self.panels.push(Panel::of_pieces(surface, pieces));
         }
-        // Room for each to be halved once.
+        if self.panels.len() <= FEW_PIECES {
+            let wanted = (0..self.panels.len()).filter(|&i| !self.panels[i].is_sampled);
+            self.scratch.wanted.extend(wanted);
+        }
         self.fresh.clear();
         self.fresh.push(range);
         self.rows.clear();
+        // Room for each to be halved once.
         self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         self.sample(surface, range, heights)?;
-        for i in 0..self.panels.len() {
-            self.narrow(i, surface, range, heights)?;
-        }
         self.list(range);
-        Ok(())
-    }
-
-    /// Brings a panel that is far longer than the common range to where that is.
-    fn narrow(
-        &mut self,
-        i: usize,
-        surface: &Surface<'_, T>,
-        range: [T; 2],
-        heights: &mut usize,
-    ) -> Result<(), ProfileError<T>> {
+        let is_long = |panel: &Panel<T>| {
+            let [from, to] = panel.x();
+            let is_known = panel.series.is_some() && panel.doubt.is_finite();
+            is_known && to - from > (range[1] - range[0]) / T::of(WINDOW)
+        };
         for _ in 0..MOST_WINDOWS {
-            let panel = self.panels[i];
-            let ([from, to], Some(number)) = (panel.x(), panel.series) else { return Ok(()) };
-            let series = &self.series[number];
-            if !(to - from > T::of(LONG) * (range[1] - range[0]) && series.doubt.is_finite()) {
-                return Ok(());
-            }
-            let [left, right] = range.map(|x| series.parameter(x, [from, to]));
-            let (one, half) = (T::one(), T::of(0.5));
-            let margin = half * half * (right - left) + T::of(1e-3);
-            let [left, right] = [(left - margin).max(-one), (right + margin).min(one)];
-            let at = |t: T| half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
-            let mut next = Panel { k: [at(left), at(right)], ..panel };
-            for (end, t) in [left, right].into_iter().enumerate() {
-                if t.abs() < one {
-                    let [x, y, slope] = series.at_end(t);
-                    next.ends[end] = Row { x, y, slope, doubt: T::zero() };
-                    next.is_inside[end] = true;
-                }
-            }
-            self.panels[i] = next;
-            self.scratch.wanted.clear();
-            self.scratch.wanted.push(i);
-            self.sample(surface, range, heights)?;
-            let next = &mut self.panels[i];
-            let series = next.series.map(|number| &self.series[number]);
-            for (end, t) in [-one, one].into_iter().enumerate() {
-                if let Some(series) = series.filter(|_| next.is_inside[end]) {
-                    next.ends[end].x = series.at_end(t)[0];
-                }
-            }
-            let [from, to] = next.x();
-            if !(from <= range[0] && to >= range[1]) {
-                // The window has missed the range.
-                self.panels[i] = panel;
-                self.scratch.wanted.clear();
-                self.scratch.wanted.push(i);
-                return self.sample(surface, range, heights);
+            if !self.refine(surface, range, &[range], is_long, heights)? {
+                break;
             }
         }
         Ok(())
     }
 
-    /// Returns the evaluations that it may take to refine the panels that are marked.
-    pub fn cost(&self, surface: &Surface<'_, T>, is_marked: impl Fn(&Panel<T>) -> bool) -> usize {
-        let batches = |panel: &Panel<T>| match panel.series {
-            Some(_) => 2,
-            None => usize::from(!panel.is_sampled && settled(surface, panel).is_none()),
+    /// Returns the evaluations that it may take to refine the panels on some spans that are marked.
+    pub fn cost(
+        &self,
+        surface: &Surface<'_, T>,
+        spans: &[[T; 2]],
+        is_marked: impl Fn(&Panel<T>) -> bool,
+    ) -> usize {
+        let batches = |panel: &Panel<T>| {
+            let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else { return 0 };
+            match panel.series {
+                Some(number) if self.window(panel, &self.series[number], hull).is_some() => 1,
+                Some(_) => 2,
+                None if panel.is_sampled || panel.settled(surface).is_some() => 0,
+                None => panel.last - panel.piece + 1,
+            }
         };
-        POINTS * self.panels.iter().filter(|panel| is_marked(panel)).map(batches).sum::<usize>()
+        self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(POINTS * batches(panel)))
     }
 
-    /// Refines the panels that are marked: halves those that are sampled, and looks into the others.
+    /// Refines the panels on some spans that are marked: looks into those that are not sampled, cuts out of those that are
+    /// far longer what is on the spans, and halves others.
     pub fn refine(
         &mut self,
         surface: &Surface<'_, T>,
         range: [T; 2],
+        spans: &[[T; 2]],
         is_marked: impl Fn(&Panel<T>) -> bool,
         heights: &mut usize,
     ) -> Result<bool, ProfileError<T>> {
-        let half = T::of(0.5);
         let mut old = std::mem::take(&mut self.scratch.panels);
         std::mem::swap(&mut old, &mut self.panels);
         self.panels.clear();
         self.scratch.wanted.clear();
         let mut changes = false;
         for panel in &old {
-            if !is_marked(panel) {
+            let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else {
                 self.panels.push(*panel);
                 continue;
-            }
+            };
             changes = true;
             self.fresh.push(panel.x());
-            if !panel.is_sampled {
-                let settled = settled(surface, panel);
-                if settled.is_none() {
+            let settled = if panel.is_sampled { None } else { panel.settled(surface) };
+            match (settled, panel.series) {
+                (Some(settled), _) => self.panels.push(settled),
+                (None, Some(number)) => self.split(panel, number, hull),
+                (None, None) if panel.is_run() => self.panels.extend(panel.parts(surface)),
+                (None, None) => {
                     self.scratch.wanted.push(self.panels.len());
+                    self.panels.push(Panel { is_sampled: true, ..*panel });
                 }
-                self.panels.push(Panel { is_sampled: true, ..settled.unwrap_or(*panel) });
-                continue;
-            }
-            let middle = half * panel.k[0] + half * panel.k[1];
-            let [from, to] = panel.x();
-            let centre = half * from + half * to;
-            let at = panel.series.map_or(panel.ends[0], |number| {
-                let [x, y, slope] = self.series[number].at_end(T::zero());
-                Row { x: if x > from && x < to { x } else { centre }, y, slope, doubt: T::zero() }
-            });
-            let (mut left, mut right) = (*panel, *panel);
-            (left.k[1], left.ends[1], left.is_inside[1]) = (middle, at, true);
-            (right.k[0], right.ends[0], right.is_inside[0]) = (middle, at, true);
-            right.series = None;
-            for part in [left, right] {
-                self.scratch.wanted.push(self.panels.len());
-                self.panels.push(part);
             }
         }
         old.clear();
@@ -228,6 +164,49 @@ impl<T: Real> Body<T> {
             self.list(range);
         }
         Ok(changes)
+    }
+
+    /// Returns the ends, as t, of a window that is cut out of a panel around a span of x, if that is far shorter.
+    fn window(&self, panel: &Panel<T>, series: &Series<T>, hull: [T; 2]) -> Option<[T; 2]> {
+        let [start, end] = panel.k.map(|k| series.t(k));
+        let [left, right] = hull.map(|x| series.parameter(x));
+        let margin = T::of(MARGIN) * (right - left) + T::of(LEAST_MARGIN) * (end - start);
+        let cuts = [(left - margin).max(start), (right + margin).min(end)];
+        let is_short = cuts[1] - cuts[0] <= T::of(WINDOW) * (end - start);
+        (series.doubt.is_finite() && is_short).then_some(cuts)
+    }
+
+    /// Puts the parts of a panel in its place: a window around a span of x and what is left on either side of it, where
+    /// the series is as good as it was; or two halves.
+    fn split(&mut self, panel: &Panel<T>, number: usize, hull: [T; 2]) {
+        let (series, half) = (&self.series[number], T::of(0.5));
+        let [start, end] = panel.k.map(|k| series.t(k));
+        let window = self.window(panel, series, hull);
+        let cuts = window.unwrap_or([half * (start + end), end]);
+        let (mut rest, mut is_left) = (*panel, true);
+        for t in cuts.into_iter().filter(|&t| t > start && t < end) {
+            let series = &self.series[number];
+            let ([x, y, slope], [from, to]) = (series.at_t(t), rest.x());
+            let x = if x > from && x < to { x } else { half * (from + to) };
+            let at = Row { x, y, slope, doubt: T::zero() };
+            let mut part = rest;
+            (part.k[1], part.ends[1], part.is_inside[1]) = (series.k(t), at, true);
+            (rest.k[0], rest.ends[0], rest.is_inside[0]) = (part.k[1], at, true);
+            is_left = window.is_some_and(|[left, _]| t == left);
+            self.push_part(part, number, !is_left);
+        }
+        let is_wanted = window.is_none_or(|[_, right]| is_left || right >= end);
+        self.push_part(rest, number, is_wanted);
+    }
+
+    /// Adds a part of a panel, to be sampled or as its series has it.
+    fn push_part(&mut self, part: Panel<T>, number: usize, is_wanted: bool) {
+        if is_wanted {
+            self.scratch.wanted.push(self.panels.len());
+            self.panels.push(part);
+        } else {
+            self.panels.push(Panel { doubt: self.series[number].doubt, is_void: false, ..part });
+        }
     }
 
     /// Samples the panels that are wanted, those of a piece in one batch.
@@ -260,36 +239,32 @@ impl<T: Real> Body<T> {
                     series.doubt = T::one() / T::zero();
                 }
                 let is_better = series.doubt <= T::of(0.5) * panel.doubt;
-                let is_vain = panel.is_sampled && !is_better && !is_void;
-                panel.vain = match is_vain {
-                    _ if series.is_exact && !is_void => MOST_IN_VAIN,
-                    true => panel.vain + 1,
-                    false => 0,
+                let is_vain = panel.series.is_some() && !is_better && !is_void;
+                panel.since = match is_vain {
+                    _ if series.is_exact && !is_void => T::one() / T::zero(),
+                    true => panel.since,
+                    false => (panel.k[1] - panel.k[0]).abs(),
                 };
-                if panel.is_sampled {
+                if panel.series.is_some() {
                     panel.before = panel.doubt;
                 }
                 (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
                 check(&piece, panel, points, range)?;
-                match panel.series {
-                    Some(number) => self.series[number] = series,
-                    None => {
-                        panel.series = Some(self.series.len());
-                        self.series.push(series);
-                    }
-                }
+                panel.series = Some(self.series.len());
+                self.series.push(series);
             }
             for &i in batch {
                 self.meet(i);
+                self.meet(i + 1);
             }
         }
         self.scratch.wanted = wanted;
         Ok(())
     }
 
-    /// Sets the place where a panel and the one before it meet, inside a piece, by what both say.
+    /// Sets the place where a panel and the one before it meet, inside a piece, by the better known of both.
     fn meet(&mut self, i: usize) {
-        let Some(before) = i.checked_sub(1) else { return };
+        let Some(before) = i.checked_sub(1).filter(|_| i < self.panels.len()) else { return };
         let [left, right] = [self.panels[before], self.panels[i]];
         let both = left
             .series
@@ -297,14 +272,12 @@ impl<T: Real> Body<T> {
             .filter(|_| right.is_inside[0] && left.piece == right.piece);
         let Some((one, other)) = both else { return };
         let (one, other) = (&self.series[one], &self.series[other]);
-        let ([x, y, slope], [after, ..]) = (one.at_end(T::one()), other.at_end(-T::one()));
-        let between = [one.rows[NODES - 1].x, other.rows[0].x];
-        let half = T::of(0.5);
-        let mut at = half * x + half * after;
-        if !(at >= between[0] && at <= between[1]) {
-            at = half * between[0] + half * between[1];
-        }
-        let end = Row { x: at, y, slope, doubt: T::zero() };
+        let known = if other.doubt < one.doubt { other } else { one };
+        let [x, y, slope] = known.at_t(known.t(right.k[0]));
+        let from = inner(&self.series, &left).last().map_or(left.ends[0].x, |row| row.x);
+        let to = inner(&self.series, &right).first().map_or(right.ends[1].x, |row| row.x);
+        let x = if x >= from && x <= to { x } else { T::of(0.5) * from + T::of(0.5) * to };
+        let end = Row { x, y, slope, doubt: T::zero() };
         (self.panels[before].ends[1], self.panels[i].ends[0]) = (end, end);
     }
 
@@ -313,7 +286,7 @@ impl<T: Real> Body<T> {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
         for panel in &self.panels {
-            let inner = panel.series.map_or(&[][..], |number| &self.series[number].rows[..]);
+            let inner = inner(&self.series, panel);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
             // X may stand still for its rounding, where a body is all but upright.
             let mut reached = None;
@@ -351,19 +324,48 @@ impl<T: Real> Body<T> {
         let [y, slope, doubt] = match usable {
             Some(number) => {
                 let series = &self.series[number];
-                let [y, slope] = series.at(x, panel.x());
+                let [y, slope] = series.at(x);
                 let near = series.rows.partition_point(|row| row.x < x).min(NODES - 1);
                 [y, slope, series.rows[near].doubt]
             }
             None => {
-                let is_cubic = panel.series.is_none() && panel.is_sampled;
+                let is_cubic = panel.series.is_none() && (panel.is_sampled || panel.is_run());
                 let through = if is_cubic { Segment::exact } else { Segment::new };
                 let segment = through([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);
                 let t = (x - start.x) / segment.width;
                 let [y, slope] = segment.at(t.max(T::zero()).min(T::one()));
-                [y, slope, if panel.is_sampled { T::zero() } else { T::one() / T::zero() }]
+                [y, slope, if panel.is_sampled { start.doubt } else { T::one() / T::zero() }]
             }
         };
         Row { x, y, slope, doubt }
     }
+}
+
+/// Returns the points of the series of a panel that lie inside it.
+fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [Row<T>] {
+    let Some(series) = panel.series.map(|number| &series[number]) else { return &[] };
+    let [from, to] = panel.k.map(|k| series.t(k));
+    let nodes = &Table::of(NODES).z[..NODES];
+    let first = nodes.partition_point(|&node| T::of(node) < from);
+    let after = nodes.partition_point(|&node| T::of(node) <= to);
+    &series.rows[first..after.max(first)]
+}
+
+/// Refuses pieces that do not rise, or do not meet.
+fn check_joints<T: Real>(
+    surface: &Surface<'_, T>,
+    [first, last]: [usize; 2],
+) -> Result<(), ProfileError<T>> {
+    let (count, mut before) = (surface.len(), None);
+    for index in first..=last {
+        let [from, to] = surface.piece(index).x();
+        // As where it is sampled.
+        let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
+        let is_apart = before.is_some_and(|end: T| (from - end).abs() >= allowed);
+        if surface.joined.is_some() && (from >= to || is_apart) {
+            return Err(ProfileError::Pieces { count, index });
+        }
+        before = Some(to);
+    }
+    Ok(())
 }

@@ -14,8 +14,9 @@ pub(super) fn check<T: Real>(
     range: [T; 2],
 ) -> Result<(), ProfileError<T>> {
     let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
-    let rounding = T::of(32.0) * T::epsilon() * from.abs().max(to.abs());
     let [first, last] = piece.x();
+    // That of the largest terms which X may be made of.
+    let rounding = T::of(32.0) * T::epsilon() * first.abs().max(last.abs());
     let mut reached = from;
     for (i, point) in points[..NODES].iter().enumerate() {
         let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });

@@ -13,7 +13,7 @@
 //! at both ends. So one interval in a convex stretch, beyond which the gap is higher than that, is the contact.
 
 use super::panel::Panel;
-use super::{Node, Survey, is_in};
+use super::{Node, Survey, hull_in};
 use crate::gap::{Cost, Gap};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
@@ -90,9 +90,9 @@ impl<T: Real> Survey<T> {
     ) -> Result<bool, ContactError<T>> {
         let (mut more, mut converges) = (0, true);
         for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(open)) {
-            more += body.cost(surface, |panel| is_in(open, panel) && panel.may_gain(T::zero()));
-            let marked = body.panels.iter().filter(|panel| is_in(open, panel));
-            converges &= marked.clone().all(Panel::converges);
+            more += body.cost(surface, open, |panel| panel.may_gain(T::zero()));
+            let mut marked = body.panels.iter().filter(|panel| hull_in(open, panel).is_some());
+            converges &= marked.all(Panel::converges);
         }
         let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;
         Ok(!is_dear && self.refine_at(gap, open, T::zero(), cost)?)

@@ -5,7 +5,7 @@
 
 use super::body::{Body, Scratch};
 use super::panel::Missed;
-use super::{Cost, Survey, is_in};
+use super::{Cost, Survey, hull_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
@@ -167,7 +167,8 @@ impl<T: Real> Survey<T> {
 
     fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
         let panels = self.bodies.iter().flat_map(|body| &body.panels);
-        let mut inside = panels.filter(|panel| is_in(std::slice::from_ref(span), panel));
+        let spans = std::slice::from_ref(span);
+        let mut inside = panels.filter(|panel| hull_in(spans, panel).is_some());
         inside.all(|panel| panel.doubt <= tolerance || panel.converges())
     }
 
@@ -281,7 +282,7 @@ impl<T: Real> Body<T> {
                 let is_met = by <= least + T::of(MISSED) * series.doubt;
                 if !is_met {
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
-                    (panel.doubt, panel.vain, panel.is_void) = (T::one() / T::zero(), 0, true);
+                    (panel.doubt, panel.since, panel.is_void) = (T::one() / T::zero(), T::zero(), true);
                     stretch.is_missed = true;
                 }
             }
@@ -291,7 +292,7 @@ impl<T: Real> Body<T> {
 
     /// Places points on a stretch.
     fn place_probes(&self, number: usize, stretch: &mut Stretch<T>, probes: &mut Vec<Probe<T>>) {
-        let (one, half) = (T::one(), T::of(0.5));
+        let half = T::of(0.5);
         let [first, last] = stretch.x.map(|x| self.panels_at(x));
         for i in first[1]..=last[0].max(first[1]) {
             let panel = &self.panels[i];
@@ -302,7 +303,7 @@ impl<T: Real> Body<T> {
             }
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
-            let ends = [from, to].map(|x| series.parameter(x, between));
+            let ends = [from, to].map(|x| series.parameter(x));
             let mut count = 1;
             while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
                 count += 1;
@@ -310,8 +311,7 @@ impl<T: Real> Body<T> {
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
                 let t = ends[0] + share * (ends[1] - ends[0]);
-                let k = half * (one - t) * panel.k[0] + half * (one + t) * panel.k[1];
-                Probe { stretch: number, panel: i, t, k }
+                Probe { stretch: number, panel: i, t, k: series.k(t) }
             }));
         }
     }

@@ -39,8 +39,9 @@ pub(super) struct Row<T> {
 /// X and Y over a variable t from -1, the left end of a stretch, to 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T> {
-    /// The range of the parameter of the curve.
+    /// The range of the parameter of the curve, and X there.
     k: [T; 2],
+    between: [T; 2],
     x: [T; NODES + 1],
     y: [T; NODES + 1],
     /// The points it is made from, by rising x.
@@ -91,7 +92,20 @@ impl<T: Real> Series<T> {
         let known = doubt.is_finite() && astray <= T::of(0.1) * length;
         let is_exact = known && doubt <= rounding;
         let doubt = if known { doubt } else { T::one() / zero };
-        Self { k: [left, right], x: x.series, y: y.series, rows, doubt, is_exact }
+        let (k, between) = ([left, right], x.ends());
+        Self { k, between, x: x.series, y: y.series, rows, doubt, is_exact }
+    }
+
+    /// Returns the parameter of the curve at t.
+    pub fn k(&self, t: T) -> T {
+        let half = T::of(0.5);
+        half * (T::one() - t) * self.k[0] + half * (T::one() + t) * self.k[1]
+    }
+
+    /// Returns t at a parameter of the curve.
+    pub fn t(&self, k: T) -> T {
+        let [from, to] = self.k;
+        ((k - from) - (to - k)) / (to - from)
     }
 
     /// Returns about the parameter of the curve at x; `None` outside the outermost points.
@@ -100,12 +114,11 @@ impl<T: Real> Series<T> {
         if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
             return None;
         }
-        let (half, t) = (T::of(0.5), self.parameter(x, between));
-        Some(half * (T::one() - t) * self.k[0] + half * (T::one() + t) * self.k[1])
+        Some(self.k(self.parameter(x)))
     }
 
-    /// Returns x, height and slope at one end: t is -1 or 1.
-    pub fn at_end(&self, t: T) -> [T; 3] {
+    /// Returns x, height and slope at t.
+    pub fn at_t(&self, t: T) -> [T; 3] {
         let ([x], [dx]) = evaluate(&self.x, &[t]);
         let ([y], [dy]) = evaluate(&self.y, &[t]);
         [x, y, dy / dx]
@@ -113,27 +126,28 @@ impl<T: Real> Series<T> {
 
     /// Returns by how much it misses a point of the curve at t, along y and beyond rounding.
     pub fn miss(&self, t: T, point: &CurvePoint<T>) -> T {
-        let [x, y, _] = self.at_end(t);
+        let [x, y, _] = self.at_t(t);
         let slope = point.dy / point.dx;
         let missed = (point.y - y - slope * (point.x - x)).abs();
         let size = point.y.abs() + (slope * point.x).abs();
         (missed - T::of(ROUNDING) * T::epsilon() * size).max(T::zero())
     }
 
-    /// Returns height and slope at x, on a stretch between two places.
-    pub fn at(&self, x: T, between: [T; 2]) -> [T; 2] {
-        let [_, y, slope] = self.at_end(self.parameter(x, between));
+    /// Returns height and slope at x.
+    pub fn at(&self, x: T) -> [T; 2] {
+        let [_, y, slope] = self.at_t(self.parameter(x));
         [y, slope]
     }
 
-    /// Solves `X(t) = x`, given x at both ends.
-    pub fn parameter(&self, x: T, [from, to]: [T; 2]) -> T {
+    /// Solves `X(t) = x`.
+    pub fn parameter(&self, x: T) -> T {
+        let [from, to] = self.between;
         let (one, half) = (T::one(), T::of(0.5));
         let [mut low, mut high] = [-one, one];
         if x <= from || x >= to {
             return if x <= from { low } else { high };
         }
-        let mut t = self.guess(x, [from, to]);
+        let mut t = self.guess(x);
         // Newton's rule squares what is left.
         let small = T::of(0.125) * T::epsilon().sqrt();
         let mut more = T::DERIVATIVE_ORDER;
@@ -156,8 +170,8 @@ impl<T: Real> Series<T> {
     }
 
     /// Returns about where X(t) = x, by the points around x.
-    fn guess(&self, x: T, [from, to]: [T; 2]) -> T {
-        let one = T::one();
+    fn guess(&self, x: T) -> T {
+        let (one, [from, to]) = (T::one(), self.between);
         let after = self.rows.partition_point(|row| row.x <= x);
         let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.rows[i].x);
         let (start, x0) = after.checked_sub(1).map_or((-one, from), place);
@@ -178,6 +192,13 @@ struct Primitive<T> {
 }
 
 impl<T: Real> Primitive<T> {
+    /// Returns the values of the series at both ends.
+    fn ends(&self) -> [T; 2] {
+        let even = self.series.iter().step_by(2).fold(T::zero(), |sum, &term| sum + term);
+        let odd = self.series[1..].iter().step_by(2).fold(T::zero(), |sum, &term| sum + term);
+        [even - odd, even + odd]
+    }
+
     fn new(at: [T; POINTS], rates: [T; POINTS]) -> Self {
         let (zero, table) = (T::zero(), Table::of(NODES));
         let c = table.coefficients(&from_fn::<T, NODES, _>(|j| rates[j]));

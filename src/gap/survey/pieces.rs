@@ -1,0 +1,140 @@
+//! Pieces of a body, of which only the ends are looked at.
+//!
+//! The spline of measured points is a cubic between two of them, and there may be 100 000. What counts where the bodies
+//! cannot touch is how far a run of pieces is from the one cubic between its ends: with heights that differ by d at the
+//! ends of a piece, and slopes by e, two cubics of a width w differ by no more than `|d| + (4/27) w (|e₀| + |e₁|)`.
+
+use super::panel::{Panel, row};
+use super::segment::Segment;
+use super::series::Row;
+use crate::Real;
+use crate::gap::Surface;
+use crate::profile::{Convexity, Piece};
+
+/// The most that a cubic which is 0 at both ends of a unit span rises in it for a unit of its slope at one end.
+const RISE: f64 = 4.0 / 27.0;
+
+/// Units in the last place by which slopes of a cubic may be off.
+const ROUNDING: f64 = 64.0;
+
+/// Where a piece is looked at to tell whether it is a cubic, in shares of the way.
+const PLACES: [f64; 2] = [0.3, 0.7];
+
+/// The most runs that a run is cut into.
+const PARTS: usize = 16;
+
+impl<T: Real> Panel<T> {
+    /// Makes the panel of some pieces of a body, of which nothing is known but their ends.
+    pub fn of_pieces(surface: &Surface<'_, T>, [first, last]: [usize; 2]) -> Self {
+        let (start, end) = (surface.piece(first), surface.piece(last));
+        let ends = [row(start.ends[0]), row(end.ends[1])];
+        let mut panel = Self {
+            piece: first,
+            last,
+            k: [start.k[0], end.k[1]],
+            ends,
+            is_inside: [false; 2],
+            series: None,
+            doubt: T::zero(),
+            is_sampled: false,
+            since: T::zero(),
+            is_void: false,
+            before: T::one() / T::zero(),
+        };
+        if panel.is_run() {
+            panel.set_doubts(surface, false);
+        } else if is_known(&start) {
+            panel.is_sampled = true;
+        } else {
+            panel.doubt = bulge(&ends);
+        }
+        panel
+    }
+
+    /// Returns the panel with the cubic between its ends, if the slopes inside its pieces bear out that they are
+    /// cubics, where the curve gives them by x.
+    pub fn settled(&self, surface: &Surface<'_, T>) -> Option<Self> {
+        let mut pieces = (self.piece..=self.last).map(|index| surface.piece(index));
+        if !pieces.all(|piece| is_cubic(&piece)) {
+            return None;
+        }
+        let mut settled = Self { is_sampled: true, doubt: T::zero(), ..*self };
+        settled.set_doubts(surface, true);
+        Some(settled)
+    }
+
+    /// Returns the parts of a run.
+    pub fn parts(&self, surface: &Surface<'_, T>) -> impl Iterator<Item = Self> {
+        let count = (self.last - self.piece + 1).div_ceil(PARTS);
+        (self.piece..=self.last).step_by(count).map(move |first| {
+            let part = Self::of_pieces(surface, [first, (first + count - 1).min(self.last)]);
+            let mut part = Self { before: self.doubt, ..part };
+            if self.is_sampled && !part.is_sampled {
+                part.is_sampled = true;
+                part.set_doubts(surface, true);
+            }
+            part
+        })
+    }
+
+    /// Sets the uncertainties of the heights and of the slopes of the cubic between both ends, given whether the pieces
+    /// are cubics. A slope that is off by e at the end of a piece may bend by `e/w` in it: uncertain by `e W/w` it tells
+    /// as much of the bend over all of the run, of a width W.
+    fn set_doubts(&mut self, surface: &Surface<'_, T>, are_cubics: bool) {
+        let zero = T::zero();
+        let [start, end] = self.ends;
+        let cubic = Segment::exact([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);
+        let (mut heights, mut slopes, mut bulges) = (zero, zero, zero);
+        for index in (self.piece..=self.last).filter(|_| self.is_run()) {
+            let ends = surface.piece(index).ends.map(row);
+            let width = ends[1].x - ends[0].x;
+            let off = ends.map(|end| {
+                let [y, slope] = cubic.at((end.x - start.x) / cubic.width);
+                let rounding = T::of(ROUNDING) * T::epsilon();
+                let beyond = |by: T, size: T| if by <= rounding * size { zero } else { by };
+                let rise = (slope * (end.x - start.x)).abs();
+                let height = beyond((end.y - y).abs(), end.y.abs() + start.y.abs() + rise);
+                let steep = slope.abs() + (end.y.abs() + rise) / width;
+                [height, beyond((end.slope - slope).abs(), steep)]
+            });
+            let [[d0, e0], [d1, e1]] = off;
+            heights = larger(heights, d0.max(d1) + T::of(RISE) * width * (e0 + e1));
+            slopes = larger(slopes, e0.max(e1) * (cubic.width / width));
+            bulges = larger(bulges, if are_cubics { zero } else { bulge(&ends) });
+        }
+        self.doubt = heights + bulges;
+        self.ends.iter_mut().for_each(|end| end.doubt = slopes);
+    }
+}
+
+/// Returns the larger of two numbers; infinity if the second one is not finite.
+fn larger<T: Real>(most: T, value: T) -> T {
+    if value.is_finite() { most.max(value) } else { T::one() / T::zero() }
+}
+
+/// Tells whether a piece is known by its ends: it is straight, or has none.
+fn is_known<T: Real>(piece: &Piece<'_, T>) -> bool {
+    let [from, to] = piece.x();
+    let is_endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
+    is_endless || piece.curve.convexity() == Convexity::Straight
+}
+
+/// Returns how far the cubic between two ends bulges from the line through both.
+fn bulge<T: Real>([start, end]: &[Row<T>; 2]) -> T {
+    let size = (end.slope - start.slope).abs() * (end.x - start.x);
+    if size.is_finite() { size } else { (end.y - start.y).abs() }
+}
+
+/// Tells whether the slopes of a piece, where the curve gives them by x, are those of the cubic between its ends.
+fn is_cubic<T: Real>(piece: &Piece<'_, T>) -> bool {
+    let [start, end] = piece.ends.map(row);
+    let segment = Segment::exact([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);
+    let size = start.slope.abs() + end.slope.abs() + segment.chord.abs();
+    let rounding =
+        T::of(ROUNDING) * T::epsilon() * (size + (start.y.abs() + end.y.abs()) / segment.width);
+    PLACES.iter().all(|&share| {
+        let slope = segment.at(T::of(share))[1];
+        let given = piece.curve.slope_at(start.x + T::of(share) * segment.width);
+        given.is_some_and(|given| (given - slope).abs() <= rounding)
+    })
+}
