@@ -238,16 +238,21 @@ impl<T: Real> Body<T> {
                 if is_void {
                     series.doubt = T::one() / T::zero();
                 }
-                let is_better = series.doubt <= T::of(0.5) * panel.doubt;
-                let is_vain = panel.series.is_some() && !is_better && !is_void;
-                panel.since = match is_vain {
-                    _ if series.is_exact && !is_void => T::one() / T::zero(),
-                    true => panel.since,
-                    false => (panel.k[1] - panel.k[0]).abs(),
-                };
+                let is_vain = panel.series.is_some_and(|number| {
+                    // The uncertainty of noise does not go with the length, nor that of waves too fine for the points.
+                    let share = series.share_of(&self.series[number]);
+                    !is_void && series.doubt > share * panel.doubt
+                });
                 if panel.series.is_some() {
                     panel.before = panel.doubt;
                 }
+                let is_known =
+                    !is_void && (series.is_exact || is_vain && series.is_noise(&piece, heights));
+                panel.since = match is_vain {
+                    _ if is_known => T::one() / T::zero(),
+                    true => panel.since,
+                    false => (panel.k[1] - panel.k[0]).abs(),
+                };
                 (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
                 check(&piece, panel, points, range)?;
                 panel.series = Some(self.series.len());

@@ -282,7 +282,8 @@ impl<T: Real> Body<T> {
                 let is_met = by <= least + T::of(MISSED) * series.doubt;
                 if !is_met {
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
-                    (panel.doubt, panel.since, panel.is_void) = (T::one() / T::zero(), T::zero(), true);
+                    (panel.doubt, panel.since, panel.is_void) =
+                        (T::one() / T::zero(), T::zero(), true);
                     stretch.is_missed = true;
                 }
             }

@@ -6,6 +6,7 @@
 //! the mismatch.
 
 use crate::numerics::chebyshev::{Table, evaluate, values};
+use crate::profile::{Noise, Piece};
 use crate::{CurvePoint, Real};
 use std::array::from_fn;
 
@@ -24,6 +25,12 @@ const MOST_STEPS: usize = 60;
 
 /// Units in the last place by which a sum of a series may be off.
 const ROUNDING: f64 = 32.0;
+
+/// Units in the last place of the ends of a piece beyond which an uncertainty is not put down to noise.
+const LARGEST_NOISE: f64 = (1 << 20) as f64;
+
+/// Times the noise of the heights that a series may be uncertain by for it.
+const NOISE: f64 = 8.0;
 
 /// A point of a body as a graph over x.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +55,7 @@ pub(crate) struct Series<T> {
     pub(super) rows: [Row<T>; NODES],
     /// Uncertainty of the heights, a length; infinite where a point is not finite.
     pub doubt: T,
-    /// Whether that is rounding.
+    /// Whether the uncertainty of the heights is rounding.
     pub is_exact: bool,
 }
 
@@ -106,6 +113,23 @@ impl<T: Real> Series<T> {
     pub fn t(&self, k: T) -> T {
         let [from, to] = self.k;
         ((k - from) - (to - k)) / (to - from)
+    }
+
+    /// Tells whether it is uncertain by no more than the noise of the curve, which is measured if that may be.
+    pub fn is_noise(&self, piece: &Piece<'_, T>, evaluations: &mut usize) -> bool {
+        let sizes = piece.ends.iter().flat_map(|end| [end.x.abs(), end.y.abs()]);
+        let size = sizes.filter(|size| size.is_finite()).fold(T::zero(), T::max);
+        if self.doubt > T::of(LARGEST_NOISE) * T::epsilon() * size {
+            return false;
+        }
+        let middle = T::of(0.5) * self.k[0] + T::of(0.5) * self.k[1];
+        let noise = Noise::near(piece, middle, evaluations);
+        self.doubt <= T::of(NOISE) * noise.of_height(self.rows[NODES / 2].slope)
+    }
+
+    /// Returns the share that its range of the parameter is of another one.
+    pub fn share_of(&self, other: &Self) -> T {
+        ((self.k[1] - self.k[0]) / (other.k[1] - other.k[0])).abs()
     }
 
     /// Returns about the parameter of the curve at x; `None` outside the outermost points.
