@@ -5,6 +5,7 @@
 //! between the loaded bodies is looked at where their heights are known.
 
 mod outside;
+mod passed;
 mod step;
 
 use super::exterior_field::{ExteriorField, POINTS};
@@ -13,6 +14,7 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
+pub(super) use passed::Passed;
 use std::cmp::Ordering;
 pub(super) use step::step_of_heights;
 
@@ -41,6 +43,8 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub closed: &'c [Interval<T>],
     /// The contacts under a heavier load, if known: outside them nothing can be touched.
     pub widest: &'c [Interval<T>],
+    /// Those under a lighter load, if known: inside them nothing pulls that does not pull outside.
+    pub pressed: &'c [Interval<T>],
 }
 
 /// Where the bodies would pull at each other, and room for pressures `[x, P]`.
@@ -66,6 +70,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
     fn contacts(&self) -> &[Interval<T>] {
         let several = panels::several(self.integrator).map(Several::contacts);
         several.unwrap_or(std::slice::from_ref(&self.found.interval))
+    }
+
+    /// Tells whether a place is in a contact under a lighter load.
+    fn is_pressed(&self, x: T) -> bool {
+        let on = self.pressed.get(self.pressed.partition_point(|on| on.right < x));
+        on.is_some_and(|on| on.contains(x))
     }
 
     fn load_case(&self) -> LoadCase<T> {
@@ -116,7 +126,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
-        if adhesive || panels::rises(self.integrator, self.found.nothing()) == Some(true) {
+        let is_same = |(one, other): (&Interval<T>, &Interval<T>)| one.is_same(other);
+        let is_pressed = self.pressed.len() == self.contacts().len()
+            && self.pressed.iter().zip(self.contacts()).all(is_same);
+        if adhesive
+            || is_pressed
+            || panels::rises(self.integrator, self.found.nothing()) == Some(true)
+        {
             return Ok(None);
         }
         self.fields(fields)?;
@@ -147,6 +163,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 Ok::<_, ContactError<T>>(())
             };
             panels::nodes(self.integrator, i, &mut |x| {
+                if self.is_pressed(x) {
+                    return Ok(());
+                }
                 (places[count], count) = (x, count + 1);
                 if count == POINTS {
                     count = 0;
@@ -160,7 +179,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             // Between them, at the vertex of the parabola through each least value and its neighbours.
             for near in seen.windows(3) {
                 let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
-                if !(p[1] <= p[0] && p[1] <= p[2]) {
+                if !(p[1] <= p[0] && p[1] <= p[2]) || self.is_pressed(x[1]) {
                     continue;
                 }
                 for _ in 0..MOST_STEPS {

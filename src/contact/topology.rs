@@ -13,13 +13,12 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{SignoriniCheck, TensionSpans, step_of_heights};
+use super::signorini_check::{Passed, SignoriniCheck, TensionSpans, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
-use crate::real::same;
 use crate::solution::{ContactState, largest_pressure};
 use crate::solution::{Outcome, Report, Start};
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -55,9 +54,9 @@ pub(crate) struct Workspace<T> {
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
-    /// The heaviest load on these bodies of which a solution was checked, their tilt, and the contacts.
-    heaviest: Option<[T; 2]>,
-    widest: Vec<Interval<T>>,
+    /// Solutions for these bodies that have passed the check, under the heaviest load and under the lightest.
+    heaviest: Passed<T>,
+    lightest: Passed<T>,
     /// Room for what of these a lighter load may leave open.
     closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
@@ -74,8 +73,8 @@ impl<T: Real> Workspace<T> {
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
-            heaviest: None,
-            widest: Vec::new(),
+            heaviest: Passed::nothing(),
+            lightest: Passed::nothing(),
             closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
@@ -103,7 +102,9 @@ impl<T: Real> Workspace<T> {
     /// Takes a first look at the bodies, once for a pair of them.
     fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         if self.of != Some(gap.number()) {
-            (self.of, self.heaviest) = (None, None);
+            self.of = None;
+            self.heaviest.clear();
+            self.lightest.clear();
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
@@ -378,14 +379,19 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.take(gap, self.cost)?;
         }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { look, fields, tension_spans, heaviest, widest, closed_before, .. } =
+        let Workspace { look, fields, tension_spans, heaviest, lightest, closed_before, .. } =
             &mut *self.workspace;
-        // What a heavier load has left open a lighter one leaves open.
-        let is_lighter =
-            heaviest.is_some_and(|[most, tilt]| load <= most && same(tilt, found.tilt));
-        let widest_so_far = if is_lighter { &widest[..] } else { &[] };
+        let (under, samples) = ([load / kappa, found.tilt], integrator.cost().samples);
+        let contacts = panels::several(integrator).map(Several::contacts);
+        let contacts = contacts.unwrap_or(std::slice::from_ref(&interval));
+        // What a heavier load has left open a lighter one leaves open; what a lighter one presses a heavier one does.
+        let is_lighter = heaviest.is_heavier(under);
+        let widest = if is_lighter { heaviest.contacts() } else { &[] };
+        let is_inside = |passed: &&Passed<T>| passed.is_inside(under, samples, contacts);
+        let pressed = [&*heaviest, &*lightest].into_iter().find(is_inside);
+        let pressed = pressed.map_or(&[][..], Passed::contacts);
         let closed = &self.closed;
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest: widest_so_far };
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
         fields.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
@@ -398,13 +404,16 @@ impl<T: Real> Search<'_, '_, T> {
         if !covers {
             overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
         }
-        if overlap.is_none() && !is_lighter && found.adhesive == Ends::both(false) {
-            *heaviest = Some([load, found.tilt]);
-            let contacts = panels::several(integrator).map(Several::contacts);
-            widest.clear();
-            closed_before.clear();
-            closed_before.reserve(1 + 2 * contacts.map_or(1, <[_]>::len));
-            widest.extend_from_slice(contacts.unwrap_or(&[interval]));
+        if overlap.is_none() && found.adhesive == Ends::both(false) {
+            if !is_lighter {
+                heaviest.keep(under, samples, contacts);
+                closed_before.clear();
+                closed_before.reserve(1 + 2 * contacts.len());
+            }
+            let serves = lightest.is_inside(under, samples, contacts);
+            if !serves {
+                lightest.keep(under, samples, contacts);
+            }
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;

@@ -63,6 +63,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
         cost: &mut Cost,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         self.compare_heights(look, cost)?;
+        self.list_closed_before(closed_before);
+        if !self.widest.is_empty() && closed_before.is_empty() {
+            return Ok(None);
+        }
         if fields.is_empty() {
             self.fields(fields)?;
         }
@@ -74,7 +78,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let between = low.between.map(|_| [from, to]);
             (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
         };
-        self.list_closed_before(closed_before);
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.unwrap_or([low.x; 2]);
             let after = closed_before.partition_point(|on| on.right <= from);
