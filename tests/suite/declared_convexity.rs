@@ -30,10 +30,7 @@ impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Declared<P> {
     }
 }
 
-fn declared(
-    half: f64,
-    at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'static,
-) -> Body<f64> {
+fn declared(half: f64, at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'static) -> Body<f64> {
     Box::new(Curve::new([-half, half], at).with_convexity(Convexity::Convex))
 }
 
@@ -67,8 +64,7 @@ fn a_wavy_body_declared_convex_is_refused() {
             CurvePoint { x, y: 0.5 * x * x + y, dx, dy: (x + dy) * dx }
         });
         for (name, body) in [("parabola", &parabola), ("circle", &circle), ("bent", &bent)] {
-            for control in
-                [Control::Load(0.1), Control::HalfWidth(0.4), Control::PeakPressure(0.2)]
+            for control in [Control::Load(0.1), Control::HalfWidth(0.4), Control::PeakPressure(0.2)]
             {
                 is_refused(&**body, control, &format!("{name}, {wave_number}, {control:?}"));
             }
@@ -138,19 +134,25 @@ where
         // A power of |x|, whose curvature may be infinite or none in the middle.
         4 => {
             let power = dice.within(1.2, 6.0);
-            curve(1.0, Box::new(move |k: T| {
-                let rest = k.abs().powf(of(power - 1.0));
-                let slope = if k < T::zero() { -rest } else { rest };
-                [k.abs() * rest / of(power), slope]
-            }))
+            curve(
+                1.0,
+                Box::new(move |k: T| {
+                    let rest = k.abs().powf(of(power - 1.0));
+                    let slope = if k < T::zero() { -rest } else { rest };
+                    [k.abs() * rest / of(power), slope]
+                }),
+            )
         }
         // A formula whose digits cancel.
         5 => {
             let far = of(dice.power_of_ten(0.0, 1.0));
-            curve(1.0, Box::new(move |k: T| {
-                let ratio = (far + k) / far;
-                [of(0.5) * far * (ratio * ratio - T::one()) - k, ratio - T::one()]
-            }))
+            curve(
+                1.0,
+                Box::new(move |k: T| {
+                    let ratio = (far + k) / far;
+                    [of(0.5) * far * (ratio * ratio - T::one()) - k, ratio - T::one()]
+                }),
+            )
         }
         // Kinks up and steps of the curvature, at breakpoints.
         6 => {
@@ -174,10 +176,13 @@ where
         // Kinks up that are no breakpoints.
         _ => {
             let (kink, place) = (of(dice.power_of_ten(-3.0, 0.0)), of(dice.within(-0.2, 0.2)));
-            curve(1.0, Box::new(move |k: T| {
-                let sign = if k < place { -T::one() } else { T::one() };
-                [of(0.5) * k * k + kink * (k - place).abs(), k + kink * sign]
-            }))
+            curve(
+                1.0,
+                Box::new(move |k: T| {
+                    let sign = if k < place { -T::one() } else { T::one() };
+                    [of(0.5) * k * k + kink * (k - place).abs(), k + kink * sign]
+                }),
+            )
         }
     }
 }

@@ -109,9 +109,8 @@ fn burrs_as_narrow_as_asked_for_are_seen() {
 fn evaluations_are_those_kept() {
     let body = burred(bell, 0.0, 1.0, 0.0);
     let contact = Contact::new(&Flat, &body).unwrap();
-    let heights = |contact: &Contact<'_, f64>| {
-        contact.solve(Control::Load(0.02)).unwrap().cost().heights
-    };
+    let heights =
+        |contact: &Contact<'_, f64>| contact.solve(Control::Load(0.02)).unwrap().cost().heights;
     let kept = [4e-2, 4e-3, 4e-4].map(|length| heights(&contact.clone().resolution(length)));
     assert_eq!([heights(&contact), kept[0], kept[1], kept[2]], [26, 81, 784, 7754]);
 }
@@ -165,7 +164,9 @@ fn lengths_that_are_none_are_refused() {
     for length in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-17] {
         let found = contact.clone().resolution(length).solve(Control::Load(0.02));
         let error = found.map(|_| ()).unwrap_err();
-        let ContactError::InvalidResolution { resolution, least } = error else { panic!("{error}") };
+        let ContactError::InvalidResolution { resolution, least } = error else {
+            panic!("{error}")
+        };
         assert_eq!(resolution.to_bits(), length.to_bits());
         assert!(!(length > least && length < f64::INFINITY), "{error}");
     }

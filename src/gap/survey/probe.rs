@@ -235,7 +235,10 @@ impl<T: Real> Survey<T> {
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
                 let apart = gap.spacing(narrow, APART);
-                let is_wide = |x: [T; 2]| x[1] - x[0] > apart;
+                // A limit of a contact is no point.
+                let is_beside = from > pair[0].x || end < to;
+                let least = if is_beside { T::of(0.5) * apart } else { apart };
+                let is_wide = |x: [T; 2]| x[1] - x[0] > least;
                 if (is_wide([from, end]) || is_asked && end > from)
                     && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
                     && (is_wide(x) || is_asked)
