@@ -8,9 +8,7 @@ use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use crate::{Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
-use advice::{
-    SEVERAL, along, hint, how_to_peak, how_to_press, how_to_touch, longer_than, lost_digits, place,
-};
+use advice::{SEVERAL, along, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place};
 use std::fmt;
 use thiserror::Error;
 
@@ -438,8 +436,8 @@ pub enum ContactError<T: Real> {
     },
     /// The [resolution](crate::Contact::resolution) is not a length, or lost in the rounding of x.
     #[error(
-        "the resolution is {resolution}: the narrowest feature to be seen is a length along x, positive and finite{}",
-        longer_than(*least), resolution = six(*resolution)
+        "the resolution is {resolution}: the narrowest feature to be seen is a length along x, finite and more than {least}",
+        resolution = six(*resolution), least = six(*least)
     )]
     InvalidResolution {
         /// The resolution as given: a length.

@@ -22,11 +22,6 @@ pub(super) fn place<T: Real>(x: T) -> Rounded {
     six(if endless { x * T::of(f64::INFINITY) } else { x })
 }
 
-/// Names the length that a resolution must have at least, where it is known.
-pub(super) fn longer_than<T: Real>(least: T) -> String {
-    if least.is_zero() { String::new() } else { format!(", and here no less than {}", six(least)) }
-}
-
 /// Names the span between two places, or the place that they have in common.
 pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
     if from < to { format!("from x = {}", span(from, to)) } else { format!("at x = {}", six(from)) }

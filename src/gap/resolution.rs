@@ -36,9 +36,9 @@ impl<'b, T: Real> Gap<'b, T> {
 
     /// Returns the number of parts of a length that are no longer than a distance: no more than `most` by default.
     pub(crate) fn parts(&self, length: T, apart: T, most: usize) -> usize {
-        let parts: f64 = (length / apart).ceil().to_subset_unchecked();
+        let parts: f64 = (length / apart).to_subset_unchecked();
         // What is beyond all numbers is beyond the budget.
-        let parts = parts.max(1.0) as usize;
+        let parts = parts.ceil().max(1.0) as usize;
         if self.resolution.is_some() { parts } else { parts.min(most) }
     }
 

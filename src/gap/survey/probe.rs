@@ -256,7 +256,10 @@ impl<T: Real> Survey<T> {
             .fold(T::zero(), |sum, Stretch { x, apart, .. }| sum + (x[1] - x[0]) / *apart);
         let times = points / T::count(MOST_POINTS);
         if times > T::one() && !is_asked {
-            found.iter_mut().for_each(|stretch| stretch.apart *= times);
+            for stretch in found.iter_mut() {
+                stretch.apart *= times;
+                stretch.kept *= times;
+            }
             found.retain(|Stretch { x, apart, .. }| x[1] - x[0] > *apart);
         }
     }
