@@ -3,6 +3,7 @@
 use super::Gap;
 use crate::real::is_finite;
 use crate::{ContactError, Real};
+use num_traits::ToPrimitive;
 
 /// The full width at half height of the narrowest feature that is seen by default, as a share of the contact that it
 /// lies in or next to.
@@ -16,7 +17,7 @@ const WITHIN: f64 = 0.3;
 /// The least resolution, in units of rounding of x: the distance of points is then some ten of them.
 const ROUNDINGS: f64 = 32.0;
 
-impl<'b, T: Real> Gap<'b, T> {
+impl<T: Real> Gap<'_, T> {
     /// Returns the same gap, with the length of the narrowest feature to be seen. The shape of the bodies is looked
     /// at whatever they declare.
     pub(crate) fn with_resolution(self, resolution: T) -> Self {
@@ -38,7 +39,7 @@ impl<'b, T: Real> Gap<'b, T> {
     pub(crate) fn parts(&self, length: T, apart: T, most: usize) -> usize {
         let parts: f64 = (length / apart).to_subset_unchecked();
         // What is beyond all numbers is beyond the budget.
-        let parts = parts.ceil().max(1.0) as usize;
+        let parts = parts.ceil().max(1.0).to_usize().unwrap_or(usize::MAX);
         if self.resolution.is_some() { parts } else { parts.min(most) }
     }
 
