@@ -3,6 +3,7 @@
 //!
 //! ```sh
 //! cargo bench --bench default                             # the table of docs/speed.md
+//! cargo bench --bench default -- declared                # what it saves to declare the convexity of the bodies
 //! cargo bench --bench default -- repeat circle cold 100   # only this, 100 times: for instructions.sh
 //! ```
 //!
@@ -21,7 +22,9 @@ mod scenes;
 #[path = "shared/timing.rs"]
 mod timing;
 
-use linecontact::{Contact, Control, Cost, Solver};
+use linecontact::profile::{Crowning, Ellipse, Involute, Parabola, Spline};
+use linecontact::{Contact, Control, Convexity, Cost, CurvePoint, Flat, Solver};
+use linecontact::{ParametricProfile, Piece};
 use scenes::{SCENES, Scene, scene};
 use std::hint::black_box;
 use timing::time;
@@ -82,6 +85,96 @@ fn table() {
     }
 }
 
+/// A body with another word on its convexity.
+struct Declared<'b>(&'b dyn ParametricProfile<f64>, Convexity);
+
+impl ParametricProfile<f64> for Declared<'_> {
+    fn domain(&self) -> [f64; 2] {
+        self.0.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.0.at(k)
+    }
+    fn at_many(&self, k: &[f64], points: &mut [CurvePoint<f64>]) {
+        self.0.at_many(k, points);
+    }
+    fn slope_at(&self, x: f64) -> Option<f64> {
+        self.0.slope_at(x)
+    }
+    fn pieces(&self) -> usize {
+        self.0.pieces()
+    }
+    fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
+        self.0.piece(index)
+    }
+    fn convexity(&self) -> Convexity {
+        self.1
+    }
+}
+
+/// Points of the measured circle.
+const POINTS: usize = 100_000;
+
+/// Returns bodies that are convex, each with its name and a load.
+fn convex_bodies() -> [(&'static str, Box<dyn ParametricProfile<f64>>, f64); 7] {
+    let in_range = "the parameters are in range";
+    let [parabola, circle] = ["parabola", "circle"].map(scene);
+    let points: Vec<[f64; 2]> = (0..POINTS)
+        .map(|i| {
+            let (sin, cos) = (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0).sin_cos();
+            [sin, 1.0 - cos]
+        })
+        .collect();
+    let flank = Involute::new(50.0, 0.4, [0.0, 0.8]).expect(in_range);
+    let crowning = Crowning::new(0.01, 5.0, [-5.0, 5.0]).expect(in_range);
+    let shape = Parabola::new(1.0, [-1.0, 1.0]).expect(in_range);
+    let arc = Ellipse::circle(1.0, [-1.0, 1.0]).expect(in_range);
+    [
+        ("`Parabola`", Box::new(shape), parabola.load),
+        ("the same as a closure", parabola.upper, parabola.load),
+        ("`Ellipse::circle`", Box::new(arc), circle.load),
+        ("the same as a closure", circle.upper, circle.load),
+        ("`Crowning`", Box::new(crowning), 1e-3),
+        ("`Involute`", Box::new(flank), 1e-3),
+        (
+            "`Spline`, 100 000 points of a circle",
+            Box::new(Spline::through(&points).expect("they rise")),
+            circle.load,
+        ),
+    ]
+}
+
+/// Prints a line for each body on a flat: the evaluations of a first solve, those for heights among them, where its convexity
+/// is declared and where not, and the time and that of the next load without the word by that with it.
+fn declared() {
+    println!(
+        "|body|evaluations, declared|undeclared|time by that declared|next load by that declared|"
+    );
+    println!("|---|---|---|---|---|");
+    for (name, body, load) in convex_bodies() {
+        let [convex, unknown] = [Convexity::Convex, Convexity::Unknown].map(|word| {
+            let body = Declared(&*body, word);
+            let contact = Contact::new(&Flat, &body).expect("they overlap");
+            let solve =
+                || contact.solve(Control::Load(black_box(load))).expect("it has a solution");
+            let (cost, mut solver, mut is_heavy) = (solve().cost(), Solver::new(), false);
+            let cold = time(|| {
+                black_box(solve());
+            });
+            let next = time(|| {
+                is_heavy = !is_heavy;
+                let factor = if is_heavy { NEXT } else { 1.0 };
+                black_box(
+                    solver.solve(&contact, Control::Load(factor * load)).expect("so has the next"),
+                );
+            });
+            (cost.evaluations + cost.heights, cold, next)
+        });
+        let [cold, next] = [unknown.1 / convex.1, unknown.2 / convex.2];
+        println!("|{name}|{}|{}|{cold:.1}|{next:.1}|", convex.0, unknown.0);
+    }
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -92,6 +185,7 @@ fn main() {
             });
         }),
         [] => table(),
-        _ => panic!("nothing, or `repeat SCENE CASE TIMES`"),
+        ["declared"] => declared(),
+        _ => panic!("nothing, `declared`, or `repeat SCENE CASE TIMES`"),
     }
 }

@@ -326,6 +326,43 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { certified, ..self }
     }
 
+    /// The narrowest feature of the bodies to be seen, a length along x: a bump or a dent of that length from end to end,
+    /// or of that width at half its height.
+    ///
+    /// By default bumps and dents like Gauss's bell are seen whose width at half their height is 2 % of the contact or
+    /// more, provided that they move the peak by 1 %; beside contacts at 1024 points at the most for one load.
+    /// With a resolution the points looked at are less than half of it apart, and no further than by default: in the
+    /// contacts and beside them as far as the load reaches. So at least two points lie in a feature of that length. In a contact
+    /// it is seen if the slope at one of them differs from that of the bodies without it by more than the samples are
+    /// uncertain; beside contacts if the height does so by a millionth of F/κ or more.
+    ///
+    /// This takes evaluations in proportion to the reach of the load over the resolution ([`Cost::heights`]), within the
+    /// budget of [`ContactError::BudgetSpent`]. The bodies are looked at whatever
+    /// [convexity](crate::Convexity) they declare, but for pieces that are [`Straight`](crate::Convexity::Straight). It
+    /// does not apply with [`single_interval`](Self::single_interval), which looks for nothing, and in contacts not with
+    /// other quadratures than [`Panels`].
+    ///
+    /// ```
+    /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+    ///
+    /// // A parabola with a burr of 0.001 from end to end beside the contact.
+    /// let body = Curve::new([-1.0, 1.0], |k: f64| {
+    ///     let s = (k - 0.2303) / 0.0005;
+    ///     let rest = (1.0 - s * s).max(0.0);
+    ///     let (burr, slope) = (0.01 * rest.powi(3), -0.06 * s * rest.powi(2) / 0.0005);
+    ///     CurvePoint { x: k, y: 0.5 * k * k - burr, dx: 1.0, dy: k - slope }
+    /// });
+    /// let contact = Contact::new(&Flat, &body)?;
+    /// let load = Control::Load(0.02);
+    /// assert_eq!(contact.solve(load)?.intervals().len(), 1);
+    /// assert_eq!(contact.resolution(0.001).solve(load)?.intervals().len(), 2);
+    /// # Ok::<(), linecontact::ContactError<f64>>(())
+    /// ```
+    #[must_use]
+    pub fn resolution(self, length: T) -> Self {
+        Self { gap: self.gap.with_resolution(length), ..self }
+    }
+
     /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of
     /// the equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is
     /// what solves them, and [`Outcome::Unchecked`]. Between two corners any load will do, one that
@@ -342,7 +379,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
     /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
     /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
-    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for what was set;
+    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for what was
+    /// set; [`ContactError::NotConvex`] for what was declared;
     /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
     /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`], [`ContactError::NoEquilibrium`],
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
@@ -505,6 +543,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if let Some(start) = self.start {
             check(start)?;
         }
+        self.gap.check_resolution(T::zero())?;
         let by_load = matches!(control, Control::Load(_));
         if self.edge_pressure.is_some() && !by_load {
             return Err(ContactError::EdgePressureLoad);

@@ -8,7 +8,7 @@ use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use crate::{Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
-use advice::{SEVERAL, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place};
+use advice::{SEVERAL, along, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place};
 use std::fmt;
 use thiserror::Error;
 
@@ -241,7 +241,8 @@ pub enum ContactError<T: Real> {
     /// The search has spent its budget of evaluations.
     #[error(
         "{evaluations} evaluations of the curves, the last from x = {}, and not done: the budget is \
-         {budget}; give a start nearer to the contact, declare breakpoints, or set a looser tolerance",
+         {budget}; give a start nearer to the contact, declare breakpoints, or set a looser tolerance or a coarser \
+         resolution",
         span(last.left, last.right)
     )]
     BudgetSpent {
@@ -315,6 +316,18 @@ pub enum ContactError<T: Real> {
         by_heights: T,
         /// `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first to the second.
         by_slopes: T,
+    },
+    /// The bodies [declare](crate::Convexity) that they bulge towards each other, but the slope of the gap falls.
+    #[error(
+        "the slope of the gap falls from {} {}, but the bodies declare that they bulge towards each other: declare \
+         Convexity::Unknown, or correct the curve",
+        span(slopes[0], slopes[1]), along(*between)
+    )]
+    NotConvex {
+        /// Two places, the left one first; the same one twice where the slope jumps.
+        between: [T; 2],
+        /// The slopes of the gap there, before the bodies turn: ratios of lengths.
+        slopes: [T; 2],
     },
     /// The bodies would have to pull at each other inside the contact: they part there.
     #[error(
@@ -420,6 +433,17 @@ pub enum ContactError<T: Real> {
     InvalidTolerance {
         /// The tolerance as given.
         tolerance: T,
+    },
+    /// The [resolution](crate::Contact::resolution) is not a length, or lost in the rounding of x.
+    #[error(
+        "the resolution is {resolution}: the narrowest feature to be seen is a length along x, finite and more than {least}",
+        resolution = six(*resolution), least = six(*least)
+    )]
+    InvalidResolution {
+        /// The resolution as given: a length.
+        resolution: T,
+        /// The least length that the rounding of x in the contact allows; zero where none was found yet.
+        least: T,
     },
     /// A work of adhesion is negative or not finite.
     #[error(
@@ -791,6 +815,7 @@ impl<T: Real> ContactError<T> {
             | Self::InvalidEdgePressure { .. }
             | Self::InvalidSegments { .. }
             | Self::InvalidTolerance { .. }
+            | Self::InvalidResolution { .. }
             | Self::InvalidAdhesion { .. }
             | Self::InvalidMoment { .. }
             | Self::InvalidPoissonRatio { .. }
@@ -804,6 +829,7 @@ impl<T: Real> ContactError<T> {
             | Self::NoMaterials
             | Self::InvalidReference { .. }
             | Self::InconsistentHeights { .. }
+            | Self::NotConvex { .. }
             | Self::BothLimitsGiven { .. }
             | Self::TiltNotSupported { .. }
             | Self::PeakEdge { .. }

@@ -11,13 +11,14 @@
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
 mod noise;
+mod resolution;
 mod sample_near;
 mod sampler;
 mod survey;
 
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
-pub(crate) use survey::{Asked, Guides, LowPoint, NARROWEST, Survey};
+pub(crate) use survey::{Asked, Guides, LowPoint, Survey};
 
 use crate::profile::{Convexity, Piece};
 use crate::real::same;
@@ -50,6 +51,8 @@ pub struct Gap<'b, T: Real> {
     /// By how much body 2 is turned counter-clockwise: what is added to the slope, and times x to the height.
     tilt: T,
     watch: Option<Watch<'b, T>>,
+    /// The length of the narrowest feature to be seen, where the user says.
+    resolution: Option<T>,
 }
 
 /// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
@@ -207,7 +210,8 @@ impl<'b, T: Real> Gap<'b, T> {
             return Err(ContactError::NoCommonRange { lower, upper });
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
-        Ok(Self { bodies, inversion, range, number, convex, tilt: T::zero(), watch: None })
+        let (tilt, watch, resolution) = (T::zero(), None, None);
+        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution })
     }
 
     pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
@@ -247,7 +251,8 @@ impl<'b, T: Real> Gap<'b, T> {
         if same(self.tilt, T::zero()) { height } else { height + self.tilt * x }
     }
 
-    /// Whether the bodies say of themselves that the gap between them is convex: they touch in one interval.
+    /// Whether the bodies say of themselves that the gap between them is convex, and are believed: they touch in one
+    /// interval.
     pub(crate) fn is_convex(&self) -> bool {
         self.convex
     }

@@ -139,6 +139,7 @@ table! {
     InvalidSegments { segments, extrapolations };
     Singular { x };
     InconsistentHeights { between, by_heights, by_slopes };
+    NotConvex { between, slopes };
     Tension { x, pressure, interval, load };
     LiftsOff { x, strength, interval, load };
     Overlap { x, gap, interval, load };
@@ -146,6 +147,7 @@ table! {
     Unbalanced { x, strength, allowed };
     Undecided { x, evaluations, samples };
     InvalidTolerance { tolerance };
+    InvalidResolution { resolution, least };
     InvalidAdhesion { work };
     BothLimitsGiven { interval };
     InvalidMoment { value };

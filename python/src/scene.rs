@@ -191,6 +191,7 @@ struct Settings {
     inversion: Option<Choice>,
     limit_search: Option<Choice>,
     quadrature: Option<Choice>,
+    resolution: Option<f64>,
     certified: bool,
     single_interval: bool,
 }
@@ -247,6 +248,9 @@ impl Settings {
         if let Some(choice) = &self.quadrature {
             contact = contact.quadrature(quadrature(choice)?);
         }
+        if let Some(length) = self.resolution {
+            contact = contact.resolution(<L::Of as Real>::of(length));
+        }
         Ok(contact)
     }
 }
@@ -273,7 +277,7 @@ impl Scene {
 impl Scene {
     #[new]
     #[pyo3(signature = (lower, upper, *, kappa, contact_modulus, materials, edges, edge_pressure, start,
-        inversion, limit_search, quadrature, certified, single_interval))]
+        inversion, limit_search, quadrature, resolution, certified, single_interval))]
     #[expect(clippy::too_many_arguments, reason = "each is a setting with a name")]
     fn new(
         py: Python<'_>,
@@ -288,6 +292,7 @@ impl Scene {
         inversion: Option<Choice>,
         limit_search: Option<Choice>,
         quadrature: Option<Choice>,
+        resolution: Option<f64>,
         certified: bool,
         single_interval: bool,
     ) -> PyResult<Self> {
@@ -303,6 +308,7 @@ impl Scene {
             inversion,
             limit_search,
             quadrature,
+            resolution,
             certified,
             single_interval,
         };

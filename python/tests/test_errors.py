@@ -227,6 +227,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: solved(quadrature=lc.Midpoint(0)), "InvalidSegmentsError", {"segments": 0}),
     (lambda: solved(tolerance=2.0), "InvalidToleranceError", {"tolerance": 2.0}),
     (
+        lambda: solved(resolution=-1.0),
+        "InvalidResolutionError",
+        {"resolution": -1.0, "least": 0.0},
+    ),
+    (
         lambda: solved(edges=(lc.Edge.adhesive(-1.0), lc.Edge.adhesive(-1.0))),
         "InvalidAdhesionError",
         {"work": -1.0},
@@ -303,6 +308,16 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
             FLAT, graph(lambda x: x**2 / 2 + 0.01 * (x > 0.05), lambda x: x), kappa=1.0, load=0.02
         ),
         "InconsistentHeightsError",
+        {},
+    ),
+    (
+        lambda: lc.solve(
+            FLAT,
+            lc.Curve((-1, 1), lambda k: (k, k**4 - k**2, 1.0, 4 * k**3 - 2 * k), "convex"),
+            kappa=1.0,
+            load=0.02,
+        ),
+        "NotConvexError",
         {},
     ),
     (

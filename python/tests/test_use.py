@@ -161,6 +161,19 @@ def test_without_a_modulus_it_is_said_so() -> None:
         assert "κ" not in str(lc.solve(FLAT, BODY, load=0.02, **given))
 
 
+def test_a_burr_is_seen_at_a_resolution() -> None:
+    def burred(k: Array) -> tuple[Array, ...]:
+        s = (k - 0.25) / 2e-4
+        rest = np.maximum(1.0 - s * s, 0.0)
+        return k, k * k / 2 - 0.02 * rest**3, np.ones_like(k), k + 600.0 * s * rest**2
+
+    body = lc.Curve((-1.0, 1.0), burred, "convex")
+    contact = lc.Contact(FLAT, body, kappa=1.0, resolution=4e-4)
+    assert "resolution=0.0004" in repr(contact)
+    assert len(contact.solve(load=0.02).intervals) == 2
+    assert len(lc.solve(FLAT, body, kappa=1.0, load=0.02).intervals) == 1
+
+
 def test_nothing_changes() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
     contact = lc.Contact(FLAT, roller, kappa=1.0)

@@ -49,6 +49,8 @@ pub(crate) struct Workspace<T> {
     /// Heights of the bodies, with the number of the gap that they are of.
     look: Survey<T>,
     of: Option<u64>,
+    /// The length of the narrowest feature that was asked for last.
+    resolution: Option<T>,
     newton: NewtonSeveral<T>,
     fields: Vec<ExteriorField<T>>,
     /// The contacts last found, and those that Newton's method started from.
@@ -69,6 +71,7 @@ impl<T: Real> Workspace<T> {
         Self {
             look: Survey::new(),
             of: None,
+            resolution: None,
             newton: NewtonSeveral::new(),
             fields: Vec::new(),
             last: Vec::new(),
@@ -85,6 +88,16 @@ impl<T: Real> Workspace<T> {
     pub fn keep(&mut self, contacts: &[Interval<T>]) {
         self.last.clear();
         self.last.extend_from_slice(contacts);
+    }
+
+    /// Forgets what it was that coarser features left open.
+    fn look_for_features(&mut self, gap: &Gap<'_, T>) {
+        if self.resolution != gap.resolution() {
+            self.resolution = gap.resolution();
+            self.heaviest.clear();
+            self.lightest.clear();
+            self.look.look_again();
+        }
     }
 
     /// Surveys the bodies, once for a pair of them and as closely as is asked for.
@@ -130,6 +143,7 @@ pub(super) fn find<T: Real>(
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
 ) -> Result<ContactState<T>, ContactError<T>> {
+    workspace.look_for_features(&contact.gap);
     let found = find_contacts(contact, sought, integrator, workspace, cost);
     found.map_err(|error| match error {
         // A step of the heights of which no slope tells is no crest that could be pressed flat.
@@ -306,6 +320,8 @@ impl<T: Real> Search<'_, '_, T> {
         if contact.single_interval || contact.gap.is_convex() {
             return Ok(false);
         }
+        let Interval { left, right } = found.interval;
+        contact.gap.check_resolution(left.abs().max(right.abs()))?;
         let (Workspace { look, of, .. }, load) =
             (&*self.workspace, found.load.abs() / contact.kappa);
         let gap = &contact.gap.tilted(found.tilt);

@@ -1,7 +1,7 @@
 //! What messages say of what helps.
 
 use crate::Real;
-use crate::rounded::{Rounded, six};
+use crate::rounded::{Rounded, six, span};
 
 /// Whether a number is so small that it has fewer digits than others.
 pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
@@ -20,6 +20,11 @@ pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
 pub(super) fn place<T: Real>(x: T) -> Rounded {
     let endless = !(x * T::of(8.0)).is_finite();
     six(if endless { x * T::of(f64::INFINITY) } else { x })
+}
+
+/// Names the span between two places, or the place that they have in common.
+pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
+    if from < to { format!("from x = {}", span(from, to)) } else { format!("at x = {}", six(from)) }
 }
 
 /// What to do where the contact found is not all of it.

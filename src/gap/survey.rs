@@ -30,7 +30,6 @@ use body::Body;
 use convex::{Stretch, convex_stretches};
 pub(crate) use lows::LowPoint;
 use panel::Panel;
-pub(crate) use probe::NARROWEST;
 use series::Row;
 pub(super) use series::Series;
 /// Series of either body that say about where its parameters are, with the numbers of their pieces.

@@ -105,6 +105,18 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             &["x = 1.5 to 2.5", "3.5 by the heights", "4.5 by their slopes", "check_derivatives"],
             Input,
         ),
+        (
+            E::NotConvex { between: [1.5, 2.5], slopes: [4.5, 3.5] },
+            &["from 4.5 to 3.5", "from x = 1.5 to 2.5", "Convexity::Unknown"],
+            Input,
+        ),
+        (E::NotConvex { between: [1.5, 1.5], slopes: [4.5, 3.5] }, &["at x = 1.5"], Input),
+        (
+            E::InvalidResolution { resolution: 1.5, least: 2.5 },
+            &["resolution is 1.5", "more than 2.5"],
+            Input,
+        ),
+        (E::InvalidResolution { resolution: -1.5, least: 0.0 }, &["-1.5", "more than 0"], Input),
         (E::FeatureMissed { x: 1.5, slope: 2.5, assumed: 3.5 }, &["x = 1.5 is 2.5"], Solve),
         (E::Unbalanced { x: 1.5, strength: 2.5, allowed: 3.5 }, &["within 3.5"], Solve),
         (E::Undecided { x: 1.5, evaluations: 46, samples: 47 }, &["46 evaluations"], Solve),

@@ -105,6 +105,7 @@ class Scene:
         inversion: _Choice | None,
         limit_search: _Choice | None,
         quadrature: _Choice | None,
+        resolution: float | None,
         certified: bool,
         single_interval: bool,
     ) -> Scene: ...

@@ -531,7 +531,8 @@ class Curve(Body):
         at a time, at the ends once; an exception in it comes out of what was called, as it is.
     convexity : {"unknown", "straight", "convex", "concave"}
         Which way the curve bulges, if it is known: "convex" if the slope dY/dX never falls with X. Two bodies that
-        bulge towards each other take fewer evaluations. It is not checked.
+        bulge towards each other take fewer evaluations. Where the slopes that a solve samples contradict it there is a
+        NotConvexError; what lies between them is not checked.
 
     Notes
     -----

@@ -361,6 +361,7 @@ class Settings(TypedDict, total=False):
     inversion: Search | str | None
     quadrature: Panels | Midpoint | None
     tolerance: float | None
+    resolution: float | None
     certified: bool
     single_interval: bool
 
@@ -436,6 +437,11 @@ class Contact(Unchanging):
         Default: `Panels()`.
     tolerance : float, optional
         The same as `quadrature=Panels(tolerance)`.
+    resolution : float, optional
+        The narrowest feature of the bodies to be seen: the length along x of a bump or a dent from end to end. Points
+        less than half of it apart are looked at, in the contacts and beside them as far as the load reaches, whatever
+        the bodies declare; with `single_interval` nothing is. By default bumps like Gauss's bell are seen that are as
+        wide at half their height as 2 % of the contact.
     certified : bool
         Whether each solve is proved to be a contact, too: see `Solution.certify`.
     single_interval : bool
@@ -473,6 +479,7 @@ class Contact(Unchanging):
         inversion: Search | str | None = None,
         quadrature: Panels | Midpoint | None = None,
         tolerance: float | None = None,
+        resolution: float | None = None,
         certified: bool = False,
         single_interval: bool = False,
     ) -> None:
@@ -501,6 +508,7 @@ class Contact(Unchanging):
             "search": search,
             "inversion": inversion,
             "quadrature": quadrature,
+            "resolution": None if resolution is None else as_number(resolution, "resolution"),
             "certified": certified,
             "single_interval": single_interval,
         }
@@ -516,6 +524,7 @@ class Contact(Unchanging):
             inversion=_search(inversion),
             limit_search=_search(search),
             quadrature=_quadrature(quadrature),
+            resolution=self._settings["resolution"],
             certified=certified,
             single_interval=single_interval,
         )

@@ -433,6 +433,21 @@ class InconsistentHeightsError(InputError):
     by_slopes: float
 
 
+class NotConvexError(InputError):
+    """The bodies declare that they bulge towards each other, but the slope of the gap falls.
+
+    Attributes
+    ----------
+    between : tuple[float, float]
+        Two places, the left one first; the same one twice where the slope jumps.
+    slopes : tuple[float, float]
+        The slopes of the gap there, before the bodies turn: ratios of lengths.
+    """
+
+    between: tuple[float, float]
+    slopes: tuple[float, float]
+
+
 class TensionError(SolveError):
     """The bodies would have to pull at each other inside the contact: they part there.
 
@@ -562,6 +577,21 @@ class InvalidToleranceError(InputError):
     """
 
     tolerance: float
+
+
+class InvalidResolutionError(InputError):
+    """The resolution is not a length, or lost in the rounding of x.
+
+    Attributes
+    ----------
+    resolution : float
+        The resolution as given: a length.
+    least : float
+        The least length that the rounding of x in the contact allows; zero where none was found yet.
+    """
+
+    resolution: float
+    least: float
 
 
 class InvalidAdhesionError(InputError):

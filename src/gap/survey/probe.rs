@@ -10,10 +10,7 @@ use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
 
-/// The full width at half height of the narrowest feature to be seen, as a share of the contact that it lies in or next to.
-pub(crate) const NARROWEST: f64 = 0.02;
-
-/// The distance of points, in such widths.
+/// The distance of points by default, in widths of the narrowest feature to be seen.
 const APART: f64 = 4.5;
 
 /// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
@@ -26,7 +23,7 @@ const KEPT: f64 = 2.0;
 const EXACT: f64 = 1e-3;
 
 /// The share of F/κ by which a point may be missed besides, as where formulas cancel.
-const FOOT: f64 = 1e-6;
+const FOOT: f64 = 1e-7;
 
 /// Times the uncertainty of a panel by which a point may miss it.
 const MISSED: f64 = 8.0;
@@ -34,8 +31,8 @@ const MISSED: f64 = 8.0;
 /// Looks at stretches, each at the panels that the one before has refined.
 const MOST_ROUNDS: usize = 40;
 
-/// Points for one load. Where a load reaches further than so many are close, as between steps of narrow flanks, they
-/// are further apart.
+/// Points for one load by default. Where a load reaches further than so many are close, as between steps of narrow
+/// flanks, they are further apart.
 const MOST_POINTS: usize = 1 << 10;
 
 /// Halvings in search of the place where the gap leaves the reach of a load.
@@ -46,8 +43,26 @@ const MOST_HALVES: usize = 60;
 pub(super) struct Stretch<T> {
     x: [T; 2],
     apart: T,
+    /// The distance of points at hand that serves as well.
+    kept: T,
     /// Whether a point there is missed.
     is_missed: bool,
+}
+
+/// Adds a stretch to those on its left. One that is no longer than its distance of points continues the last.
+fn add<T: Real>(stretches: &mut Vec<Stretch<T>>, next: Stretch<T>) {
+    let [from, to] = next.x;
+    match stretches.last_mut() {
+        Some(last)
+            if to - from <= next.apart
+                && last.x[1] == from
+                && last.apart == next.apart
+                && last.is_missed == next.is_missed =>
+        {
+            last.x[1] = to;
+        }
+        _ => stretches.push(next),
+    }
 }
 
 /// A point to be asked for: the numbers of its stretch and its panel, its place there and its parameter.
@@ -63,7 +78,7 @@ impl<T: Real> Stretch<T> {
     /// Tells whether another one has points about as close all over this one.
     fn is_seen_by(&self, other: &Self) -> bool {
         let [from, to] = other.x;
-        from <= self.x[0] && to >= self.x[1] && other.apart <= T::of(KEPT) * self.apart
+        from <= self.x[0] && to >= self.x[1] && other.apart <= self.kept
     }
 }
 
@@ -72,6 +87,11 @@ impl<T: Real> Survey<T> {
     /// nothing.
     pub fn is_resolved(&self, gap: &Gap<'_, T>, load: T) -> bool {
         self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()))
+    }
+
+    /// Forgets under which load narrow features were looked for, as others are asked for.
+    pub fn look_again(&mut self) {
+        self.resolved = None;
     }
 
     /// Looks for narrow features that the load F/κ may press on beside the contacts, and refines panels that miss one.
@@ -110,17 +130,29 @@ impl<T: Real> Survey<T> {
             if stretches.is_empty() {
                 break;
             }
+            self.check_points(gap, stretches, *cost)?;
             if self.refine_stretches(gap, stretches, tolerance, cost)? {
                 continue;
             }
             let least = T::of(FOOT) * load;
             for which in [Which::Lower, Which::Upper] {
                 let surface = &gap.bodies[which as usize];
-                self.bodies[which as usize].probe(surface, stretches, least, &mut cost.heights);
+                self.bodies[which as usize].probe(
+                    gap,
+                    surface,
+                    stretches,
+                    least,
+                    &mut cost.heights,
+                );
             }
             for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
                 self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
-                self.seen.push(*stretch);
+                match self.seen.last_mut() {
+                    Some(last) if last.x[1] == stretch.x[0] && last.apart == stretch.apart => {
+                        last.x[1] = stretch.x[1];
+                    }
+                    _ => self.seen.push(*stretch),
+                }
             }
             stretches.retain(|stretch| stretch.is_missed);
             if stretches.is_empty() {
@@ -195,6 +227,8 @@ impl<T: Real> Survey<T> {
         let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
         let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
+        // Points of one body are none of the other.
+        let is_asked = gap.resolution().is_some();
         let mut next = 0;
         for pair in self.nodes.windows(2) {
             let [mut from, to] = [pair[0].x, pair[1].x];
@@ -206,12 +240,19 @@ impl<T: Real> Survey<T> {
                 let end = on.map_or(to, |on| to.min(on.left));
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
-                let apart = T::of(2.0 * APART * NARROWEST) * narrow;
-                if end - from > apart
+                let apart = gap.spacing(narrow, APART);
+                // A limit of a contact is no point.
+                let is_beside = from > pair[0].x || end < to;
+                let least = if is_beside { T::of(0.5) * apart } else { apart };
+                let is_wide = |x: [T; 2]| x[1] - x[0] > least;
+                if (is_wide([from, end]) || is_asked && end > from)
                     && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
-                    && x[1] - x[0] > apart
+                    && (is_wide(x) || is_asked)
                 {
-                    found.push(Stretch { x, apart, is_missed: false });
+                    let kept = if is_asked { apart } else { T::of(KEPT) * apart };
+                    // Where a panel is void it takes more of them first.
+                    let is_missed = !pair[0].after.is_finite();
+                    add(found, Stretch { x, apart, kept, is_missed });
                 }
                 from = on.map_or(to, |on| end.max(on.right));
             }
@@ -220,10 +261,32 @@ impl<T: Real> Survey<T> {
             .iter()
             .fold(T::zero(), |sum, Stretch { x, apart, .. }| sum + (x[1] - x[0]) / *apart);
         let times = points / T::count(MOST_POINTS);
-        if times > T::one() {
-            found.iter_mut().for_each(|stretch| stretch.apart *= times);
+        if times > T::one() && !is_asked {
+            for stretch in found.iter_mut() {
+                stretch.apart *= times;
+                stretch.kept *= times;
+            }
             found.retain(|Stretch { x, apart, .. }| x[1] - x[0] > *apart);
         }
+    }
+
+    /// Checks whether the budget allows the points that some stretches ask for.
+    fn check_points(
+        &self,
+        gap: &Gap<'_, T>,
+        stretches: &[Stretch<T>],
+        cost: Cost,
+    ) -> Result<(), ContactError<T>> {
+        let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else {
+            return Ok(());
+        };
+        let known = stretches.iter().filter(|stretch| !stretch.is_missed);
+        let points = known.fold(0, |sum: usize, Stretch { x, apart, .. }| {
+            sum.saturating_add(gap.parts(x[1] - x[0], *apart, MOST_POINTS))
+        });
+        let evaluations = cost.heights.saturating_add(points);
+        let span = Interval { left: first.x[0], right: last.x[1] };
+        gap.check_budget(Cost { evaluations, ..Cost::default() }, 1, 0, span)
     }
 
     /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
@@ -250,6 +313,7 @@ impl<T: Real> Body<T> {
     /// Asks the curve for points on some stretches, those of a piece in one batch, and voids panels that they miss.
     fn probe(
         &mut self,
+        gap: &Gap<'_, T>,
         surface: &Surface<'_, T>,
         stretches: &mut [Stretch<T>],
         least: T,
@@ -257,8 +321,9 @@ impl<T: Real> Body<T> {
     ) {
         let mut probes = std::mem::take(&mut self.scratch.probes);
         probes.clear();
-        for (i, stretch) in stretches.iter_mut().enumerate() {
-            self.place_probes(i, stretch, &mut probes);
+        let known = stretches.iter_mut().enumerate().filter(|(_, stretch)| !stretch.is_missed);
+        for (i, stretch) in known {
+            self.place_probes(gap, i, stretch, &mut probes);
         }
         let mut rest = &probes[..];
         while let [first, ..] = *rest {
@@ -292,7 +357,13 @@ impl<T: Real> Body<T> {
     }
 
     /// Places points on a stretch.
-    fn place_probes(&self, number: usize, stretch: &mut Stretch<T>, probes: &mut Vec<Probe<T>>) {
+    fn place_probes(
+        &self,
+        gap: &Gap<'_, T>,
+        number: usize,
+        stretch: &mut Stretch<T>,
+        probes: &mut Vec<Probe<T>>,
+    ) {
         let half = T::of(0.5);
         let [first, last] = stretch.x.map(|x| self.panels_at(x));
         for i in first[1]..=last[0].max(first[1]) {
@@ -304,14 +375,10 @@ impl<T: Real> Body<T> {
             }
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
-            let ends = [from, to].map(|x| series.parameter(x));
-            let mut count = 1;
-            while T::count(count) * stretch.apart < to - from && count < MOST_POINTS {
-                count += 1;
-            }
+            let count = gap.parts(to - from, stretch.apart, MOST_POINTS);
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
-                let t = ends[0] + share * (ends[1] - ends[0]);
+                let t = series.parameter(from + share * (to - from));
                 Probe { stretch: number, panel: i, t, k: series.k(t) }
             }));
         }

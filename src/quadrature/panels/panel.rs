@@ -16,6 +16,10 @@ pub(crate) struct Panel<T> {
     pub counting: usize,
     /// Estimated largest error of the series.
     pub tail: T,
+    /// The share of the slopes that is rounding, or noise of the formulas.
+    pub noise: T,
+    /// The most by which the slope falls from a node to the next.
+    pub fall: T,
     /// The largest distance of places in a contact at which the series is known to be right; infinite if nothing
     /// but its nodes was looked at.
     pub apart: T,
@@ -27,7 +31,17 @@ impl<T: Real> Panel<T> {
     /// Not sampled yet.
     pub fn new(x: [T; 2]) -> Self {
         let (zero, apart) = (T::zero(), T::one() / T::zero());
-        Self { x, n: 0, series: [zero; MOST], counting: 0, tail: zero, apart, untilted: zero }
+        Self {
+            x,
+            n: 0,
+            series: [zero; MOST],
+            counting: 0,
+            tail: zero,
+            noise: zero,
+            fall: zero,
+            apart,
+            untilted: zero,
+        }
     }
 
     /// Takes the series for that of a panel with n nodes.

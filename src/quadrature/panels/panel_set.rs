@@ -1,6 +1,7 @@
 //! The panels that cover a span of x: sampled once, extended when more is asked for.
 
 mod candidate;
+mod declared;
 mod derivative_check;
 mod probing;
 mod sampling;
@@ -216,6 +217,7 @@ impl<T: Real> PanelSet<T> {
         if !self.interval().is_some_and(covers) {
             self.turn(T::zero());
             self.extend_untilted(gap, on)?;
+            self.check_declared(gap)?;
         }
         self.turn(gap.tilt());
         Ok(())

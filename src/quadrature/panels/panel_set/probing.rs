@@ -5,13 +5,13 @@
 //! may be felt by none. Slopes there contradict the series.
 
 use super::PanelSet;
-use crate::gap::{Cost, Gap, NARROWEST, sample_near};
+use crate::gap::{Cost, Gap, sample_near};
 use crate::numerics::chebyshev::{Table, by_size};
 use crate::quadrature::panels::Panel;
 use crate::quadrature::panels::interpolation::at_nodes;
 use crate::{Body, ContactError, Interval, Real};
 
-/// The distance of places in a contact, in widths of the narrowest feature to be seen: at three of them from its top the
+/// The distance of places in a contact by default, in widths of the narrowest feature to be seen: at three of them from its top the
 /// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
 const BETWEEN: f64 = 6.0;
 
@@ -21,29 +21,31 @@ pub(crate) const MOST_MISSED: usize = 8;
 /// Times the uncertainty of a panel by which a slope may miss it.
 const MISSED: f64 = 32.0;
 
-/// The share of the distance to the nearest node by which a point may miss its place.
+/// The share of the distance to the nearest node by which a point may miss its place, and that of the distance of
+/// places.
 const NEAR: f64 = 0.1;
+const NEAR_PLACE: f64 = 0.25;
 
-/// The most points for one node of a panel, however long that is beside a contact.
+/// The most points for one node of a panel by default, however long that is beside a contact.
 const MOST_PARTS: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
-    /// Asks for slopes between the nodes of the panels of a contact where a narrow feature has room, and covers the span
-    /// anew where a panel misses one; tells whether any does.
+    /// Asks for slopes between the nodes of the panels of a contact where a narrow feature has room, and samples the panels
+    /// anew that miss one; tells whether any does.
     ///
     /// # Errors
     /// Those of sampling the bodies.
     pub fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<bool, ContactError<T>> {
-        let apart = T::of(2.0 * BETWEEN * NARROWEST) * on.half_width();
+        let apart = gap.spacing(on.half_width(), BETWEEN);
         let (tilt, before) = (self.tilt, self.cost);
         self.turn(T::zero());
-        let mut cuts = Vec::new();
+        let mut missed = Vec::new();
         for i in 0..self.panels.len() {
             let panel = self.panels[i];
             let is_touched = panel.x[0] < on.right && panel.x[1] > on.left;
             if is_touched && panel.apart > apart {
                 match self.missed_between(gap, &panel, on, apart)? {
-                    Some(x) => cuts.push(x),
+                    Some(x) => missed.push((i, x)),
                     None => self.panels[i].apart = apart,
                 }
             }
@@ -52,23 +54,30 @@ impl<T: Real> PanelSet<T> {
         let Cost { samples, evaluations, .. } = before;
         self.cost.heights += self.cost.evaluations - evaluations;
         (self.cost.samples, self.cost.evaluations) = (samples, evaluations);
-        if !cuts.is_empty() {
-            self.cut(gap, &cuts)?;
+        // From the right, so that the numbers of those on the left stay.
+        for &(i, x) in missed.iter().rev() {
+            self.cut(gap, i, x, apart)?;
         }
         self.turn(tilt);
-        Ok(!cuts.is_empty())
+        Ok(!missed.is_empty())
     }
 
-    /// Covers the same span anew, by panels that end at some places: next to them nodes are closest.
-    fn cut(&mut self, gap: &Gap<'_, T>, cuts: &[T]) -> Result<(), ContactError<T>> {
-        let Some(have) = self.interval() else { return Ok(()) };
-        self.clear(true);
+    /// Samples the span of a panel anew, by panels that end at and around a place: next to their ends nodes are closest.
+    fn cut(&mut self, gap: &Gap<'_, T>, i: usize, x: T, apart: T) -> Result<(), ContactError<T>> {
+        let after = self.panels.split_off(i + 1);
+        let Some(panel) = self.panels.pop() else { return Ok(()) };
+        let [mut left, end] = panel.x;
+        let neighbour = after.first().copied().filter(|_| !gap.is_breakpoint(end));
+        let mut known = i - usize::from(i > 0 && !gap.is_breakpoint(left));
+        let room = T::of(NEAR_PLACE) * apart;
+        let has_room = |x: &T| *x > panel.x[0] + room && *x < end - room;
         self.initial = super::LEAST;
-        let mut left = have.left;
-        for &right in cuts.iter().chain([&have.right]) {
-            self.sample(gap, Interval { left, right }, 0, None)?;
-            left = right;
+        for right in [x - apart, x, x + apart].into_iter().filter(has_room) {
+            self.sample(gap, Interval { left, right }, known, None)?;
+            (left, known) = (right, self.panels.len() - 1);
         }
+        self.sample(gap, Interval { left, right: end }, known, neighbour)?;
+        self.panels.extend_from_slice(&after[usize::from(neighbour.is_some())..]);
         self.at_first = self.panels.len();
         Ok(())
     }
@@ -83,14 +92,11 @@ impl<T: Real> PanelSet<T> {
         apart: T,
     ) -> Result<Option<T>, ContactError<T>> {
         let spacing = T::pi() * panel.half() / T::count(panel.n);
-        let mut parts = 1;
-        while T::count(parts) * apart < spacing && parts < MOST_PARTS {
-            parts += 1;
-        }
+        let parts = gap.parts(spacing, apart, MOST_PARTS);
         for part in 1..parts {
             gap.check_budget(self.cost, 1, 0, on)?;
-            let share = part as f64 / parts as f64;
-            let missed = by_size!(panel.n, N => self.missed_at::<N>(gap, panel, on, share))?;
+            let missed =
+                by_size!(panel.n, N => self.missed_at::<N>(gap, panel, on, apart, [part, parts]))?;
             if missed.is_some() {
                 return Ok(missed);
             }
@@ -98,14 +104,16 @@ impl<T: Real> PanelSet<T> {
         Ok(None)
     }
 
-    /// Looks at a share of the way from each node to the next.
+    /// Looks at one place of some that part the way from each node to the next.
     fn missed_at<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
         panel: &Panel<T>,
         on: Interval<T>,
-        share: f64,
+        apart: T,
+        [part, parts]: [usize; 2],
     ) -> Result<Option<T>, ContactError<T>> {
+        let share = part as f64 / parts as f64;
         let (reach, table) = (panel.half(), Table::of(N));
         let offsets: [T; N] = std::array::from_fn(|i| {
             // From the last node only half as far to the end.
@@ -115,7 +123,9 @@ impl<T: Real> PanelSet<T> {
         });
         let centre = T::of(0.5) * panel.x[0] + T::of(0.5) * panel.x[1];
         let places = offsets.map(|offset| centre + offset);
-        let room = std::array::from_fn(|i| T::of(NEAR * table.spacing[i]) * reach);
+        let most = T::of(NEAR_PLACE) * apart;
+        let room = table.spacing.map(|spacing| (T::of(NEAR * spacing) * reach).min(most));
+        let room = std::array::from_fn(|i| room[i]);
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
             sample_near(gap, body, &places, &room, trace, &mut self.cost)?;
         }

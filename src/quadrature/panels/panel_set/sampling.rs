@@ -90,7 +90,7 @@ impl<T: Real> PanelSet<T> {
                 Resolution::Take(next, tail) => (tail, Some(next), true),
                 Resolution::Split(tail) => (tail, None, true),
             };
-            panel.tail = tail;
+            (panel.tail, panel.noise) = (tail, noise);
             let (mut next, mut split, mut derivatives) = (next, split, T::zero());
             // More samples do nothing for the derivatives of what must be split anyway.
             if T::COMPONENTS > 1 && (next.is_some() || !split) {
@@ -248,6 +248,7 @@ impl<T: Real> PanelSet<T> {
         for (slopes, trace) in [&lower, &upper].into_iter().zip(&self.traces) {
             seen.missed = seen.missed.max(missed_at_ends(x, trace, slopes, self.coarse));
         }
+        panel.fall = (1..N).fold(zero, |most, i| most.max(slopes[i - 1] - slopes[i]));
         panel.series[..N].copy_from_slice(&table.coefficients(&slopes));
         panel.count(N);
         self.derivatives.clear();

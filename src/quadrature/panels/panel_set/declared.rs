@@ -1,0 +1,57 @@
+//! Whether the slope of the gap rises from node to node, as the bodies declare that it does.
+
+use super::PanelSet;
+use crate::gap::Gap;
+use crate::numerics::chebyshev::{Table, value_at};
+use crate::quadrature::panels::Panel;
+use crate::{ContactError, Real};
+
+/// Times the uncertainty of a panel, or the tolerance, by which the slope may fall on it. It may fall besides by the
+/// square root of the rounding unit as a share of the largest slope, as formulas lose digits, and no pressure that counts
+/// depends on less; and by as many units of rounding of a slope of 1, as of `sin/cos`.
+const ALLOWED: f64 = 32.0;
+
+impl<T: Real> PanelSet<T> {
+    /// Checks the slopes where the bodies declare a [`Convexity`](crate::Convexity) that makes the gap convex: they must not
+    /// fall from a node to the next, nor where two panels meet.
+    ///
+    /// # Errors
+    /// [`ContactError::NotConvex`].
+    pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
+        if !gap.is_convex() || self.coarse {
+            return Ok(());
+        }
+        let share = T::epsilon().sqrt().max(T::of(ALLOWED) * self.tolerance);
+        let least = share * self.size + T::of(ALLOWED) * T::epsilon();
+        let mut before = None;
+        for panel in &self.panels {
+            let allowed = T::of(ALLOWED) * panel.tail.max(panel.noise) + least;
+            let [left, right] = panel.at_ends();
+            let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
+            let fall = match at_seam {
+                Some((slope, _)) => Some(([panel.x[0]; 2], [slope, left])),
+                None if panel.fall > allowed => steepest_fall(panel, allowed),
+                None => None,
+            };
+            if let Some((between, slopes)) = fall {
+                return Err(ContactError::NotConvex { between, slopes });
+            }
+            before = Some((right, allowed));
+        }
+        Ok(())
+    }
+}
+
+/// Returns the neighbouring nodes between which the series of a panel falls most, and its slopes there, where that is more
+/// than is allowed: noise has been left out of it.
+fn steepest_fall<T: Real>(panel: &Panel<T>, allowed: T) -> Option<([T; 2], [T; 2])> {
+    let z = &Table::of(panel.n).z[..panel.n];
+    let slope = |z: f64| value_at(panel.coefficients(), T::of(z));
+    let falls = z.windows(2).map(|pair| [slope(pair[0]), slope(pair[1])]);
+    let (i, slopes) = falls.enumerate().reduce(|most, next| {
+        let by = |(_, [from, to]): &(usize, [T; 2])| *from - *to;
+        if by(&next) > by(&most) { next } else { most }
+    })?;
+    let place = |z: f64| panel.x[0] + panel.half() * T::of(1.0 + z);
+    (slopes[0] - slopes[1] > allowed).then(|| ([place(z[i]), place(z[i + 1])], slopes))
+}
