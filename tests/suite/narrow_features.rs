@@ -53,7 +53,8 @@ fn peaks(
 fn no_bump_of_two_per_cent_beside_a_contact_is_missed() {
     let scenes = std::env::var("SCENES").map_or(300, |count| count.parse().unwrap());
     let (mut missed, mut refused) = (Vec::new(), 0);
-    for seed in 0..scenes {
+    // Those by name: a foot that is next to nothing, and a bump that begins at a limit.
+    for seed in (0..scenes).chain([484, 878, 1175, 1573]) {
         let mut dice = Dice::new(seed);
         let half = dice.power_of_ten(-3.0, -0.4);
         // As far as the load reaches.

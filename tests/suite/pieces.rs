@@ -4,6 +4,7 @@
 use crate::common::{graph, join, on_flat, parabola};
 use crate::undeclared::assert_solved;
 use approx::assert_relative_eq;
+use linecontact::profile::{Fit, Spline};
 use linecontact::reference::{ClosedForm, Ellipse};
 use linecontact::{
     Contact, Control, Curve, CurvePoint, Flat, Interval, Midpoint, ParametricProfile, Piecewise,
@@ -317,5 +318,41 @@ fn an_edge_at_a_kink() {
                 assert!(error <= 2e-15, "{jump} {short:e}: {error:e}");
             }
         }
+    }
+}
+
+/// Pieces that a load cannot reach are known by their ends, many of them at a time.
+#[test]
+fn pieces_above_the_reach_of_a_load_are_not_sampled() {
+    let wave = |ends: &[f64]| {
+        Curve::new([ends[0], ends[1]], |x: f64| {
+            let (sin, cos) = (40.0 * x).sin_cos();
+            CurvePoint { x, y: x * x / 2.0 + 1e-3 * cos, dx: 1.0, dy: x - 0.04 * sin }
+        })
+    };
+    let pieces = 9000;
+    let body = Piecewise::new(breakpoints(pieces).windows(2).map(wave).collect()).unwrap();
+    let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(1e-4)).unwrap();
+    assert!(solution.intervals().len() > 1);
+    // Nine evaluations a piece would be 81 000.
+    let heights = solution.cost().heights;
+    assert!(heights < 9 * pieces as usize / 4, "{heights}");
+}
+
+/// A run of pieces is as uncertain as its highest point is high.
+#[test]
+fn one_raised_point_of_thousands_is_touched() {
+    let (count, height, load) = (4001, 0.05, 1e-3);
+    for raised in [2600, 2601, 2617, 2639] {
+        let point = |i: usize| {
+            let x = i as f64 / 2000.0 - 1.0;
+            [x, x * x / 2.0 - if i == raised { height } else { 0.0 }]
+        };
+        let points: Vec<_> = (0..count).map(point).collect();
+        let fit = Fit { outliers: None, ..Fit::default() };
+        let body = Spline::fitted(&points, fit).unwrap();
+        let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(load)).unwrap();
+        let [x, _] = point(raised);
+        assert!(solution.intervals().iter().any(|on| on.contains(x)), "{raised}");
     }
 }
