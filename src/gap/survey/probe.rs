@@ -376,9 +376,14 @@ impl<T: Real> Body<T> {
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
             let count = gap.parts(to - from, stretch.apart, MOST_POINTS);
+            let ends = [from, to].map(|x| series.parameter(x));
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
-                let t = series.parameter(from + share * (to - from));
+                // Evenly in t is about evenly in x.
+                let t = match gap.resolution() {
+                    Some(_) => series.parameter(from + share * (to - from)),
+                    None => ends[0] + share * (ends[1] - ends[0]),
+                };
                 Probe { stretch: number, panel: i, t, k: series.k(t) }
             }));
         }
