@@ -71,6 +71,7 @@ mod several_closed_forms;
 mod several_quantities;
 mod several_solved;
 mod shapes;
+mod signorini;
 mod solver;
 mod spline;
 mod spring;
