@@ -24,8 +24,11 @@ const MOST_JOINTS: usize = 64;
 /// Places with tension of which it is asked how far they can be trusted.
 const MOST_DOUBTFUL: usize = 256;
 
-/// Places in a contact at which the pressure is looked at for the gap beside it.
-const MOST_POINTS: usize = 1024;
+/// The most places in a contact at which the pressure is looked at for the gap beside it.
+const MOST_POINTS: usize = 4096;
+
+/// The least distance of such a place from a limit, in units of rounding of the contact.
+const FROM_LIMIT: f64 = 8.0;
 
 /// Places from that of a tension to the end of the contact at which the pressure is looked at.
 const HALVES: usize = 52;
@@ -103,9 +106,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// waves, or kinks. Whether there were any.
     fn resolve(&self, fields: &mut [ExteriorField<T>], share: T) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
+        // The outermost of N places is `L (π/N)²/8` from a limit.
+        let is_apart = |count: usize| {
+            (T::pi() / T::count(count)).powi(2) >= T::of(8.0 * FROM_LIMIT) * T::epsilon()
+        };
         for field in fields {
             let mut count = field.coefficients().len();
-            while field.doubt() > share * self.found.load.abs() && count < MOST_POINTS {
+            while field.doubt() > share * self.found.load.abs()
+                && count < MOST_POINTS
+                && is_apart(2 * count)
+            {
                 (count, is_finer) = (2 * count, true);
                 let x = (0..count).map(|i| ExteriorField::place(field.interval(), i, count));
                 let x: Vec<T> = x.collect();

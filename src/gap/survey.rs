@@ -8,8 +8,10 @@
 //! (F/κ) (1 + ln(2 W/L))        W the width of the bodies, L the half-width to expect
 //! ```
 //!
-//! panels are halved until they are uncertain by no more than a share of F/κ; all others are never looked
-//! at again. A heavier load goes on where a lighter one has stopped, and a tilt adds a straight line.
+//! panels are refined until they are uncertain by no more than a share of F/κ; all others are never looked
+//! at again. Of a panel that is far longer than what is asked for a window is cut out, others are halved, and
+//! [runs of pieces](pieces) are parted. A heavier load goes on where a lighter one has stopped, and a tilt adds a
+//! straight line.
 //!
 //! A gap whose slope rises from point to point by far more than the slopes are uncertain, and at
 //! joints, is [convex](convex): where it is, as far as a load reaches, the bodies touch in one interval.

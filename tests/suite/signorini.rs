@@ -496,6 +496,7 @@ fn even(count: usize) -> Vec<f64> {
     (0..=count).map(|i| 2.0 * i as f64 / count as f64 - 1.0).collect()
 }
 
+/// Returns the seeds: `SCENES` of them from `FIRST` on, if that is in the environment.
 fn scenes(default: u64) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok().map(|count| count.parse::<u64>().unwrap());
     let first = number("FIRST").unwrap_or(0);
@@ -505,7 +506,9 @@ fn scenes(default: u64) -> std::ops::Range<u64> {
 #[test]
 fn waves_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    for seed in scenes(200) {
+    // A crest beside the limit of a contact, where halving panels left them as uncertain at first.
+    let by_name = [2795];
+    for seed in scenes(200).chain(by_name) {
         let scene = Wavy::new(&mut Dice::new(seed));
         let body = scene.body(1.0);
         let load = scene.kappa * scene.load;
@@ -617,7 +620,9 @@ fn normal(dice: &mut Dice) -> f64 {
 #[test]
 fn measured_points_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    for seed in scenes(40) {
+    // Kinks so many that a thousand terms of a pressure leave overlaps of 1e-3 F/κ open.
+    let by_name = [1258, 1461, 2640];
+    for seed in scenes(40).chain(by_name) {
         let scene = Measured::new(&mut Dice::new(seed));
         let fit = Fit { outliers: None, ..Fit::default() };
         let body = Spline::fitted(&scene.points, fit).unwrap();

@@ -22,6 +22,9 @@ const KEPT: f64 = 2.0;
 /// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
 const EXACT: f64 = 1e-3;
 
+/// The share of F/κ by which panels may be uncertain there whatever it takes: crests of that height may hide.
+const VAGUE: f64 = 0.1;
+
 /// The share of F/κ by which a point may be missed besides, as where formulas cancel.
 const FOOT: f64 = 1e-7;
 
@@ -182,8 +185,12 @@ impl<T: Real> Survey<T> {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
-            // Noise does not get less.
-            marked[0].extend(spans.filter(|x| self.converges_in(x, tolerance)));
+            // What a halving leaves as uncertain takes many of them.
+            let is_worth_it = |x: &[T; 2]| {
+                self.is_vague_in(x, T::of(VAGUE / EXACT) * tolerance)
+                    || self.converges_in(x, tolerance)
+            };
+            marked[0].extend(spans.filter(is_worth_it));
             let refined = self.refine_bodies(gap, [&marked[0]; 2], tolerance, cost);
             self.marked = marked;
             if !refined? {
@@ -195,6 +202,12 @@ impl<T: Real> Survey<T> {
             self.join();
         }
         Ok(is_finer)
+    }
+
+    fn is_vague_in(&self, span: &[T; 2], most: T) -> bool {
+        let mut panels = self.bodies.iter().flat_map(|body| &body.panels);
+        let spans = std::slice::from_ref(span);
+        panels.any(|panel| panel.may_gain(most) && hull_in(spans, panel).is_some())
     }
 
     fn converges_in(&self, span: &[T; 2], tolerance: T) -> bool {
