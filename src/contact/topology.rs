@@ -118,6 +118,9 @@ impl<T: Real> Workspace<T> {
             self.of = None;
             self.heaviest.clear();
             self.lightest.clear();
+            // Room for what a check takes, which not all bodies need.
+            self.fields.reserve(1);
+            self.closed_before.reserve(3);
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());

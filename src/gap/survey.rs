@@ -168,6 +168,9 @@ impl<T: Real> Survey<T> {
             spans.clear();
             spans.reserve(self.nodes.capacity());
         }
+        self.seen.reserve(self.nodes.capacity());
+        self.stretches.clear();
+        self.stretches.reserve(self.nodes.capacity());
         Ok(())
     }
 

@@ -32,9 +32,11 @@ impl<T: Real> Passed<T> {
         Self { under: None, samples: 0, contacts: Vec::new() }
     }
 
-    /// Forgets the solution: the bodies are others.
+    /// Forgets the solution: the bodies are others. Keeps room for one contact.
     pub fn clear(&mut self) {
         self.under = None;
+        self.contacts.clear();
+        self.contacts.reserve(1);
     }
 
     /// Keeps a solution, with room for it to be split.

@@ -15,6 +15,9 @@ const FEW_PIECES: usize = 16;
 /// The most runs that the pieces of a body are taken together in at first.
 const MOST_RUNS: usize = 256;
 
+/// Parts of a piece that there is room for before more of it is taken.
+const MOST_PARTS: usize = 16;
+
 /// The most windows by which a long body is narrowed to the other one.
 const MOST_WINDOWS: usize = 8;
 
@@ -88,8 +91,18 @@ impl<T: Real> Body<T> {
         self.fresh.clear();
         self.fresh.push(range);
         self.rows.clear();
-        // Room for each to be halved once.
-        self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
+        // Room for each to be refined several times.
+        let few = MOST_PARTS * self.panels.len().min(FEW_PIECES);
+        self.rows.reserve((NODES + 2) * few);
+        self.series.reserve(few);
+        self.missed.reserve(few);
+        self.panels.reserve(few - self.panels.len());
+        self.fresh.reserve(few);
+        self.scratch.panels.reserve(few);
+        self.scratch.wanted.reserve(few);
+        self.scratch.probes.reserve(POINTS * few);
+        self.scratch.k.reserve(POINTS * few);
+        self.scratch.points.reserve(POINTS * few);
         self.sample(surface, range, heights)?;
         self.list(range);
         let is_long = |panel: &Panel<T>| {

@@ -162,10 +162,14 @@ impl<T: Real> Survey<T> {
                 break;
             }
             (self.stretch, self.is_one, self.known) = (None, false, None);
-            let missed: Vec<_> = stretches.iter().map(|stretch| stretch.x).collect();
+            let mut marked = std::mem::take(&mut self.marked);
+            marked[0].clear();
+            marked[0].extend(stretches.iter().map(|stretch| stretch.x));
             // Those that are void.
             let most = T::max_value().unwrap_or(T::one() / T::epsilon());
-            if !self.refine_at(gap, [&missed; 2], most, cost)? {
+            let refined = self.refine_at(gap, [&marked[0]; 2], most, cost);
+            self.marked = marked;
+            if !refined? {
                 break;
             }
         }
