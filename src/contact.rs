@@ -326,15 +326,15 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { certified, ..self }
     }
 
-    /// The narrowest feature of the bodies to be seen, a length along x: a bump or a dent of that length from end to end,
-    /// or of that width at half its height.
+    /// Sets the narrowest feature of the bodies to be seen, a length along x: a bump or a dent of this length from end to end,
+    /// or of this width at half its height.
     ///
     /// By default bumps and dents like Gauss's bell are seen whose width at half their height is 2 % of the contact or
     /// more, provided that they move the peak by 1 %; beside contacts at 1024 points at the most for one load.
     /// With a resolution the points looked at are less than half of it apart, and no further than by default: in the
     /// contacts and beside them as far as the load reaches. So at least two points lie in a feature of that length. In a contact
     /// it is seen if the slope at one of them differs from that of the bodies without it by more than the samples are
-    /// uncertain; beside contacts if the height does so by a millionth of F/κ or more.
+    /// uncertain; beside contacts if the height does so by 1e-7 F/κ or more.
     ///
     /// This takes evaluations in proportion to the reach of the load over the resolution ([`Cost::heights`]), within the
     /// budget of [`ContactError::BudgetSpent`]. The bodies are looked at whatever

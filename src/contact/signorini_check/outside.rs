@@ -98,7 +98,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 return Ok(overlap);
             }
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
-
             let is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
             let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;

@@ -39,7 +39,7 @@ impl<T: Real> Passed<T> {
         self.contacts.reserve(1);
     }
 
-    /// Keeps a solution, with room for it to be split.
+    /// Keeps a solution.
     pub fn keep(&mut self, under: [T; 2], samples: usize, contacts: &[Interval<T>]) {
         (self.under, self.samples) = (Some(under), samples);
         self.contacts.clear();

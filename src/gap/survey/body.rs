@@ -72,6 +72,7 @@ impl<T: Real> Body<T> {
         range: [T; 2],
         heights: &mut usize,
     ) -> Result<(), ProfileError<T>> {
+        let is_again = !self.panels.is_empty();
         self.panels.clear();
         self.series.clear();
         self.missed.clear();
@@ -91,18 +92,11 @@ impl<T: Real> Body<T> {
         self.fresh.clear();
         self.fresh.push(range);
         self.rows.clear();
-        // Room for each to be refined several times.
-        let few = MOST_PARTS * self.panels.len().min(FEW_PIECES);
-        self.rows.reserve((NODES + 2) * few);
-        self.series.reserve(few);
-        self.missed.reserve(few);
-        self.panels.reserve(few - self.panels.len());
-        self.fresh.reserve(few);
-        self.scratch.panels.reserve(few);
-        self.scratch.wanted.reserve(few);
-        self.scratch.probes.reserve(POINTS * few);
-        self.scratch.k.reserve(POINTS * few);
-        self.scratch.points.reserve(POINTS * few);
+        // Room for each to be halved once.
+        self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
+        if is_again {
+            self.make_room();
+        }
         self.sample(surface, range, heights)?;
         self.list(range);
         let is_long = |panel: &Panel<T>| {
@@ -116,6 +110,22 @@ impl<T: Real> Body<T> {
             }
         }
         Ok(())
+    }
+
+    /// Makes room for each panel to be refined several times: bodies that move allocate nothing.
+    fn make_room(&mut self) {
+        let few = MOST_PARTS * self.panels.len().min(FEW_PIECES);
+        self.rows.reserve((NODES + 2) * few);
+        self.series.reserve(few);
+        self.missed.reserve(few);
+        self.panels.reserve(few);
+        self.fresh.reserve(few);
+        let Scratch { probes, k, points, panels, wanted } = &mut self.scratch;
+        panels.reserve(few + self.panels.len());
+        wanted.reserve(few);
+        probes.reserve(POINTS * few);
+        k.reserve(POINTS * few);
+        points.reserve(POINTS * few);
     }
 
     /// Returns the evaluations that it may take to refine the panels on some spans that are marked.
