@@ -13,7 +13,7 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{Passed, SignoriniCheck, TensionSpans, step_of_heights};
+use super::signorini_check::{Passed, SignoriniCheck, TensionSpans, Under, step_of_heights};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
@@ -56,9 +56,7 @@ pub(crate) struct Workspace<T> {
     /// The contacts last found, and those that Newton's method started from.
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
-    /// Solutions for these bodies that have passed the check, under the heaviest load and under the lightest.
-    heaviest: Passed<T>,
-    lightest: Passed<T>,
+    passed: Passed<T>,
     /// Room for what of these a lighter load may leave open.
     closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
@@ -76,8 +74,7 @@ impl<T: Real> Workspace<T> {
             fields: Vec::new(),
             last: Vec::new(),
             before: Vec::new(),
-            heaviest: Passed::nothing(),
-            lightest: Passed::nothing(),
+            passed: Passed::new(),
             closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
             report: Report::new(),
@@ -94,8 +91,7 @@ impl<T: Real> Workspace<T> {
     fn look_for_features(&mut self, gap: &Gap<'_, T>) {
         if self.resolution != gap.resolution() {
             self.resolution = gap.resolution();
-            self.heaviest.clear();
-            self.lightest.clear();
+            self.passed.clear();
             self.look.look_again();
         }
     }
@@ -116,8 +112,7 @@ impl<T: Real> Workspace<T> {
     fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         if self.of != Some(gap.number()) {
             self.of = None;
-            self.heaviest.clear();
-            self.lightest.clear();
+            self.passed.clear();
             // Room for what a check takes, which not all bodies need.
             self.fields.reserve(1);
             self.closed_before.reserve(3);
@@ -398,17 +393,14 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.take(gap, self.cost)?;
         }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { look, fields, tension_spans, heaviest, lightest, closed_before, .. } =
+        let Workspace { look, fields, tension_spans, passed, closed_before, .. } =
             &mut *self.workspace;
-        let (under, samples) = ([load / kappa, found.tilt], integrator.cost().samples);
+        let under = [load / kappa, found.tilt];
+        let on = Under { under, samples: integrator.cost().samples };
         let contacts = panels::several(integrator).map(Several::contacts);
         let contacts = contacts.unwrap_or(std::slice::from_ref(&interval));
         // What a heavier load has left open a lighter one leaves open; what a lighter one presses a heavier one does.
-        let is_lighter = heaviest.is_heavier(under);
-        let widest = if is_lighter { heaviest.contacts() } else { &[] };
-        let is_inside = |passed: &&Passed<T>| passed.is_inside(under, samples, contacts);
-        let pressed = [&*heaviest, &*lightest].into_iter().find(is_inside);
-        let pressed = pressed.map_or(&[][..], Passed::contacts);
+        let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
         let closed = &self.closed;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
         fields.clear();
@@ -424,15 +416,8 @@ impl<T: Real> Search<'_, '_, T> {
             overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
         }
         if overlap.is_none() && found.adhesive == Ends::both(false) {
-            if !is_lighter {
-                heaviest.keep(under, samples, contacts);
-                closed_before.clear();
-                closed_before.reserve(1 + 2 * contacts.len());
-            }
-            let serves = lightest.is_inside(under, samples, contacts);
-            if !serves {
-                lightest.keep(under, samples, contacts);
-            }
+            passed.keep(on, contacts);
+            closed_before.reserve(1 + 2 * contacts.len());
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;

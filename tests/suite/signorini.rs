@@ -689,7 +689,7 @@ fn first_touch(scene: &Wavy) -> f64 {
 #[test]
 fn wavy_bodies_come_nearer_by_what_is_defined() {
     let [mut worst, mut back] = [0.0f64; 2];
-    let [mut wrong, mut refused, mut not_back] = [const { Vec::new() }; 3];
+    let ([mut wrong, mut refused], mut not_back) = ([const { Vec::new() }; 2], Vec::new());
     let all = scenes(100);
     for seed in all.clone() {
         let mut dice = Dice::new(seed + (1 << 40));
@@ -776,18 +776,16 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
                     wrong.push(format!("{name}: {} for {load}", again.load()));
                 }
             }
-            Err(error) => not_back.push(format!("{name}: {error}")),
+            Err(error) => {
+                println!("{name}: {error}");
+                not_back.push(seed);
+            }
         }
     }
-    let [wrong, refused, not_back] =
-        [wrong, refused, not_back].map(|list: Vec<String>| (list.len(), list.join("\n")));
-    println!(
-        "{all:?}: {worst:.1e} of the sums, loads {back:.1e}; {} not found back:\n{}",
-        not_back.0, not_back.1
-    );
-    assert!(wrong.0 == 0 && refused.0 == 0, "{wrong:?}\n{refused:?}");
-    // A load may be refused that is found where it is given.
-    assert!(not_back.0 as u64 <= 1 + (all.end - all.start) / 50, "{not_back:?}");
+    println!("{all:?}: {worst:.1e} of the sums, loads {back:.1e}, not found back: {not_back:?}");
+    assert!(wrong.is_empty() && refused.is_empty(), "{wrong:?}\n{refused:?}");
+    // The load of scene 6 is found where it is given, and not yet by its approach.
+    assert!(not_back.iter().all(|&seed| seed == 6), "{not_back:?}");
 }
 
 #[test]

@@ -16,9 +16,16 @@ use crate::{Interval, Real};
 /// The share of a contact by which limits that are the same may differ.
 const SAME: f64 = 1e-12;
 
-/// A solution that has passed.
+/// Solutions for two bodies that have passed, under the heaviest load and under the lightest.
 #[derive(Clone, Debug)]
 pub(in crate::contact) struct Passed<T> {
+    heaviest: Checked<T>,
+    lightest: Checked<T>,
+}
+
+/// A solution that has passed.
+#[derive(Clone, Debug)]
+struct Checked<T> {
     /// F/κ and the tilt of the bodies; `None` before anything has passed.
     under: Option<[T; 2]>,
     /// Samples of the gap that it was found from.
@@ -27,35 +34,63 @@ pub(in crate::contact) struct Passed<T> {
 }
 
 impl<T: Real> Passed<T> {
-    /// Nothing has passed yet.
-    pub fn nothing() -> Self {
-        Self { under: None, samples: 0, contacts: Vec::new() }
+    pub fn new() -> Self {
+        let nothing = Checked { under: None, samples: 0, contacts: Vec::new() };
+        Self { heaviest: nothing.clone(), lightest: nothing }
     }
 
-    /// Forgets the solution: the bodies are others. Keeps room for one contact.
+    /// Forgets both: the bodies are others. Keeps room for one contact.
     pub fn clear(&mut self) {
-        self.under = None;
-        self.contacts.clear();
-        self.contacts.reserve(1);
+        for solution in [&mut self.heaviest, &mut self.lightest] {
+            solution.under = None;
+            solution.contacts.clear();
+            solution.contacts.reserve(1);
+        }
     }
 
-    /// Keeps a solution.
-    pub fn keep(&mut self, under: [T; 2], samples: usize, contacts: &[Interval<T>]) {
+    /// Returns the contacts under no less load, F/κ, at the same tilt; none if nothing has passed there.
+    pub fn under_more(&self, [load, tilt]: [T; 2]) -> &[Interval<T>] {
+        let Checked { under, contacts, .. } = &self.heaviest;
+        let is_lighter = under.is_some_and(|[most, at]| load <= most && same(tilt, at));
+        if is_lighter { contacts } else { &[] }
+    }
+
+    /// Returns the contacts of a solution under no more load at the same tilt, from the same samples and inside the contacts
+    /// at hand; none if there is no such solution.
+    pub fn under_less(&self, on: Under<T>, contacts: &[Interval<T>]) -> &[Interval<T>] {
+        let both = [&self.heaviest, &self.lightest];
+        let inside = both.into_iter().find(|solution| solution.is_inside(on, contacts));
+        inside.map_or(&[], |solution| &solution.contacts)
+    }
+
+    /// Keeps a solution that has passed.
+    pub fn keep(&mut self, on: Under<T>, contacts: &[Interval<T>]) {
+        if self.under_more(on.under).is_empty() {
+            self.heaviest.set(on, contacts);
+        }
+        if !self.lightest.is_inside(on, contacts) {
+            self.lightest.set(on, contacts);
+        }
+    }
+}
+
+/// A load, F/κ, with the tilt of the bodies, and the samples of the gap so far.
+#[derive(Clone, Copy)]
+pub(in crate::contact) struct Under<T> {
+    pub under: [T; 2],
+    pub samples: usize,
+}
+
+impl<T: Real> Checked<T> {
+    fn set(&mut self, Under { under, samples }: Under<T>, contacts: &[Interval<T>]) {
         (self.under, self.samples) = (Some(under), samples);
         self.contacts.clear();
         self.contacts.extend_from_slice(contacts);
     }
 
-    /// Tells whether a solution passed under no less load at the same tilt.
-    pub fn is_heavier(&self, [load, tilt]: [T; 2]) -> bool {
-        self.under.is_some_and(|[most, at]| load <= most && same(tilt, at))
-    }
-
-    /// Tells whether a solution passed under no more load at the same tilt and on the same samples, inside contacts.
-    pub fn is_inside(
+    fn is_inside(
         &self,
-        [load, tilt]: [T; 2],
-        samples: usize,
+        Under { under: [load, tilt], samples }: Under<T>,
         contacts: &[Interval<T>],
     ) -> bool {
         let is_lighter = self.under.is_some_and(|[least, at]| load >= least && same(tilt, at));
@@ -67,9 +102,5 @@ impl<T: Real> Passed<T> {
             })
         };
         is_lighter && samples == self.samples && self.contacts.iter().all(is_in_one)
-    }
-
-    pub fn contacts(&self) -> &[Interval<T>] {
-        &self.contacts
     }
 }

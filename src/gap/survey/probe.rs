@@ -52,17 +52,15 @@ pub(super) struct Stretch<T> {
     is_missed: bool,
 }
 
-/// Adds a stretch to those on its left. One that is no longer than its distance of points continues the last.
+/// Adds a stretch to those on its left. One that borders on the last and is looked at alike continues it.
 fn add<T: Real>(stretches: &mut Vec<Stretch<T>>, next: Stretch<T>) {
-    let [from, to] = next.x;
     match stretches.last_mut() {
         Some(last)
-            if to - from <= next.apart
-                && last.x[1] == from
+            if last.x[1] == next.x[0]
                 && last.apart == next.apart
                 && last.is_missed == next.is_missed =>
         {
-            last.x[1] = to;
+            last.x[1] = next.x[1];
         }
         _ => stretches.push(next),
     }
@@ -126,7 +124,6 @@ impl<T: Real> Survey<T> {
         stretches: &mut Vec<Stretch<T>>,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        let tolerance = T::of(EXACT) * load;
         for _ in 0..MOST_ROUNDS {
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
             stretches.retain(|stretch| !self.is_seen(stretch));
@@ -134,7 +131,7 @@ impl<T: Real> Survey<T> {
                 break;
             }
             self.check_points(gap, stretches, *cost)?;
-            if self.refine_stretches(gap, stretches, tolerance, cost)? {
+            if self.refine_stretches(gap, stretches, load, cost)? {
                 continue;
             }
             let least = T::of(FOOT) * load;
@@ -150,12 +147,7 @@ impl<T: Real> Survey<T> {
             }
             for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
                 self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
-                match self.seen.last_mut() {
-                    Some(last) if last.x[1] == stretch.x[0] && last.apart == stretch.apart => {
-                        last.x[1] = stretch.x[1];
-                    }
-                    _ => self.seen.push(*stretch),
-                }
+                add(&mut self.seen, *stretch);
             }
             stretches.retain(|stretch| stretch.is_missed);
             if stretches.is_empty() {
@@ -176,24 +168,24 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Refines panels on some stretches until they are as exact as a tolerance, or noise; whether there were any.
+    /// Refines panels on some stretches until they are as exact as the load F/κ asks for, or noise; tells whether there
+    /// were any.
     fn refine_stretches(
         &mut self,
         gap: &Gap<'_, T>,
         stretches: &[Stretch<T>],
-        tolerance: T,
+        load: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
+        let (tolerance, vague) = (T::of(EXACT) * load, T::of(VAGUE) * load);
         let mut is_finer = false;
         for _ in 0..MOST_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
             // What a halving leaves as uncertain takes many of them.
-            let is_worth_it = |x: &[T; 2]| {
-                self.is_vague_in(x, T::of(VAGUE / EXACT) * tolerance)
-                    || self.converges_in(x, tolerance)
-            };
+            let is_worth_it =
+                |x: &[T; 2]| self.is_vague_in(x, vague) || self.converges_in(x, tolerance);
             marked[0].extend(spans.filter(is_worth_it));
             let refined = self.refine_bodies(gap, [&marked[0]; 2], tolerance, cost);
             self.marked = marked;
@@ -208,6 +200,7 @@ impl<T: Real> Survey<T> {
         Ok(is_finer)
     }
 
+    /// Tells whether more points may help in a span with a panel that is more uncertain than `most`.
     fn is_vague_in(&self, span: &[T; 2], most: T) -> bool {
         let mut panels = self.bodies.iter().flat_map(|body| &body.panels);
         let spans = std::slice::from_ref(span);
@@ -269,7 +262,9 @@ impl<T: Real> Survey<T> {
                     let kept = if is_asked { apart } else { T::of(KEPT) * apart };
                     // Where a panel is void it takes more of them first.
                     let is_missed = !pair[0].after.is_finite();
-                    add(found, Stretch { x, apart, kept, is_missed });
+                    let next = Stretch { x, apart, kept, is_missed };
+                    // Points in a longer one are placed in each by itself.
+                    if is_wide(x) { found.push(next) } else { add(found, next) }
                 }
                 from = on.map_or(to, |on| end.max(on.right));
             }
