@@ -6,7 +6,7 @@ use crate::Real;
 ///
 /// Where the upper body is convex and the lower one concave (each may be straight) the gap between them is
 /// convex, and so they touch in one interval: the solver then takes no heights to look for others. Declare it of a body
-/// that is certainly convex and solved from scratch often: a first solve takes a third to two thirds of the time.
+/// that is certainly convex and solved from scratch often: a first solve takes a tenth to two thirds of the time.
 ///
 /// The slopes of the gap at the nodes of [`Panels`](crate::Panels) are checked: where they fall by more than they are
 /// uncertain, and by more than `sqrt(ε)` of the largest, the solve ends with
