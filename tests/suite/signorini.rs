@@ -620,8 +620,9 @@ fn normal(dice: &mut Dice) -> f64 {
 #[test]
 fn measured_points_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    // Kinks so many that a thousand terms of a pressure leave overlaps of 1e-3 F/κ open.
-    let by_name = [1258, 1461, 2640];
+    // Kinks so many that a thousand terms of a pressure leave overlaps of 1e-3 F/κ open; in the last one a dip that is not
+    // where the gap is lowest before loading.
+    let by_name = [1258, 1461, 2640, 2839];
     for seed in scenes(40).chain(by_name) {
         let scene = Measured::new(&mut Dice::new(seed));
         let fit = Fit { outliers: None, ..Fit::default() };

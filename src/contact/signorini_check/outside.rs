@@ -38,8 +38,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (mut falls, mut rises) = (None, None);
         for _ in 0..MOST_HALVES {
             let x = half * (left + right);
-            let pushed = fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x));
-            let slope = look.slope(x) + self.gap.tilt() - pushed / self.kappa;
+            let slope = self.slope(fields, look, x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -50,6 +49,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let share = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
         let share = share.filter(|share| share.is_finite()).unwrap_or(half);
         left + share * (right - left)
+    }
+
+    /// Returns the slope of the loaded gap outside the contacts.
+    fn slope(&self, fields: &[ExteriorField<T>], look: &Survey<T>, x: T) -> T {
+        look.slope(x) + self.gap.tilt() - self.rate(fields, x)
+    }
+
+    /// Returns the rate of the displacement outside the contacts.
+    fn rate(&self, fields: &[ExteriorField<T>], x: T) -> T {
+        fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x)) / self.kappa
     }
 
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there. Where the
@@ -71,15 +80,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.fields(fields)?;
         }
         let corners = [self.corner(Side::Left, ends, cost)?, self.corner(Side::Right, ends, cost)?];
+        let turned = |[x, height]: [T; 2]| [x, self.gap.turned(x, height)];
         let within = |low: LowPoint<T>| {
-            let height = self.gap.turned(low.x, low.height);
-            let [from, to] = low.between.unwrap_or([low.x; 2]);
-            let (from, to) = (from.max(ends.left), to.min(ends.right));
+            let [x, height] = turned([low.x, low.height]);
+            let [from, to] = low.between.unwrap_or([[x, height]; 2]).map(turned);
+            let (from, to) = ([from[0].max(ends.left), from[1]], [to[0].min(ends.right), to[1]]);
             let between = low.between.map(|_| [from, to]);
-            (from <= to).then(|| LowPoint { x: low.x.max(from).min(to), height, between, ..low })
+            let x = x.max(from[0]).min(to[0]);
+            (from[0] <= to[0]).then_some(LowPoint { x, height, between, ..low })
         };
         let is_new = |low: &LowPoint<T>| {
-            let [from, to] = low.between.unwrap_or([low.x; 2]);
+            let [from, to] = low.between.map_or([low.x; 2], |ends| ends.map(|end| end[0]));
             let after = closed_before.partition_point(|on| on.right <= from);
             self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left < to)
         };
@@ -138,10 +149,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (Some(on), Some([from, to])) = (on.filter(|on| on.left <= low.x), low.between) else {
             return [Some(low), None];
         };
-        [[from, on.left], [on.right, to]].map(|[from, to]| {
-            let x = T::of(0.5) * (from + to);
+        // At a limit the opening slope decides.
+        let far = T::one() / T::zero();
+        [[from, [on.left, far]], [[on.right, far], to]].map(|[from, to]| {
+            let x = T::of(0.5) * (from[0] + to[0]);
             let height = || self.gap.turned(x, look.height(x));
-            (from < to).then(|| LowPoint { x, height: height(), between: Some([from, to]), ..low })
+            let between = Some([from, to]);
+            (from[0] < to[0]).then(|| LowPoint { x, height: height(), between, ..low })
         })
     }
 
@@ -199,9 +213,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 continue;
             }
             let hidden = hidden + from.hidden;
-            let mut verdict = self.verdict(fields, &from, [x, height, hidden]);
+            let potential = total(fields, x);
+            let mut verdict = self.verdict(&from, [height, hidden], potential);
+            if verdict == Verdict::Apart
+                && let Some(ends) = between
+            {
+                let at = [x, hidden, potential];
+                verdict = self.verdict_between(fields, look, &from, at, ends);
+            }
             let mut x = x;
-            if let (Verdict::Overlap | Verdict::Hidden, Some([left, right])) = (verdict, between) {
+            if let (Verdict::Overlap | Verdict::Hidden, Some([[left, _], [right, _]])) =
+                (verdict, between)
+            {
                 // A bound, or an interpolated height.
                 let on = [left.max(from.room.left), right.min(from.room.right)];
                 x = self.lowest_between(fields, look, on);
@@ -209,7 +232,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     continue;
                 }
                 let height = self.gap.turned(x, look.height(x));
-                verdict = self.verdict(fields, &from, [x, height, hidden]);
+                verdict = self.verdict(&from, [height, hidden], total(fields, x));
                 if verdict == Verdict::Hidden {
                     open.extend([[left, right], [from.edge; 2]]);
                 }
@@ -223,6 +246,27 @@ impl<T: Real> SignoriniCheck<'_, T> {
             is_hidden |= verdict == Verdict::Unresolved;
         }
         Ok((worst, is_hidden))
+    }
+
+    /// Judges a span in which the gap is open at a place: to either side of that the potential, which is concave, rises no
+    /// more than its tangent. It may dip where it falls from an end inward.
+    fn verdict_between(
+        &self,
+        fields: &[ExteriorField<T>],
+        look: &Survey<T>,
+        from: &Beside<T>,
+        [x, hidden, potential]: [T; 3],
+        ends: [[T; 2]; 2],
+    ) -> Verdict {
+        let rate = self.rate(fields, x);
+        for [end, height] in ends {
+            let inward = x - end;
+            let verdict = self.verdict(from, [height + rate * inward, hidden], potential);
+            if verdict != Verdict::Apart && self.slope(fields, look, end) * inward < T::zero() {
+                return verdict;
+            }
+        }
+        Verdict::Apart
     }
 
     /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
@@ -271,22 +315,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let near = T::of(BESIDE) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
-        Beside { next, edge, room, near, height, hidden, taken: total(fields, edge) }
-    }
-
-    /// Judges a height before loading, given its uncertainty.
-    fn verdict(
-        &self,
-        fields: &[ExteriorField<T>],
-        from: &Beside<T>,
-        [x, height, hidden]: [T; 3],
-    ) -> Verdict {
-        let rise = height - from.height;
-        let gap = rise - (total(fields, x) - from.taken) / self.kappa;
-        let allowed = self.allowed(height, from.height);
+        let taken = total(fields, edge);
         // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
         let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
         let doubt = T::of(4.0) * doubt / self.kappa;
+        Beside { next, edge, room, near, height, hidden, taken, doubt }
+    }
+
+    /// Judges a height before loading, given its uncertainty and the potential there.
+    fn verdict(&self, from: &Beside<T>, [height, hidden]: [T; 2], potential: T) -> Verdict {
+        let rise = height - from.height;
+        let gap = rise - (potential - from.taken) / self.kappa;
+        let (allowed, doubt) = (self.allowed(height, from.height), from.doubt);
         if gap - hidden >= -allowed {
             Verdict::Apart
         } else if gap - hidden >= -(allowed + doubt) {
@@ -329,8 +369,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
         let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
-        let is_open = gap >= -(allowed + T::of(4.0) * doubt) || !is_sound;
+        let is_open = gap >= -(allowed + from.doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
 }
@@ -354,6 +393,8 @@ struct Beside<T> {
     height: T,
     hidden: T,
     taken: T,
+    /// How far the series of the pressures leave the gap open.
+    doubt: T,
 }
 
 impl<T: Real> Beside<T> {

@@ -26,12 +26,12 @@ const MOST_POLISHES: usize = 6;
 /// How often an interval is halved in search of a width or of a place.
 const MOST_HALVES: usize = 200;
 
-/// A height of the gap, or between two of them about how low it may be, and its uncertainty.
+/// A height of the gap, or between two of them, `[x, h]`, about how low it may be, and its uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LowPoint<T> {
     pub x: T,
     pub height: T,
-    pub between: Option<[T; 2]>,
+    pub between: Option<[[T; 2]; 2]>,
     pub doubt: T,
 }
 
@@ -95,8 +95,8 @@ impl<T: Real> Survey<T> {
             let half = T::of(0.5);
             (half, segment(&from, to).at(half)[0])
         };
-        let (x, between) = (from.x + t * width, Some([from.x, to.x]));
-        Some(LowPoint { x, height, between, doubt: from.after })
+        let (x, ends) = (from.x + t * width, [&from, to].map(|node| [node.x, node.height]));
+        Some(LowPoint { x, height, between: Some(ends), doubt: from.after })
     }
 
     /// Returns all places where the gap may be low: the nodes, and one between each two.
