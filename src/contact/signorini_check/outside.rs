@@ -316,9 +316,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
         let taken = total(fields, edge);
-        // Coefficients that fall slowly, as those of a kink beside an edge, add up to several times the last ones.
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt());
-        let doubt = T::of(4.0) * doubt / self.kappa;
+        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
         Beside { next, edge, room, near, height, hidden, taken, doubt }
     }
 
