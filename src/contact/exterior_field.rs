@@ -122,12 +122,16 @@ impl<T: Real> ExteriorField<T> {
 
 /// Returns what coefficients beyond those of a cosine series may add to a potential.
 ///
-/// Where they fall with 1/n², as those of a kink beside a limit, all of them add four times as much as the last eighth of
-/// those that are known, and these are off by about as much.
+/// Where they fall with 1/n², as those of a kink beside a limit, all of them add as much as the last quarter of those that
+/// are known, and these are off by about as much. Of the first few nobody knows whether they fall yet.
 fn tail<T: Real>(q: &[T]) -> T {
-    let first = q.len() - q.len() / 8;
+    if q.len() == POINTS {
+        let last = q[POINTS - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
+        return T::of(16.0) * T::pi() * last;
+    }
+    let first = q.len() - q.len() / 4;
     let last = (first..q.len()).fold(T::zero(), |sum, n| sum + q[n].abs() / T::count(n));
-    T::of(8.0) * T::pi() * last
+    T::of(4.0) * T::pi() * last
 }
 
 /// Number n of the coefficients of a cosine series, from its values, the number of which is a power of two.

@@ -14,6 +14,7 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
+pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
 pub(super) use step::step_of_heights;

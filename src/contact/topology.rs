@@ -13,7 +13,9 @@ use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
 use super::exterior_field::ExteriorField;
 use super::newton_several::{Besides, NewtonSeveral, SeveralOutcome};
-use super::signorini_check::{Passed, SignoriniCheck, TensionSpans, Under, step_of_heights};
+use super::signorini_check::{
+    Overlaps, Passed, SignoriniCheck, TensionSpans, Under, step_of_heights,
+};
 use super::single_contact::Single;
 use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
@@ -57,10 +59,10 @@ pub(crate) struct Workspace<T> {
     last: Vec<Interval<T>>,
     before: Vec<Interval<T>>,
     passed: Passed<T>,
-    /// Room for what of these a lighter load may leave open.
-    closed_before: Vec<Interval<T>>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
+    /// Where they would overlap.
+    overlaps: Overlaps<T>,
     pub report: Report,
 }
 
@@ -75,8 +77,8 @@ impl<T: Real> Workspace<T> {
             last: Vec::new(),
             before: Vec::new(),
             passed: Passed::new(),
-            closed_before: Vec::new(),
             tension_spans: TensionSpans::new(),
+            overlaps: Overlaps::new(),
             report: Report::new(),
         }
     }
@@ -115,7 +117,7 @@ impl<T: Real> Workspace<T> {
             self.passed.clear();
             // Room for what a check takes, which not all bodies need.
             self.fields.reserve(1);
-            self.closed_before.reserve(3);
+            self.overlaps.closed_before.reserve(3);
             // It serves whatever the tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
@@ -393,8 +395,7 @@ impl<T: Real> Search<'_, '_, T> {
             self.workspace.take(gap, self.cost)?;
         }
         let (interval, load) = (found.interval, found.load);
-        let Workspace { look, fields, tension_spans, passed, closed_before, .. } =
-            &mut *self.workspace;
+        let Workspace { look, fields, tension_spans, passed, overlaps, .. } = &mut *self.workspace;
         let under = [load / kappa, found.tilt];
         let on = Under { under, samples: integrator.cost().samples };
         let contacts = panels::several(integrator).map(Several::contacts);
@@ -404,20 +405,21 @@ impl<T: Real> Search<'_, '_, T> {
         let closed = &self.closed;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
         fields.clear();
+        overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
                 return Err(ContactError::Overflow { interval });
             }
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
-        let (mut overlap, ends) = (None, self.contact.ends());
         // From end to end nothing lies outside.
         if !covers {
-            overlap = check.overlap(fields, closed_before, look, ends, self.cost)?;
+            check.overlap(fields, overlaps, look, self.contact.ends(), self.cost)?;
         }
+        let overlap = overlaps.worst();
         if overlap.is_none() && found.adhesive == Ends::both(false) {
             passed.keep(on, contacts);
-            closed_before.reserve(1 + 2 * contacts.len());
+            overlaps.closed_before.reserve(1 + 2 * contacts.len());
         }
         if let Some(own) = own {
             self.cost.heights += own.cost().evaluations;
@@ -583,7 +585,7 @@ impl<T: Real> Search<'_, '_, T> {
                         let again = start == Start::Attempt
                             && self.workspace.tension_spans.spans.is_empty();
                         // An attempt that leads to itself is not made again.
-                        let mended = self.mend(&error);
+                        let mended = self.mend();
                         let again = again || self.workspace.newton.on == self.workspace.before;
                         start = if mended && !again { Start::Attempt } else { Start::ActiveSet };
                         fault = Some(error);
@@ -746,10 +748,10 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(Ok(found))
     }
 
-    /// Parts the contacts at hand where they would pull, or puts one where the bodies would overlap; whether
+    /// Parts the contacts at hand where they would pull, or puts some where the bodies would overlap; whether
     /// any is left.
-    fn mend(&mut self, fault: &ContactError<T>) -> bool {
-        let Workspace { newton: NewtonSeveral { on, .. }, tension_spans, .. } =
+    fn mend(&mut self) -> bool {
+        let Workspace { newton: NewtonSeveral { on, .. }, tension_spans, overlaps, .. } =
             &mut *self.workspace;
         for span in &tension_spans.spans {
             let apart = |on: Interval<T>| {
@@ -759,9 +761,9 @@ impl<T: Real> Search<'_, '_, T> {
             };
             *on = on.drain(..).flat_map(apart).collect();
         }
-        if let ContactError::Overlap { x, .. } = *fault {
-            let (half, ends) = (T::of(0.5), self.contact.ends());
-            let aside = T::of(CLOSER * CLOSER) * (ends.right - ends.left);
+        let (half, ends) = (T::of(0.5), self.contact.ends());
+        let aside = T::of(CLOSER * CLOSER) * (ends.right - ends.left);
+        for &[x, _] in &overlaps.dips {
             let at = on.partition_point(|on| on.right < x);
             let left = if at == 0 { ends.left } else { on[at - 1].right };
             let right = on.get(at).map_or(ends.right, |next| next.left);

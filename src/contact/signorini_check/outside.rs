@@ -25,6 +25,27 @@ const MOST_ROUNDS: usize = 40;
 /// How often a span between two heights is halved in search of its lowest place.
 const MOST_HALVES: usize = 8;
 
+/// Where bodies overlap outside their contacts.
+#[derive(Clone)]
+pub(in crate::contact) struct Overlaps<T> {
+    /// The lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
+    pub dips: Vec<[T; 2]>,
+    /// Room for what a heavier load has closed.
+    pub closed_before: Vec<Interval<T>>,
+}
+
+impl<T: Real> Overlaps<T> {
+    pub fn new() -> Self {
+        Self { dips: Vec::new(), closed_before: Vec::new() }
+    }
+
+    /// Returns the worst of them.
+    pub fn worst(&self) -> Option<[T; 2]> {
+        let dips = self.dips.iter().copied();
+        dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
+    }
+}
+
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns about where the loaded gap is lowest between two places, at the first of which it falls and at the second
     /// rises.
@@ -61,20 +82,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x)) / self.kappa
     }
 
-    /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there. Where the
-    /// survey leaves that open, it is refined.
+    /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there, `[x, gap]`:
+    /// the lowest place of each dip. Where the survey leaves that open, it is refined.
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
-        closed_before: &mut Vec<Interval<T>>,
+        Overlaps { dips, closed_before }: &mut Overlaps<T>,
         look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
-    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+    ) -> Result<(), ContactError<T>> {
         self.compare_heights(look, cost)?;
         self.list_closed_before(closed_before);
         if !self.widest.is_empty() && closed_before.is_empty() {
-            return Ok(None);
+            return Ok(());
         }
         if fields.is_empty() {
             self.fields(fields)?;
@@ -103,20 +124,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
-            let (overlap, is_hidden) = self.overlap_at(fields, look, heights, &mut open, cost)?;
+            let is_hidden = self.overlap_at(fields, look, heights, [dips, &mut open], cost)?;
             share *= T::of(LESS_OPEN);
-            if overlap.is_some() {
-                return Ok(overlap);
+            if !dips.is_empty() {
+                return Ok(());
             }
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
             let is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
             let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;
             if !is_finer {
-                return Ok(None);
+                break;
             }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// Compares the rise of the gap over one contact by its slopes with that by the heights of the survey: between two
@@ -178,19 +199,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
     }
 
-    /// Finds the worst overlap outside the contacts, `[x, gap]`, as far as some heights show it, by rising x; `open` takes
-    /// the spans where the survey hides whether there is one. Tells also whether the series of the pressures hide it.
+    /// Finds the dips in which bodies overlap outside the contacts, as far as some heights show them, by rising x; `open`
+    /// takes the spans where the survey hides whether there is one. Tells whether the series of the pressures hide it.
     fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        open: &mut Vec<[T; 2]>,
+        [dips, open]: [&mut Vec<[T; 2]>; 2],
         cost: &mut Cost,
-    ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
+    ) -> Result<bool, ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
-        let (mut worst, mut is_hidden) = (None::<[T; 2]>, false);
+        // Whether the gap is open between the last dip and where it is looked at.
+        let (mut is_parted, mut is_hidden) = (true, false);
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
@@ -200,6 +222,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 next += 1;
             }
             if next <= last && contacts[next].left <= x {
+                is_parted = true;
                 continue;
             }
             let known = beside.filter(|beside| beside.next == next);
@@ -207,6 +230,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             // From no place does the load act further away than from the far end of the contacts.
             let most = load * (x - hull.left).max(hull.right - x).ln();
             if height - hidden - from.height >= (most - from.taken) / self.kappa + from.hidden {
+                is_parted |= between.is_none();
                 continue;
             }
             if between.is_some() && from.is_near(x) {
@@ -240,12 +264,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
                 is_hidden |= is_open;
-                worst =
-                    found.filter(|&[_, gap]| worst.is_none_or(|[_, least]| gap < least)).or(worst);
+                match (found, dips.last_mut().filter(|_| !is_parted)) {
+                    (Some(found), None) => dips.push(found),
+                    (Some(found), Some(dip)) if found[1] < dip[1] => *dip = found,
+                    _ => {}
+                }
+                is_parted = false;
             }
+            is_parted |= between.is_none() && verdict == Verdict::Apart;
             is_hidden |= verdict == Verdict::Unresolved;
         }
-        Ok((worst, is_hidden))
+        Ok(is_hidden)
     }
 
     /// Judges a span in which the gap is open at a place: to either side of that the potential, which is concave, rises no
