@@ -16,6 +16,9 @@ const LESS_OPEN: f64 = 0.01;
 /// the gap opens.
 const BESIDE: f64 = 0.002;
 
+/// The share of F/κ by which heights beside a limit may be uncertain: crests of that height may hide.
+const VAGUE: f64 = 0.1;
+
 /// The share of F/κ by which heights and slopes may disagree on the rise over a contact.
 const STEP: f64 = 0.01;
 
@@ -211,6 +214,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<bool, ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
+        let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
         // Whether the gap is open between the last dip and where it is looked at.
         let (mut is_parted, mut is_hidden) = (true, false);
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
@@ -252,11 +256,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 // A bound, or an interpolated height.
                 let on = [left.max(from.room.left), right.min(from.room.right)];
                 x = self.lowest_between(fields, look, on);
-                if from.is_near(x) {
+                if !from.is_near(x) {
+                    let height = self.gap.turned(x, look.height(x));
+                    verdict = self.verdict(&from, [height, hidden], total(fields, x));
+                } else if verdict == Verdict::Overlap || hidden <= vague {
                     continue;
                 }
-                let height = self.gap.turned(x, look.height(x));
-                verdict = self.verdict(&from, [height, hidden], total(fields, x));
                 if verdict == Verdict::Hidden {
                     open.extend([[left, right], [from.edge; 2]]);
                 }
