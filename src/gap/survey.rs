@@ -30,7 +30,7 @@ use super::{Cost, Gap};
 use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
 use body::Body;
 use convex::{Stretch, convex_stretches};
-pub(crate) use lows::LowPoint;
+pub(crate) use lows::{LowPoint, crossing};
 use panel::Panel;
 use series::Row;
 pub(super) use series::Series;

@@ -620,9 +620,9 @@ fn normal(dice: &mut Dice) -> f64 {
 #[test]
 fn measured_points_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    // Kinks so many that a thousand terms of a pressure, or what more of them might add, hide overlaps; in the last one a
+    // Kinks so many that a thousand terms of a pressure, or what more of them might add, hide overlaps; in 1203 and 2839 a
     // dip that is not where the gap is lowest before loading.
-    let by_name = [734, 1258, 1461, 2640, 2839];
+    let by_name = [734, 1203, 1258, 1461, 2640, 2839];
     for seed in scenes(40).chain(by_name) {
         let scene = Measured::new(&mut Dice::new(seed));
         let fit = Fit { outliers: None, ..Fit::default() };

@@ -3,7 +3,7 @@
 
 use super::SignoriniCheck;
 use crate::contact::exterior_field::ExteriorField;
-use crate::gap::{Cost, LowPoint, Sampler, Survey};
+use crate::gap::{Cost, LowPoint, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -62,7 +62,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (mut falls, mut rises) = (None, None);
         for _ in 0..MOST_HALVES {
             let x = half * (left + right);
-            let slope = self.slope(fields, look, x);
+            let slope = look.slope(x) + self.gap.tilt() - self.rate(fields, x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -73,11 +73,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let share = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
         let share = share.filter(|share| share.is_finite()).unwrap_or(half);
         left + share * (right - left)
-    }
-
-    /// Returns the slope of the loaded gap outside the contacts.
-    fn slope(&self, fields: &[ExteriorField<T>], look: &Survey<T>, x: T) -> T {
-        look.slope(x) + self.gap.tilt() - self.rate(fields, x)
     }
 
     /// Returns the rate of the displacement outside the contacts.
@@ -104,13 +99,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.fields(fields)?;
         }
         let corners = [self.corner(Side::Left, ends, cost)?, self.corner(Side::Right, ends, cost)?];
-        let turned = |[x, height]: [T; 2]| [x, self.gap.turned(x, height)];
+        let tilt = self.gap.tilt();
+        let turned = |[x, height, slope]: [T; 3]| [x, self.gap.turned(x, height), slope + tilt];
         let within = |low: LowPoint<T>| {
-            let [x, height] = turned([low.x, low.height]);
-            let [from, to] = low.between.unwrap_or([[x, height]; 2]).map(turned);
-            let (from, to) = ([from[0].max(ends.left), from[1]], [to[0].min(ends.right), to[1]]);
-            let between = low.between.map(|_| [from, to]);
-            let x = x.max(from[0]).min(to[0]);
+            let height = self.gap.turned(low.x, low.height);
+            let Some(span) = low.between else {
+                let is_inside = ends.left <= low.x && low.x <= ends.right;
+                return is_inside.then_some(LowPoint { height, ..low });
+            };
+            let [mut from, mut to] = span.map(turned);
+            (from[0], to[0]) = (from[0].max(ends.left), to[0].min(ends.right));
+            let x = low.x.max(from[0]).min(to[0]);
+            let between = Some([from, to]);
             (from[0] <= to[0]).then_some(LowPoint { x, height, between, ..low })
         };
         let is_new = |low: &LowPoint<T>| {
@@ -174,8 +174,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return [Some(low), None];
         };
         // At a limit the opening slope decides.
-        let far = T::one() / T::zero();
-        [[from, [on.left, far]], [[on.right, far], to]].map(|[from, to]| {
+        let limit = |x: T| [x, T::one() / T::zero(), T::zero()];
+        [[from, limit(on.left)], [limit(on.right), to]].map(|[from, to]| {
             let x = T::of(0.5) * (from[0] + to[0]);
             let height = || self.gap.turned(x, look.height(x));
             let between = Some([from, to]);
@@ -217,6 +217,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
         // Whether the gap is open between the last dip and where it is looked at.
         let (mut is_parted, mut is_hidden) = (true, false);
+        let mut rate = [T::of(f64::NAN); 2];
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
@@ -247,10 +248,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 && let Some(ends) = between
             {
                 let at = [x, hidden, potential];
-                verdict = self.verdict_between(fields, look, &from, at, ends);
+                verdict = self.verdict_between(fields, &from, at, ends, &mut rate);
             }
             let mut x = x;
-            if let (Verdict::Overlap | Verdict::Hidden, Some([[left, _], [right, _]])) =
+            if let (Verdict::Overlap | Verdict::Hidden, Some([[left, ..], [right, ..]])) =
                 (verdict, between)
             {
                 // A bound, or an interpolated height.
@@ -282,25 +283,30 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(is_hidden)
     }
 
-    /// Judges a span in which the gap is open at a place: to either side of that the potential, which is concave, rises no
-    /// more than its tangent. It may dip where it falls from an end inward.
+    /// Judges a span in which the gap is open at a place. A potential is concave, and rises to both sides of that no more
+    /// than its tangent; the loaded gap is as low as the tangents at both ends of it cross. Keeps the rate at the last end.
     fn verdict_between(
         &self,
         fields: &[ExteriorField<T>],
-        look: &Survey<T>,
         from: &Beside<T>,
         [x, hidden, potential]: [T; 3],
-        ends: [[T; 2]; 2],
+        ends: [[T; 3]; 2],
+        known: &mut [T; 2],
     ) -> Verdict {
         let rate = self.rate(fields, x);
-        for [end, height] in ends {
-            let inward = x - end;
-            let verdict = self.verdict(from, [height + rate * inward, hidden], potential);
-            if verdict != Verdict::Apart && self.slope(fields, look, end) * inward < T::zero() {
-                return verdict;
+        let loaded = |[end, height, slope]: [T; 3]| {
+            if known[0] != end {
+                *known = [end, self.rate(fields, end)];
             }
-        }
-        Verdict::Apart
+            [end, height + rate * (x - end), slope - known[1]]
+        };
+        let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
+        let chord = (after - before) / (right - left);
+        // At a limit the opening slope decides.
+        let both = Some([chord - falls, rises - chord]).filter(|_| chord.is_finite());
+        let Some([t, below]) = both.and_then(crossing) else { return Verdict::Apart };
+        let floor = before + (right - left) * (t * chord - below);
+        self.verdict(from, [floor, hidden], potential)
     }
 
     /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and

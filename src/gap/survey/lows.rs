@@ -26,13 +26,26 @@ const MOST_POLISHES: usize = 6;
 /// How often an interval is halved in search of a width or of a place.
 const MOST_HALVES: usize = 200;
 
-/// A height of the gap, or between two of them, `[x, h]`, about how low it may be, and its uncertainty.
+/// A height of the gap, or between two places, `[x, h, h']`, about how low it may be, and its uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LowPoint<T> {
     pub x: T,
     pub height: T,
-    pub between: Option<[[T; 2]; 2]>,
+    pub between: Option<[[T; 3]; 2]>,
     pub doubt: T,
+}
+
+/// Returns about where in a span, as a share of it, a function is lowest, and how far below the chord at most, per unit of
+/// the span: where the tangents at its ends cross, given the slopes by which they leave the chord. No convex function is
+/// lower. A cubic that turns may be: it is no lower than its tangents at a third and at two thirds of the way.
+pub(crate) fn crossing<T: Real>([first, second]: [T; 2]) -> Option<[T; 2]> {
+    let (zero, third) = (T::zero(), T::of(1.0 / 3.0));
+    if !(first > zero || second > zero) {
+        return None;
+    }
+    let t = second.max(zero) / (first.max(zero) + second.max(zero));
+    let t = t.max(third).min(third + third);
+    Some([t, (first * t).max(second * (T::one() - t))])
 }
 
 fn segment<T: Real>(from: &Node<T>, to: &Node<T>) -> Segment<T> {
@@ -69,11 +82,9 @@ impl<T: Real> Survey<T> {
         self.nodes.iter().map(|node| [node.x, gap.turned(node.x, node.height)]).collect()
     }
 
-    /// Returns where the gap may be low between a node and the next: where their tangents cross, than which no convex
-    /// piece of the gap is lower. A cubic that turns may be: it is no lower than its tangents at a third and at two
-    /// thirds of the way. Elsewhere it is the middle.
+    /// Returns where the gap may be low between a node and the next: where their tangents [cross](crossing), or else in the
+    /// middle.
     pub(super) fn low_between(&self, i: usize) -> Option<LowPoint<T>> {
-        let (zero, third) = (T::zero(), T::of(1.0 / 3.0));
         let chord = |i: usize| {
             let [from, to] = [self.nodes.get(i)?, self.nodes.get(i + 1)?];
             Some((to.height - from.height) / (to.x - from.x))
@@ -82,20 +93,18 @@ impl<T: Real> Survey<T> {
         let width = to.x - from.x;
         let [first, second] = [over - from.slopes[1], to.slopes[0] - over];
         // An end that is all but upright, or a kink, says nothing of what is between.
-        let leap = |beside: Option<T>| beside.map_or(zero, |beside| (over - beside).abs());
+        let leap = |beside: Option<T>| beside.map_or(T::zero(), |beside| (over - beside).abs());
         let [before, behind] = [i.checked_sub(1).and_then(chord), chord(i + 1)].map(leap);
         let within = |bend: T, other: T, leap: T| bend.min(leap.max(other + other));
         let [first, second] = [within(first, second, before), within(second, first, behind)];
-        let (t, height) = if first > zero || second > zero {
-            let crossing = second.max(zero) / (first.max(zero) + second.max(zero));
-            let t = crossing.max(third).min(third + third);
-            let below = (first * t).max(second * (T::one() - t));
-            (t, from.height + width * (t * over - below))
-        } else {
-            let half = T::of(0.5);
-            (half, segment(&from, to).at(half)[0])
+        let half = T::of(0.5);
+        let (t, height) = match crossing([first, second]) {
+            Some([t, below]) => (t, from.height + width * (t * over - below)),
+            None => (half, segment(&from, to).at(half)[0]),
         };
-        let (x, ends) = (from.x + t * width, [&from, to].map(|node| [node.x, node.height]));
+        let ends = [(&from, from.slopes[1]), (to, to.slopes[0])];
+        let ends = ends.map(|(node, slope)| [node.x, node.height, slope]);
+        let x = from.x + t * width;
         Some(LowPoint { x, height, between: Some(ends), doubt: from.after })
     }
 
