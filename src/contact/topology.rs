@@ -226,8 +226,13 @@ fn find_contacts<T: Real>(
                 }
             },
             Err(error) if given || !error.may_be_several() => return Err(error),
-            // Of bodies that turn, one contact may be hard to find too.
-            Err(error) if !turns && (search.is_convex() || search.look()?.bulges()) => {
+            // Of bodies that turn, one contact may be hard to find too; so it may among waves that nothing has shown yet.
+            Err(error)
+                if !turns
+                    && (search.is_convex()
+                        || !matches!(error, ContactError::NoEquilibrium { .. })
+                            && search.look()?.bulges()) =>
+            {
                 return Err(error);
             }
             Err(error) => {
