@@ -61,7 +61,7 @@ pub(crate) struct Workspace<T> {
     passed: Passed<T>,
     /// Where the bodies would pull at each other in what was checked last.
     tension_spans: TensionSpans<T>,
-    /// Where they would overlap.
+    /// Dips in which they would overlap.
     overlaps: Overlaps<T>,
     pub report: Report,
 }

@@ -32,6 +32,7 @@ use body::Body;
 use convex::{Stretch, convex_stretches};
 pub(crate) use lows::{LowPoint, crossing};
 use panel::Panel;
+pub(crate) use probe::VAGUE;
 use series::Row;
 pub(super) use series::Series;
 /// Series of either body that say about where its parameters are, with the numbers of their pieces.

@@ -3,7 +3,7 @@
 
 use super::SignoriniCheck;
 use crate::contact::exterior_field::ExteriorField;
-use crate::gap::{Cost, LowPoint, Sampler, Survey, crossing};
+use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -16,9 +16,6 @@ const LESS_OPEN: f64 = 0.01;
 /// the gap opens.
 const BESIDE: f64 = 0.002;
 
-/// The share of F/κ by which heights beside a limit may be uncertain: crests of that height may hide.
-const VAGUE: f64 = 0.1;
-
 /// The share of F/κ by which heights and slopes may disagree on the rise over a contact.
 const STEP: f64 = 0.01;
 
@@ -28,12 +25,12 @@ const MOST_ROUNDS: usize = 40;
 /// How often a span between two heights is halved in search of its lowest place.
 const MOST_HALVES: usize = 8;
 
-/// Where bodies overlap outside their contacts.
+/// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
 pub(in crate::contact) struct Overlaps<T> {
     /// The lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
     pub dips: Vec<[T; 2]>,
-    /// Room for what a heavier load has closed.
+    /// Spans outside the contacts that a heavier load has closed.
     pub closed_before: Vec<Interval<T>>,
 }
 
@@ -107,11 +104,15 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 let is_inside = ends.left <= low.x && low.x <= ends.right;
                 return is_inside.then_some(LowPoint { height, ..low });
             };
-            let [mut from, mut to] = span.map(turned);
-            (from[0], to[0]) = (from[0].max(ends.left), to[0].min(ends.right));
+            // What a corner cuts off goes on along its tangent.
+            let cut = |[x, height, slope]: [T; 3]| {
+                let at = x.max(ends.left).min(ends.right);
+                if at == x { [x, height, slope] } else { [at, height + slope * (at - x), slope] }
+            };
+            let [from, to] = span.map(turned).map(cut);
             let x = low.x.max(from[0]).min(to[0]);
             let between = Some([from, to]);
-            (from[0] <= to[0]).then_some(LowPoint { x, height, between, ..low })
+            (from[0] < to[0]).then_some(LowPoint { x, height, between, ..low })
         };
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.map_or([low.x; 2], |ends| ends.map(|end| end[0]));
@@ -214,15 +215,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<bool, ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
-        let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
-        // Whether the gap is open between the last dip and where it is looked at.
+        // Whether the gap is open anywhere after the last dip.
         let (mut is_parted, mut is_hidden) = (true, false);
         let mut rate = [T::of(f64::NAN); 2];
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
         for low in heights {
-            let LowPoint { x, height, between, doubt: hidden } = low;
+            let LowPoint { x, height, between, doubt } = low;
             while next <= last && contacts[next].right <= x {
                 next += 1;
             }
@@ -234,53 +234,72 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
             // From no place does the load act further away than from the far end of the contacts.
             let most = load * (x - hull.left).max(hull.right - x).ln();
-            if height - hidden - from.height >= (most - from.taken) / self.kappa + from.hidden {
+            if height - doubt - from.height >= (most - from.taken) / self.kappa + from.hidden {
                 is_parted |= between.is_none();
                 continue;
             }
             if between.is_some() && from.is_near(x) {
                 continue;
             }
-            let hidden = hidden + from.hidden;
-            let potential = total(fields, x);
-            let mut verdict = self.verdict(&from, [height, hidden], potential);
-            if verdict == Verdict::Apart
-                && let Some(ends) = between
-            {
-                let at = [x, hidden, potential];
-                verdict = self.verdict_between(fields, &from, at, ends, &mut rate);
-            }
-            let mut x = x;
-            if let (Verdict::Overlap | Verdict::Hidden, Some([[left, ..], [right, ..]])) =
-                (verdict, between)
-            {
-                // A bound, or an interpolated height.
-                let on = [left.max(from.room.left), right.min(from.room.right)];
-                x = self.lowest_between(fields, look, on);
-                if !from.is_near(x) {
-                    let height = self.gap.turned(x, look.height(x));
-                    verdict = self.verdict(&from, [height, hidden], total(fields, x));
-                } else if verdict == Verdict::Overlap || hidden <= vague {
-                    continue;
-                }
-                if verdict == Verdict::Hidden {
-                    open.extend([[left, right], [from.edge; 2]]);
-                }
-            }
+            let judged = self.judge(fields, look, &from, low, &mut rate, open);
+            let Some((x, verdict)) = judged else { continue };
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
                 is_hidden |= is_open;
-                match (found, dips.last_mut().filter(|_| !is_parted)) {
-                    (Some(found), None) => dips.push(found),
-                    (Some(found), Some(dip)) if found[1] < dip[1] => *dip = found,
-                    _ => {}
+                if let Some(found) = found {
+                    match dips.last_mut().filter(|_| !is_parted) {
+                        None => dips.push(found),
+                        Some(dip) if found[1] < dip[1] => *dip = found,
+                        Some(_) => {}
+                    }
+                    is_parted = false;
                 }
-                is_parted = false;
             }
             is_parted |= between.is_none() && verdict == Verdict::Apart;
             is_hidden |= verdict == Verdict::Unresolved;
         }
         Ok(is_hidden)
+    }
+
+    /// Judges a height, or a span at its lowest place; returns the place with the verdict, or nothing of a span beside a
+    /// limit, where the pressure inside tells of the gap. `open` takes the span if the survey hides what it is.
+    fn judge(
+        &self,
+        fields: &[ExteriorField<T>],
+        look: &Survey<T>,
+        from: &Beside<T>,
+        LowPoint { x, height, between, doubt }: LowPoint<T>,
+        rate: &mut [T; 2],
+        open: &mut Vec<[T; 2]>,
+    ) -> Option<(T, Verdict)> {
+        let (hidden, potential) = (doubt + from.hidden, total(fields, x));
+        let verdict = self.verdict(from, [height, hidden], potential);
+        let Some(ends) = between else { return Some((x, verdict)) };
+        let verdict = match verdict {
+            Verdict::Apart => {
+                self.verdict_between(fields, from, [x, hidden, potential], ends, rate)
+            }
+            _ => verdict,
+        };
+        if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
+            return Some((x, verdict));
+        }
+        // A bound, or an interpolated height.
+        let [left, right] = ends.map(|end| end[0]);
+        let on = [left.max(from.room.left), right.min(from.room.right)];
+        let x = self.lowest_between(fields, look, on);
+        let verdict = if !from.is_near(x) {
+            let height = self.gap.turned(x, look.height(x));
+            self.verdict(from, [height, hidden], total(fields, x))
+        } else {
+            // Of a span that is this vague its lowest place is not known.
+            let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
+            Some(verdict).filter(|&verdict| verdict == Verdict::Hidden && hidden > vague)?
+        };
+        if verdict == Verdict::Hidden {
+            open.extend([[left, right], [from.edge; 2]]);
+        }
+        Some((x, verdict))
     }
 
     /// Judges a span in which the gap is open at a place. A potential is concave, and rises to both sides of that no more

@@ -22,8 +22,8 @@ const KEPT: f64 = 2.0;
 /// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
 const EXACT: f64 = 1e-3;
 
-/// The share of F/κ by which panels may be uncertain there whatever it takes: crests of that height may hide.
-const VAGUE: f64 = 0.1;
+/// The share of F/κ by which panels beside a contact may be uncertain: crests of that height may hide.
+pub(crate) const VAGUE: f64 = 0.1;
 
 /// The share of F/κ by which a point may be missed besides, as where formulas cancel.
 const FOOT: f64 = 1e-7;
