@@ -273,14 +273,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         open: &mut Vec<[T; 2]>,
     ) -> Option<(T, Verdict)> {
         let (hidden, potential) = (doubt + from.hidden, total(fields, x));
-        let verdict = self.verdict(from, [height, hidden], potential);
-        let Some(ends) = between else { return Some((x, verdict)) };
-        let verdict = match verdict {
-            Verdict::Apart => {
-                self.verdict_between(fields, from, [x, hidden, potential], ends, rate)
-            }
-            _ => verdict,
-        };
+        let judged = |height: T| self.verdict(from, [height, hidden], potential);
+        let Some(ends) = between else { return Some((x, judged(height))) };
+        let verdict = judged(self.floor(fields, [x, height], ends, rate));
         if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));
         }
@@ -302,16 +297,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Some((x, verdict))
     }
 
-    /// Judges a span in which the gap is open at a place. A potential is concave, and rises to both sides of that no more
-    /// than its tangent; the loaded gap is as low as the tangents at both ends of it cross. Keeps the rate at the last end.
-    fn verdict_between(
+    /// Returns the height at a place of a span that stands for the lowest loaded gap in it. A potential is concave, and rises
+    /// to both sides of the place no more than its tangent; the loaded gap is as low as the tangents at both ends of it
+    /// cross. Keeps the rate at the last end.
+    fn floor(
         &self,
         fields: &[ExteriorField<T>],
-        from: &Beside<T>,
-        [x, hidden, potential]: [T; 3],
+        [x, height]: [T; 2],
         ends: [[T; 3]; 2],
         known: &mut [T; 2],
-    ) -> Verdict {
+    ) -> T {
         let rate = self.rate(fields, x);
         let loaded = |[end, height, slope]: [T; 3]| {
             if known[0] != end {
@@ -323,9 +318,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let chord = (after - before) / (right - left);
         // At a limit the opening slope decides.
         let both = Some([chord - falls, rises - chord]).filter(|_| chord.is_finite());
-        let Some([t, below]) = both.and_then(crossing) else { return Verdict::Apart };
-        let floor = before + (right - left) * (t * chord - below);
-        self.verdict(from, [floor, hidden], potential)
+        let Some([t, below]) = both.and_then(crossing) else { return height };
+        before + (right - left) * (t * chord - below)
     }
 
     /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
