@@ -1,7 +1,7 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
 mod active_set;
-mod approach;
+mod by_load;
 mod capacity;
 mod edge_pressure;
 mod edges;
@@ -12,7 +12,6 @@ mod moment;
 mod nested;
 mod newton_several;
 mod newton_single;
-mod peak;
 mod signorini_check;
 mod single_contact;
 mod topology;
@@ -30,11 +29,11 @@ use crate::solution::{
     ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
 };
 use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Solver};
+use by_load::{ByLoad, Quantity};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use topology::Sought;
 pub(crate) use topology::Workspace;
 
 /// Two bodies to be pressed together, and the way to find their contact.
@@ -112,9 +111,9 @@ enum Stiffness<T> {
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
     Load(T),
-    /// The half-width L = (a + b)/2: a length.
+    /// The half-width L = (a + b)/2, of several contacts from the first to the last: a length.
     HalfWidth(T),
-    /// The largest pressure p₀ = max P(x), between edges where the pressure is bounded: a pressure.
+    /// The largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded: a pressure.
     PeakPressure(T),
     /// How far the bodies come together, from where they just touch: the [approach](Solution::approach)
     /// `Approach::bodies`, to given references. The bodies' [materials](Contact::materials) must be known, and the
@@ -386,7 +385,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
     /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
+    /// [`ContactError::NoPeak`], [`ContactError::InJump`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
     /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
     /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`], [`ContactError::BothRigid`] for materials;
     /// [`ContactError::NoMaterials`], [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
@@ -555,22 +554,35 @@ impl<'b, T: Real> Contact<'b, T> {
                 self.by_edge_pressure(wanted, integrator, load, cost)?
             }
             (Control::Load(load), None) => {
-                let conditions = self.under(load)?;
-                topology::find(self, Sought::By(conditions), integrator, workspace, cost)?
+                topology::find(self, self.under(load)?, integrator, workspace, cost)?
             }
             (Control::HalfWidth(half_width), _) => {
                 check_positive("half-width", half_width)?;
                 let given = Given::HalfWidth(half_width);
                 let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
-                topology::find(self, Sought::By(conditions), integrator, workspace, cost)?
+                match topology::find(self, conditions, integrator, workspace, cost) {
+                    Err(error) if self.may_have_several(&error) => {
+                        let quantity = Quantity::HalfWidth;
+                        let wanted = half_width;
+                        let contact = self;
+                        ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
+                    }
+                    found => found?,
+                }
             }
-            (Control::PeakPressure(pressure), _) => {
-                check_positive("peak pressure", pressure)?;
-                topology::find(self, Sought::Peak(pressure), integrator, workspace, cost)?
+            (Control::PeakPressure(wanted), _) => {
+                check_positive("peak pressure", wanted)?;
+                by_load::check_edges(self)?;
+                let (contact, quantity) = (self, Quantity::Peak);
+                ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
             }
-            (Control::Approach { approach, references }, _) => {
-                let sought = approach::Sought { approach, references, bodies };
-                approach::find(self, &sought, integrator, workspace, cost)?
+            (Control::Approach { approach: wanted, references }, _) => {
+                if bodies.is_none() {
+                    return Err(ContactError::NoMaterials);
+                }
+                check_positive("approach", wanted)?;
+                let (contact, quantity) = (self, Quantity::Approach { references, bodies });
+                ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
             }
             (Control::Moment { load, moment, about }, _) => {
                 let line = moment::LineOfLoad::of_moment(load, moment, about)?;
@@ -634,6 +646,13 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
+    }
+
+    /// Tells whether a half-width may be that of several contacts, by what one alone fails by.
+    fn may_have_several(&self, error: &ContactError<T>) -> bool {
+        use ContactError::{NoEquilibrium, Overlap, Tension};
+        let fails = matches!(error, NoEquilibrium { .. } | Overlap { .. } | Tension { .. });
+        fails && self.search.is_none() && !self.single_interval && !self.edges.are_adhesive()
     }
 
     /// Where the bodies end. A corner ends them.

@@ -558,6 +558,23 @@ pub enum ContactError<T: Real> {
         /// The peak pressure there; infinite where the slope of a body jumps, NaN where no contact was found.
         found: T,
     },
+    /// What is given jumps over the wanted value: a contact is born outside the others, a corner is reached, or even
+    /// the lightest load touches more.
+    #[error(
+        "nothing between {below} and {above} can be had, so not {wanted}: under the load {load} it jumps, where a \
+         contact is born or a corner reached; ask for one of both sides",
+        below = six(*below), above = six(*above), wanted = apart(*wanted, &[*below, *above]), load = six(*load)
+    )]
+    InJump {
+        /// The half-width, peak pressure or approach asked for.
+        wanted: T,
+        /// The load at which it jumps.
+        load: T,
+        /// The value under less; 0 where there is none.
+        below: T,
+        /// The value under more; infinite where the pressure is.
+        above: T,
+    },
     /// A point is above the surface, or not finite.
     #[error(
         "no stress at x = {x}, depth {depth}: both must be finite, the depth not negative",

@@ -2,8 +2,8 @@
 
 use crate::gap::{Cost, Gap};
 use crate::material::Elasticity;
+use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{Integrator, LoadCase};
 use crate::{Interval, Real};
 use std::sync::Arc;
 
@@ -139,11 +139,6 @@ impl<'b, T: Real> Solution<'b, T> {
 
     pub(crate) fn found(&self) -> &ContactState<T> {
         &self.found
-    }
-
-    fn load_case(&self) -> LoadCase<T> {
-        let ContactState { load, free, .. } = self.found;
-        LoadCase { kappa: self.kappa, load, free }
     }
 }
 

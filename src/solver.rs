@@ -16,8 +16,7 @@ use std::sync::Arc;
 /// workspace has grown to what the scenes need, solving allocates nothing, provided that a solution is
 /// dropped before the next solve. One that is kept keeps its samples, and the solver goes on with a copy.
 ///
-/// Under a given half-width or peak pressure bodies may have several contacts: then a solver finds the one next to
-/// its last. Where the search from the last contact fails, by whatever error but [`ContactError::Cancelled`], the solver
+/// Where the search from the last contact fails, by whatever error but [`ContactError::Cancelled`], the solver
 /// forgets all that it has and seeks from scratch, as [`Contact::solve`] does: what it refuses is refused there too.
 /// The [cost](Solution::cost) is that of both searches.
 ///

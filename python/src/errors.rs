@@ -157,6 +157,7 @@ table! {
     PeakEdge { edge };
     PeakTooHigh { wanted, half_width, found, end, load, kappa_is_default };
     NoPeak { wanted, half_width, found };
+    InJump { wanted, load, below, above };
     AboveSurface { x, depth };
     InvalidPoissonRatio { ratio };
     InvalidYoungsModulus { body, modulus };

@@ -67,19 +67,6 @@ impl<T: Real> Capacity<T> {
             kappa_is_default: false,
         }
     }
-
-    /// The error for a peak higher than that of any contact there is room for.
-    pub fn peak_too_high(&self, wanted: T) -> ContactError<T> {
-        let Self { on, end, load, peak } = *self;
-        ContactError::PeakTooHigh {
-            wanted,
-            half_width: on.half_width(),
-            found: peak,
-            end,
-            load,
-            kappa_is_default: false,
-        }
-    }
 }
 
 /// The balanced contact that reaches one of the ends; `None` where there is none, as between

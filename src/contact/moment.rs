@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::edges::{Conditions, Given};
-use super::topology::{self, Sought, Workspace};
+use super::topology::{self, Workspace};
 use crate::gap::Cost;
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
@@ -75,8 +75,7 @@ pub(super) fn find<T: Real>(
         let range = [ends.left, ends.right];
         return Err(ContactError::OutsideBodies { x: at, range });
     }
-    let sought = Sought::By(conditions);
-    let mut found = match topology::find(contact, sought, integrator, workspace, cost) {
+    let mut found = match topology::find(contact, conditions, integrator, workspace, cost) {
         Err(error) if !given && may_be_beyond(&error) => {
             return Err(nearest(contact, conditions, integrator, workspace, cost).unwrap_or(error));
         }
@@ -109,8 +108,8 @@ fn nearest<T: Real>(
 ) -> Option<ContactError<T>> {
     let (load, at, ends) = (conditions.load(), conditions.at()?, contact.ends());
     let mut find = |given| {
-        let sought = Sought::By(Conditions { given, ..conditions });
-        topology::find(contact, sought, integrator, workspace, cost)
+        let conditions = Conditions { given, ..conditions };
+        topology::find(contact, conditions, integrator, workspace, cost)
     };
     let half = T::of(0.5);
     let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);

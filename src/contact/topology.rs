@@ -8,6 +8,7 @@
 //! under which a limit just comes there. Without adhesion a contact problem has one solution: what
 //! passes the checks is it, whatever the way there.
 
+use super::Contact;
 use super::active_set::{Coarse, FIRST_CELLS, NotFound, Scene, active_set};
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
@@ -17,7 +18,6 @@ use super::signorini_check::{
     Overlaps, Passed, SignoriniCheck, TensionSpans, Under, step_of_heights,
 };
 use super::single_contact::Single;
-use super::{Contact, peak};
 use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::quadrature::panels::Several;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature, panels};
@@ -89,6 +89,23 @@ impl<T: Real> Workspace<T> {
         self.last.extend_from_slice(contacts);
     }
 
+    /// Returns the interval from the first of the contacts found last to the last.
+    pub fn hull(&self) -> Option<Interval<T>> {
+        let (first, last) = (self.last.first()?, self.last.last()?);
+        Some(Interval { left: first.left, right: last.right })
+    }
+
+    /// Returns about the load that is asked for, as F/κ.
+    pub fn about(
+        &mut self,
+        gap: &Gap<'_, T>,
+        asked: Asked<T>,
+        cost: &mut Cost,
+    ) -> Result<T, ContactError<T>> {
+        self.take(gap, cost)?;
+        Ok(self.look.load_of(asked))
+    }
+
     /// Forgets what it was that coarser features left open.
     fn look_for_features(&mut self, gap: &Gap<'_, T>) {
         if self.resolution != gap.resolution() {
@@ -126,25 +143,16 @@ impl<T: Real> Workspace<T> {
     }
 }
 
-/// What is sought.
-#[derive(Clone, Copy)]
-pub(super) enum Sought<T> {
-    /// A contact that meets conditions.
-    By(Conditions<T>),
-    /// One with this largest pressure.
-    Peak(T),
-}
-
 /// Finds the contacts of two bodies.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
-    sought: Sought<T>,
+    conditions: Conditions<T>,
     integrator: &mut dyn Integrator<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
 ) -> Result<ContactState<T>, ContactError<T>> {
     workspace.look_for_features(&contact.gap);
-    let found = find_contacts(contact, sought, integrator, workspace, cost);
+    let found = find_contacts(contact, conditions, integrator, workspace, cost);
     found.map_err(|error| match error {
         // A step of the heights of which no slope tells is no crest that could be pressed flat.
         ContactError::Overlap { x, interval, .. } => {
@@ -156,7 +164,7 @@ pub(super) fn find<T: Real>(
 
 fn find_contacts<T: Real>(
     contact: &Contact<'_, T>,
-    sought: Sought<T>,
+    conditions: Conditions<T>,
     integrator: &mut dyn Integrator<T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
@@ -168,7 +176,7 @@ fn find_contacts<T: Real>(
     let closed = Vec::new();
     let mut search = Search {
         contact,
-        sought,
+        conditions,
         integrator,
         workspace,
         cost,
@@ -196,10 +204,9 @@ fn find_contacts<T: Real>(
         let looks = !gap.is_convex() && !turns && !given;
         let (start, found) = match search.one(looks) {
             // Without a look at the bodies.
-            (
-                start,
-                found @ Err(ContactError::NoEquilibrium { .. } | ContactError::NoPeak { .. }),
-            ) if gap.is_convex() && !turns => {
+            (start, found @ Err(ContactError::NoEquilibrium { .. }))
+                if gap.is_convex() && !turns =>
+            {
                 search.workspace.report.add(start, Outcome::NotFound);
                 let (start, again) = search.one(true);
                 (start, again.or(found))
@@ -218,10 +225,6 @@ fn find_contacts<T: Real>(
                 }
                 Some(error) => {
                     search.workspace.report.add(start, Outcome::of(&error));
-                    // What a width or a peak takes is known now, and with it which crest is the lowest.
-                    if looks && search.has_lower(found.load)? {
-                        return search.again();
-                    }
                     fault = Some(error);
                 }
             },
@@ -244,15 +247,18 @@ fn find_contacts<T: Real>(
     search.several(fault)
 }
 
-/// Returns what a load asks of the survey.
+/// Returns what the survey is asked for.
 fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
-    let load = conditions.load() / conditions.kappa;
-    if conditions.at().is_some() { Asked::Turning(load) } else { Asked::Load(load) }
+    match conditions.given {
+        Given::HalfWidth(half_width) => Asked::HalfWidth(half_width),
+        Given::Load(load) => Asked::Load(load / conditions.kappa),
+        Given::Centre { load, .. } => Asked::Turning(load / conditions.kappa),
+    }
 }
 
 struct Search<'s, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
-    sought: Sought<T>,
+    conditions: Conditions<T>,
     integrator: &'s mut dyn Integrator<T>,
     workspace: &'s mut Workspace<T>,
     cost: &'s mut Cost,
@@ -310,13 +316,8 @@ impl<T: Real> Search<'_, '_, T> {
         let Workspace { look, of, .. } = &*self.workspace;
         let look = Some(look).filter(|_| looks && *of == Some(contact.gap.number()));
         let cost = &mut *self.cost;
-        match self.sought {
-            Sought::By(conditions) => {
-                let (start, bears) = (contact.start, None);
-                Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
-            }
-            Sought::Peak(pressure) => peak::find(contact, pressure, look, integrator, last, cost),
-        }
+        let (conditions, start, bears) = (self.conditions, contact.start, None);
+        Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
     }
 
     /// Looks for narrow features in the contacts that were found; tells whether the panels missed one.
@@ -334,35 +335,6 @@ impl<T: Real> Search<'_, '_, T> {
             return Ok(false);
         }
         panels::probe(self.integrator, gap, found.interval)
-    }
-
-    /// Tells whether the gap is lowest elsewhere than it was thought to be, where only one contact can be sought.
-    fn has_lower(&mut self, load: T) -> Result<bool, ContactError<T>> {
-        if self.may_be_several() || self.contact.start.is_some() {
-            return Ok(false);
-        }
-        let before = self.workspace.look.lowest();
-        let asked = Asked::Load(load / self.contact.kappa);
-        Ok(self.workspace.look(&self.contact.gap, asked, self.cost)?.lowest() != before)
-    }
-
-    /// Seeks one contact once more, where the gap is seen to be lowest now.
-    fn again(&mut self) -> Result<ContactState<T>, ContactError<T>> {
-        for trial in 1.. {
-            self.workspace.last.clear();
-            self.integrator.clear_samples();
-            let (start, found) = self.one(true);
-            let found = found?;
-            let Some(error) = self.checked(&found)? else {
-                self.workspace.report.add(start, Outcome::Passed);
-                return Ok(found);
-            };
-            self.workspace.report.add(start, Outcome::of(&error));
-            if trial == MOST_TRIALS || !self.has_lower(found.load)? {
-                return Err(error);
-            }
-        }
-        unreachable!("a trial is the last one")
     }
 
     /// What a solution fails by, if anything.
@@ -484,13 +456,7 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Returns what the survey is asked for.
     fn asked(&self) -> Asked<T> {
-        match self.sought {
-            Sought::By(Conditions { given: Given::HalfWidth(half_width), .. }) => {
-                Asked::HalfWidth(half_width)
-            }
-            Sought::By(conditions) => asked_by(&conditions),
-            Sought::Peak(pressure) => Asked::Peak(pressure / self.contact.kappa),
-        }
+        asked_by(&self.conditions)
     }
 
     /// Surveys the bodies as closely as the load asks for.
@@ -501,16 +467,13 @@ impl<T: Real> Search<'_, '_, T> {
 
     /// Whether the bodies turn until the load acts at a given place.
     fn turns(&self) -> bool {
-        matches!(self.sought, Sought::By(Conditions { given: Given::Centre { .. }, .. }))
+        self.conditions.at().is_some()
     }
 
     /// Whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
         // Integrators of the user's, and the paper's, know but one contact; so do the searches.
-        let by_load = matches!(
-            self.sought,
-            Sought::By(Conditions { given: Given::Load(_) | Given::Centre { .. }, .. })
-        );
+        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         by_load
             && !self.contact.edges.are_adhesive()
             && self.contact.search.is_none()
@@ -527,7 +490,6 @@ impl<T: Real> Search<'_, '_, T> {
         let edges = self.contact.edges;
         let no_balance =
             ContactError::NoEquilibrium { half_width: T::of(0.5) * (to - from), near: from };
-        let Sought::By(conditions) = self.sought else { return Err(fault.unwrap_or(no_balance)) };
         if !self.may_be_several() {
             return Err(fault.unwrap_or(no_balance));
         }
@@ -536,7 +498,7 @@ impl<T: Real> Search<'_, '_, T> {
         let ends = self.contact.ends();
         let at_corner = edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
         // Whether a corner presses is seen of the contacts that are there without it.
-        let conditions = Conditions { edges: edges.map(Edge::let_go), ..conditions };
+        let conditions = Conditions { edges: edges.map(Edge::let_go), ..self.conditions };
         let last = &self.workspace.last;
         let is_near = last.len() > 1 && self.end.is_none();
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
@@ -831,10 +793,10 @@ impl<T: Real> Search<'_, '_, T> {
     /// grows with the contacts, so there is one under which the outermost limit is at an end.
     fn bears(&mut self, conditions: &Conditions<T>, end: Side) -> Option<Capacity<T>> {
         let (load, end) = self.end_reached_by(conditions, end)?;
-        let sought = Sought::By(Conditions { given: Given::Load(load), ..*conditions });
+        let conditions = Conditions { given: Given::Load(load), ..*conditions };
         let mut search = Search {
             contact: self.contact,
-            sought,
+            conditions,
             integrator: &mut *self.integrator,
             workspace: &mut *self.workspace,
             cost: &mut *self.cost,

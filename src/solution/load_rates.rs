@@ -112,7 +112,7 @@ impl<T: Real> Solution<'_, T> {
 }
 
 impl<T: Real> LoadRates<T> {
-    pub(super) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
+    pub(crate) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
         let refuse = |why| Err(ContactError::NoLoadDerivative { why });

@@ -1,6 +1,6 @@
 //! The largest pressure.
 
-use super::{ContactState, Solution};
+use super::{ContactState, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
 use crate::{ContactError, Interval, Real, Side};
@@ -57,35 +57,48 @@ impl<T: Real> Solution<'_, T> {
     /// sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         self.integrator.complete(&self.gap)?;
-        let last = self.intervals().len() - 1;
-        let mut best = self.peak_in(last)?;
+        let (_, x, Estimate { value: pressure, .. }) =
+            self.solved().largest_pressure(&mut Cost::default())?;
+        Ok(Peak { x, pressure })
+    }
+}
+
+impl<T: Real> Solved<'_, T> {
+    /// Finds the largest pressure of all contacts: the number of its contact, its place and value.
+    pub fn largest_pressure(
+        &self,
+        cost: &mut Cost,
+    ) -> Result<(usize, T, Estimate<T>), ContactError<T>> {
+        let last = self.contacts().len() - 1;
+        let (x, top) = self.peak_in(last, cost)?;
+        let mut best = (last, x, top);
         for i in (0..last).rev() {
-            let peak = self.peak_in(i)?;
-            if peak.pressure >= best.pressure {
-                best = peak;
+            let (x, top) = self.peak_in(i, cost)?;
+            if top.value >= best.2.value {
+                best = (i, x, top);
             }
         }
         Ok(best)
     }
 
-    /// That of one contact, by its number.
-    pub(super) fn peak_in(&self, contact: usize) -> Result<Peak<T>, ContactError<T>> {
-        let contacts = self.intervals();
+    /// Finds the largest pressure of one contact, by its number.
+    pub(super) fn peak_in(
+        &self,
+        contact: usize,
+        cost: &mut Cost,
+    ) -> Result<(T, Estimate<T>), ContactError<T>> {
+        let (contacts, ContactState { load, strengths, free, .. }) = (self.contacts(), *self.found);
         let (on, last) = (contacts[contact], contacts.len() - 1);
-        let (x, Estimate { value: pressure, error }) = largest_pressure(
-            &**self.integrator,
-            &self.gap,
-            &self.load_case(),
-            (contact, on),
-            &mut Cost::default(),
-        )?;
+        let load_case = LoadCase { kappa: self.kappa, load, free };
+        let (x, top) =
+            largest_pressure(self.integrator, self.gap, &load_case, (contact, on), cost)?;
+        let Estimate { value: pressure, error } = top;
         if !pressure.is_finite() {
             return Err(ContactError::Singular { x });
         }
         if !error.is_finite() {
             return Err(ContactError::Unresolved { x, pressure, error });
         }
-        let ContactState { strengths, free, .. } = self.found;
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // Where both edges are at fault it is the right one that is named.
         for (side, outermost) in [(Side::Right, contact == last), (Side::Left, contact == 0)] {
@@ -93,7 +106,7 @@ impl<T: Real> Solution<'_, T> {
                 return Err(ContactError::Singular { x: on[side] });
             }
         }
-        Ok(Peak { x, pressure })
+        Ok((x, top))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::pressure_integral::Integrals;
 use super::{Peak, Solution};
+use crate::gap::Cost;
 use crate::{ContactError, Ends, Interval, Real};
 
 /// One of the intervals in which the bodies touch, and what acts there.
@@ -99,8 +100,8 @@ impl<T: Real> Solution<'_, T> {
             let half_width = interval.half_width();
             let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
             let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
-            let peak = match self.peak_in(i) {
-                Ok(peak) => Some(peak),
+            let peak = match self.solved().peak_in(i, &mut Cost::default()) {
+                Ok((x, top)) => Some(Peak { x, pressure: top.value }),
                 Err(ContactError::Singular { .. }) => None,
                 Err(error) => return Err(error),
             };

@@ -23,6 +23,7 @@ mod check_derivatives;
 mod closed_forms;
 mod closed_forms_solved;
 mod common_shapes;
+mod controls;
 mod corners;
 mod declared_convexity;
 mod default_solve;

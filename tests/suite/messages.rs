@@ -164,6 +164,11 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             &["peak pressure 1.5", "is inf", "give the load", "round the kink"],
             Solve,
         ),
+        (
+            E::InJump { wanted: 1.5, load, below: 0.5, above: 2.5 },
+            &["0.5 and 2.5", "not 1.5", "load 32.5", "both sides"],
+            Solve,
+        ),
         (E::AboveSurface { x: 1.5, depth: -2.5 }, &["x = 1.5", "depth -2.5"], Evaluation),
         (
             E::InvalidYoungsModulus { body: Body::Upper, modulus: -1.5 },

@@ -738,6 +738,27 @@ class NoPeakError(SolveError):
     found: float
 
 
+class InJumpError(SolveError):
+    """A half-width, peak pressure or approach that no load has: it jumps where a contact is born or a corner reached.
+
+    Attributes
+    ----------
+    wanted : float
+        The value asked for.
+    load : float
+        The load at which it jumps.
+    below : float
+        The value under less; 0 where there is none.
+    above : float
+        The value under more; infinite where the pressure is.
+    """
+
+    wanted: float
+    load: float
+    below: float
+    above: float
+
+
 class AboveSurfaceError(EvaluationError):
     """A point is above the surface, or not finite.
 

@@ -193,7 +193,7 @@ impl<T: Real> Survey<T> {
     }
 
     /// Returns about the load that is asked for, as F/κ.
-    pub(super) fn load_of(&self, asked: Asked<T>) -> T {
+    pub fn load_of(&self, asked: Asked<T>) -> T {
         match asked {
             Asked::Load(load) | Asked::Turning(load) => load,
             Asked::HalfWidth(half_width) => self.borne(half_width),

@@ -1,0 +1,386 @@
+//! The contact under which a quantity that grows with the load has a given value.
+//!
+//! The peak pressure, the approach of the bodies and the half-width never fall with the load without adhesion, however
+//! many contacts there are, and their derivatives are known:
+//!
+//! ```text
+//! peak         ∂P/∂F at its place, a flat punch on the contacts
+//! approach     dδ/dF = 1/stiffness
+//! half-width   (da/dF + db/dF)/2
+//! ```
+//!
+//! So Newton's method on ln q over ln F finds the load, between loads that are too small and too large; a power law
+//! takes it one step. Each trial is a solve by load, and the samples of one serve the next. A quantity may jump: the
+//! half-width where a contact is born outside the others, the peak where a corner is reached. A value inside a jump has
+//! no load.
+
+use super::Contact;
+use super::capacity::{Capacity, capacity};
+use super::edges::{Conditions, Edge, Given};
+use super::topology::{self, Workspace};
+use crate::gap::{Asked, Cost};
+use crate::material::Elasticity;
+use crate::quadrature::panels::{self, Several};
+use crate::quadrature::{Integrator, complete};
+use crate::search::SearchError;
+use crate::solution::{Approaching, ContactState, LoadRates, References, Report, Solved};
+use crate::{ContactError, Ends, Interval, Real};
+
+/// Loads tried before the value is given up.
+const MOST_LOADS: usize = 100;
+
+/// The first load for an approach as a share of `κ δ`: that of a contact a millionth as wide as the bodies is a twentieth.
+const FIRST: f64 = 0.05;
+
+/// By how much the load changes at most from one trial to the next.
+const MOST_STEP: f64 = 1e3;
+
+/// How far the load may go from the first one while the quantity is not even finite.
+const FARTHEST: f64 = 1e12;
+
+/// What is given instead of the load.
+#[derive(Clone, Copy)]
+pub(super) enum Quantity<T> {
+    HalfWidth,
+    Peak,
+    Approach { references: References<T>, bodies: Option<[Elasticity<T>; 2]> },
+}
+
+/// Checks the edges for a peak: a corner on the bodies may end them; at any other edge but a free one the pressure is
+/// infinite.
+pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
+    let edges = contact.checked_edges()?;
+    if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
+        return Err(ContactError::BothLimitsGiven { interval: Interval { left, right } });
+    }
+    match edges.into_iter().find(|edge| !edge.is_free()) {
+        Some(edge) => Err(ContactError::PeakEdge { edge }),
+        None => Ok(()),
+    }
+}
+
+/// A search for the load under which a quantity has the wanted value.
+pub(super) struct ByLoad<'s, 'b, T: Real> {
+    pub contact: &'s Contact<'b, T>,
+    pub quantity: Quantity<T>,
+    pub wanted: T,
+    pub integrator: &'s mut dyn Integrator<T>,
+    pub workspace: &'s mut Workspace<T>,
+    pub cost: &'s mut Cost,
+}
+
+/// What the failure of a trial says.
+enum Bound<T> {
+    /// About how large the quantity is under a load.
+    At(T, T),
+    /// The widest contact has the wanted value.
+    Widest(ContactState<T>),
+    Fails,
+}
+
+/// A contact, its quantity, and the derivative of that by the load.
+type Trial<T> = (ContactState<T>, [T; 2]);
+
+/// Loads that are too small and too large, each with the quantity under it.
+#[derive(Clone, Copy)]
+struct Enclosure<T> {
+    low: Option<[T; 2]>,
+    high: Option<[T; 2]>,
+}
+
+impl<T: Real> Enclosure<T> {
+    fn add(&mut self, at: [T; 2], wanted: T) {
+        *(if at[1] < wanted { &mut self.low } else { &mut self.high }) = Some(at);
+    }
+
+    /// Returns a load that is not known to be too small or too large: this one, or one between.
+    fn inside(&self, load: T) -> T {
+        let step = T::of(MOST_STEP);
+        match [self.low, self.high].map(|end| end.map(|[load, _]| load)) {
+            [Some(low), Some(high)] if !(load > low && load < high) => low.sqrt() * high.sqrt(),
+            [Some(low), None] if load <= low => low * step,
+            [None, Some(high)] if load >= high => high / step,
+            _ => load,
+        }
+    }
+
+    /// Tells whether nothing is left between.
+    fn is_closed(&self) -> bool {
+        let nothing = T::one() + T::epsilon().sqrt();
+        matches!((self.low, self.high), (Some([low, _]), Some([high, _])) if high <= low * nothing)
+    }
+}
+
+impl<T: Real> ByLoad<'_, '_, T> {
+    /// Finds the load.
+    pub fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+        let mut first = self.first()?;
+        let (mut load, mut fault) = (first, None);
+        let mut enclosure = Enclosure { low: None, high: None };
+        // Steps that are still to be made without a look at them, once the next squares what is left.
+        let mut last_steps: Option<usize> = None;
+        for _ in 0..MOST_LOADS {
+            // So small a number has no digits left.
+            if !load.is_finite() || (load * T::epsilon()).is_zero() {
+                return Err(ContactError::Overflow { interval: self.whole() });
+            }
+            let [value, rate] = match self.at(load) {
+                Ok((found, [value, rate])) => {
+                    let step = (self.wanted - value) / rate.component(0);
+                    let size = step.abs() / load;
+                    let is_near = size <= T::epsilon().sqrt();
+                    let is_there = T::DERIVATIVE_ORDER == 0 && size <= T::epsilon();
+                    if last_steps == Some(0) || is_there {
+                        let error = found.error.map(|error| error + size);
+                        return Ok(ContactState { error, ..found });
+                    }
+                    last_steps = match last_steps {
+                        Some(left) => Some(left - 1),
+                        // The rate of a peak is known to half the digits only.
+                        None => is_near.then_some(2 * T::DERIVATIVE_ORDER),
+                    };
+                    if last_steps.is_some() {
+                        load += step;
+                        continue;
+                    }
+                    if value >= self.wanted {
+                        fault = None;
+                    }
+                    [value, rate]
+                }
+                Err(error) => {
+                    let value = match self.bound(&error, load, &enclosure)? {
+                        Bound::Widest(found) => return Ok(found),
+                        Bound::Fails => return Err(error),
+                        Bound::At(at, value) => {
+                            // What the bodies bear says more than the first load.
+                            (first, load) = (if at < load { at } else { first }, at);
+                            value
+                        }
+                    };
+                    fault = Some(error);
+                    [value, T::zero()]
+                }
+            };
+            enclosure.add([load, value], self.wanted);
+            load = enclosure.inside(self.next(load, [value, rate]));
+            let is_known = enclosure.low.is_some() && enclosure.high.is_some();
+            let is_far = load > first * T::of(FARTHEST) || load < first / T::of(FARTHEST);
+            if enclosure.is_closed() || !is_known && is_far {
+                return Err(self.none(&enclosure, fault));
+            }
+        }
+        let best = self.workspace.hull().unwrap_or(self.whole());
+        let residual = enclosure.high.map_or(self.wanted, |[_, value]| value - self.wanted);
+        let source = SearchError::NotConverged { x: load, residual };
+        Err(ContactError::LimitSearch { best, source })
+    }
+
+    /// Returns the load to start with.
+    fn first(&mut self) -> Result<T, ContactError<T>> {
+        let (kappa, wanted, gap) = (self.contact.kappa, self.wanted, &self.contact.gap);
+        let known = self.workspace.hull().or(self.contact.start);
+        let [left, right] = gap.range();
+        let sixty_fourth = T::of(1.0 / 64.0) * (right - left);
+        let half_width = known.map_or(sixty_fourth, |on| on.half_width());
+        let hertz = T::frac_pi_2() * wanted * half_width;
+        let asked = match self.quantity {
+            Quantity::Approach { .. } => return Ok(T::of(FIRST) * kappa * wanted),
+            Quantity::HalfWidth => Asked::HalfWidth(wanted),
+            Quantity::Peak => {
+                if known.is_some() || gap.is_convex() {
+                    return Ok(hertz);
+                }
+                Asked::Peak(wanted / kappa)
+            }
+        };
+        let load = kappa * self.workspace.about(gap, asked, self.cost)?;
+        Ok(if load > T::zero() { load } else { hertz })
+    }
+
+    /// Finds the contact under a load, with its quantity.
+    fn at(&mut self, load: T) -> Result<Trial<T>, ContactError<T>> {
+        let conditions = self.contact.under(load)?;
+        let found = self.solve(conditions)?;
+        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        let solved = Solved { gap, integrator: &*self.integrator, kappa, found: &found };
+        let (at, doubt) = match self.quantity {
+            Quantity::HalfWidth => {
+                let rates = LoadRates::new(solved)?;
+                let half = T::of(0.5);
+                ([found.interval.half_width(), half * (rates.a + rates.b)], T::zero())
+            }
+            Quantity::Peak => match solved.largest_pressure(self.cost) {
+                Ok((_, x, top)) => {
+                    let rate = match solved.several() {
+                        Some(_) => LoadRates::new(solved)?.pressure(x)?,
+                        None => T::frac_1_pi() / found.interval.chebyshev_weight(x),
+                    };
+                    ([top.value, rate], top.error / top.value.abs())
+                }
+                Err(ContactError::Singular { .. }) => {
+                    if let Some(widest) = self.up_to_corner(&found) {
+                        return Err(widest.too_short(load));
+                    }
+                    ([T::one() / T::zero(), T::zero()], T::zero())
+                }
+                Err(error) => return Err(error),
+            },
+            Quantity::Approach { references, bodies } => {
+                let at = Approaching::new(solved, bodies, &references)?.with_rate()?;
+                let rate = at[1];
+                if !(rate > T::zero() && rate.is_finite()) {
+                    return Err(ContactError::ApproachFalls { load, rate });
+                }
+                (at, T::zero())
+            }
+        };
+        // The half-width goes with the peak, and is known no better.
+        let error = found.error.map(|error| error + doubt);
+        Ok((ContactState { error, ..found }, at))
+    }
+
+    /// Returns the widest contact that no corner holds, where a corner holds the one that was found.
+    fn up_to_corner(&mut self, found: &ContactState<T>) -> Option<Capacity<T>> {
+        if found.free == Ends::both(true) || panels::several(&*self.integrator).is_some() {
+            return None;
+        }
+        let (contact, edges) = (self.contact, Ends::both(Edge::Free));
+        let conditions = Conditions { edges, ..contact.under(found.load).ok()? };
+        let widest = capacity(contact, &conditions, contact.ends(), self.cost)?;
+        (widest.load <= found.load).then_some(widest)
+    }
+
+    /// Finds the contacts under some conditions, ready for their pressures.
+    fn solve(&mut self, conditions: Conditions<T>) -> Result<ContactState<T>, ContactError<T>> {
+        let Self { contact, integrator, workspace, cost, .. } = self;
+        workspace.report = Report::new();
+        let found = topology::find(contact, conditions, *integrator, workspace, cost)?;
+        if panels::several(*integrator).is_none() {
+            integrator.prepare(&contact.gap, found.interval)?;
+        }
+        complete(*integrator, &contact.gap, found.interval, cost)?;
+        let one = std::slice::from_ref(&found.interval);
+        workspace.keep(panels::several(*integrator).map_or(one, Several::contacts));
+        Ok(found)
+    }
+
+    /// Returns the next load by Newton's rule for the logarithms, as far as it may be trusted.
+    fn next(&self, load: T, [value, rate]: [T; 2]) -> T {
+        let power = value / (load * rate);
+        // That of a round body, where nothing is known.
+        let power = if power.is_finite() { power } else { T::of(2.0) };
+        let (step, largest) = ((self.wanted / value).powf(power), T::of(MOST_STEP));
+        let step = if step.is_finite() && value > T::zero() { step } else { largest };
+        load.component(0) * step.component(0).min(largest).max(largest.recip())
+    }
+
+    /// Tells what the failure of a trial says about its load.
+    fn bound(
+        &mut self,
+        error: &ContactError<T>,
+        load: T,
+        enclosure: &Enclosure<T>,
+    ) -> Result<Bound<T>, ContactError<T>> {
+        let infinite = T::one() / T::zero();
+        Ok(match *error {
+            ContactError::DomainTooShort { carried, half_width, peak, .. } => {
+                let value = match self.quantity {
+                    Quantity::HalfWidth => half_width,
+                    Quantity::Peak => peak,
+                    // How much nearer the bodies would come is not known.
+                    Quantity::Approach { .. } => return Ok(Bound::At(carried.min(load), infinite)),
+                };
+                let room = T::of(8.0) * T::epsilon() * self.wanted;
+                if (value - self.wanted).abs() <= room {
+                    let given = Given::HalfWidth(half_width);
+                    return Ok(Bound::Widest(
+                        self.solve(Conditions { given, ..self.contact.under(load)? })?,
+                    ));
+                }
+                if value < self.wanted {
+                    return Err(self.too_large(error).unwrap_or_else(|| error.clone()));
+                }
+                Bound::At(carried.min(load), value)
+            }
+            ContactError::EndReached { .. } | ContactError::OutsideBodies { .. } => {
+                Bound::At(load, infinite)
+            }
+            ContactError::NoEquilibrium { .. } if enclosure.high.is_some() => {
+                Bound::At(load, infinite)
+            }
+            // A corner does not hold so small a load, or it does not close a hollow.
+            ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
+                Bound::At(load, T::zero())
+            }
+            _ => Bound::Fails,
+        })
+    }
+
+    /// Returns the error for a value that is larger than that of any contact which the bodies have room for.
+    fn too_large(&self, error: &ContactError<T>) -> Option<ContactError<T>> {
+        let ContactError::DomainTooShort {
+            end,
+            carried: load,
+            half_width,
+            peak,
+            kappa_is_default,
+            ..
+        } = *error
+        else {
+            return None;
+        };
+        let wanted = self.wanted;
+        match self.quantity {
+            Quantity::HalfWidth => Some(ContactError::HalfWidthTooLarge {
+                wanted,
+                half_width,
+                end,
+                load,
+                peak,
+                kappa_is_default,
+            }),
+            Quantity::Peak => Some(ContactError::PeakTooHigh {
+                wanted,
+                half_width,
+                found: peak,
+                end,
+                load,
+                kappa_is_default,
+            }),
+            Quantity::Approach { .. } => None,
+        }
+    }
+
+    /// Returns the error for a value that no load has.
+    fn none(&self, enclosure: &Enclosure<T>, fault: Option<ContactError<T>>) -> ContactError<T> {
+        let (wanted, Enclosure { low, high }) = (self.wanted, *enclosure);
+        match (fault, low, high, self.quantity) {
+            (Some(_), Some([load, approach]), Some(_), Quantity::Approach { .. })
+                if approach > T::zero() =>
+            {
+                ContactError::ApproachTooLarge { wanted, approach, load }
+            }
+            (Some(error), ..) => error,
+            // At any load.
+            (None, None, high, Quantity::Peak) => {
+                let half_width = self.workspace.hull().unwrap_or(self.whole()).half_width();
+                let found = high.map_or(T::of(f64::NAN), |[_, found]| found);
+                ContactError::NoPeak { wanted, half_width, found }
+            }
+            (None, low, Some([load, above]), _) => {
+                let below = low.map_or(T::zero(), |[_, below]| below);
+                ContactError::InJump { wanted, load, below, above }
+            }
+            (None, _, None, _) => {
+                let whole = self.whole();
+                ContactError::NoEquilibrium { half_width: whole.half_width(), near: whole.left }
+            }
+        }
+    }
+
+    fn whole(&self) -> Interval<T> {
+        let Ends { left, right } = self.contact.ends();
+        Interval { left, right }
+    }
+}
