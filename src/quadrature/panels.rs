@@ -28,6 +28,7 @@ use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap, Guides};
 use crate::numerics::chebyshev::{MOST, SIZES};
 use crate::{ContactError, Ends, Interval, Real, Side};
+pub(crate) use edge_integrals::rise as rises_over;
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
@@ -189,11 +190,6 @@ impl<T: Real> Quadrature<T> for Panels {
             .downcast_ref()
             .is_some_and(|PanelIntegrator { rule, .. }: &PanelIntegrator<T>| rule == self)
     }
-}
-
-/// The edge integrals over an interval that the panels cover.
-pub(crate) fn edge_integrals<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Moments<T> {
-    edge_integrals::moments(panels, on, false, &mut None)
 }
 
 #[derive(Clone)]

@@ -1,36 +1,36 @@
 //! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! All of the gap is sampled, as panels of its slope: the contact first, and once more in short cells
-//! to see whether the panels, or those of the solver, have missed anything, and whether its limits
-//! balance the bodies; then the way from either edge to the ends of the
-//! bodies. The signs are those of pieces: bounds on a Chebyshev series by
-//! its coefficients, on shorter and shorter pieces until they leave no doubt. A gap whose slope
-//! rises over the contact, and is larger yet beyond, is seen to be one from its panels alone.
-//!
-//! Several contacts at once are looked at [one after the other](several), and the gaps between them.
+//! All of the gap is sampled in short [cells]: each contact first, to see whether the panels of the solver have missed
+//! anything and whether the limits [balance](balance) the bodies; then the way from each limit to the end of the bodies, or
+//! half the way to the next contact. The signs are those of pieces: bounds on a Chebyshev series by
+//! its coefficients, on shorter and shorter pieces until they leave no doubt. Where the slope of the gap
+//! rises over the one contact, and is larger yet beyond, the cells alone tell. One contact is several that are one.
 
+mod balance;
+mod cells;
 mod inside;
-mod missed;
-mod opening_integral;
 mod outside;
 mod series_bounds;
-mod several;
 
 use super::ContactState;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::{self, Panel, PanelSet};
-use crate::quadrature::{Integrator, LoadCase, Quadrature};
-use crate::{ContactError, Ends, Interval, Panels, Real, Side};
+use crate::quadrature::Integrator;
+use crate::quadrature::panels::{self, Several, System, rises_over};
+use crate::{ContactError, Ends, Interval, Real, Side};
+use balance::balanced;
+use cells::{Cells, compare, places};
 use inside::Inside;
-use missed::Cells;
-use opening_integral::OpeningIntegral;
-use outside::{OpeningRate, OutsideOf};
+use outside::{Beside, OutsideOf};
+use series_bounds::extremes;
 
 /// Evaluations, and samples, after which the certificate is given up.
 const MOST_EVALUATIONS: usize = 1 << 20;
 
 /// The share of the bodies' range that a cell may be long, and have no fewer than eight nodes.
 const SHARE: f64 = 1.0 / 4096.0;
+
+/// Points at which the pressure of one of several contacts is summed up.
+const POINTS: usize = 512;
 
 /// A proof that a solution is a contact.
 ///
@@ -85,84 +85,166 @@ fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactE
     ContactError::Undecided { x, evaluations, samples }
 }
 
-/// Looks at a contact, whatever quadrature it was found with.
+/// Looks at contacts, whatever quadrature they were found with.
 pub(crate) fn certify<T: Real>(
     gap: &Gap<'_, T>,
     kappa: T,
     found: &ContactState<T>,
     solver: &dyn Integrator<T>,
 ) -> Result<Certificate<T>, ContactError<T>> {
-    if let Some(solved) = panels::several(solver).filter(|several| several.contacts().len() > 1) {
-        return several::certify(gap, kappa, found, solved);
-    }
-    let ContactState { interval: on, strengths, free, adhesive, ends, .. } = *found;
-    let share = found.nothing();
-    let mean = T::of(0.5) * found.load.abs() / on.half_width();
-
-    let mut panel_set = PanelSet::new(T::epsilon().sqrt() * T::epsilon().sqrt().sqrt());
-    let range = gap.range();
-    let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
-    panel_set.look_at_ends(gap, sampled);
-    panel_set.extend(gap, sampled)?;
-    let view = OpeningIntegral::new(&panel_set.panels, on);
-
+    let ContactState { interval: hull, free, adhesive, .. } = *found;
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
-    let at_end = Ends { left: on.left <= ends.left, right: on.right >= ends.right };
+    let at_end = Ends { left: hull.left <= found.ends.left, right: hull.right >= found.ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
+    presses_at(found, at_corner)?;
+    let ends = followed(found.ends, hull);
+    let spacing = (ends.right - ends.left) * T::of(SHARE);
+    let [from, to] = gap.range();
+    let one = std::slice::from_ref(&found.interval);
+    let contacts = panels::several(solver).map_or(one, Several::contacts).iter();
+    let contacts: Vec<_> =
+        contacts.map(|on| Interval { left: on.left.max(from), right: on.right.min(to) }).collect();
+
+    let mut cells = Cells::new(gap);
+    let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());
+    for (i, on) in contacts.iter().enumerate() {
+        let row = cells.over(&places(on.left, on.right, on.half_width(), spacing))?;
+        slopes.push(extremes(&row.panels));
+        let steepest = slopes[i].into_iter().fold(T::zero(), |most, slope| most.max(slope.abs()));
+        doubt = doubt.max(compare(gap, &row.panels, |x| assumed(solver, i, x), spacing, steepest)?);
+        rows.push(row);
+    }
+    let (mut several, mut system) = (Several::sampled(rows), System::new());
+    let (load, share) = (found.load / kappa, found.nothing());
+    several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
+    several.system(load, &mut system);
+    several.press_with(load);
+    let mut cost = several.cost();
+    for (i, on) in contacts.iter().enumerate() {
+        several.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
+    }
+    balanced(kappa, found, &several, &system, doubt)?;
+    let steepest = slopes.iter().flatten().fold(T::zero(), |most: T, slope| most.max(slope.abs()));
+    let rises = |on| rises_over(&several.panel_set(0).panels, on, share * steepest);
+    let is_plain = contacts.len() == 1 && rises(contacts[0]);
+    let pressure = match is_plain || adhesive != Ends::both(false) {
+        true => None,
+        false => Some(least_pressure(gap, kappa, found, &several, cells.cost())?),
+    };
+
+    let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
+    several.set(gap, &contacts, is_held, found.ends)?;
+    several.system(load, &mut system);
+    several.press_with(load);
+    let strengths = found.strengths.zip(is_held);
+    let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
+    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
+    // Where the bodies come closer up to the middle of a gap, from its left.
+    let mut falling: Option<Extremum<T>> = None;
+    let last = contacts.len() - 1;
+    let half = T::of(0.5);
+    for (contact, &on) in contacts.iter().enumerate() {
+        for side in Side::BOTH {
+            let is_outer = contact == if side == Side::Right { last } else { 0 };
+            if is_outer && at_corner[side] {
+                continue;
+            }
+            let end = match side {
+                _ if is_outer => ends[side],
+                Side::Right => half * on.right + half * contacts[contact + 1].left,
+                Side::Left => half * contacts[contact - 1].right + half * on.left,
+            };
+            let mut outside = OutsideOf::new(Beside {
+                several: &several,
+                system: &system,
+                contact,
+                side,
+                on,
+                slopes: slopes[contact],
+                falls: last > 0 || strengths[side] <= T::zero().min(strengths[side.other()]),
+                allowed: share * steepest * hull.half_width(),
+            });
+            outside.follow(gap, end, spacing, &mut cells, &mut cost)?;
+            if is_outer {
+                outside.part_again();
+            } else if side == Side::Right {
+                falling = outside.falling;
+            } else if falling.is_some() && outside.falling.is_some() {
+                outside.part_again();
+            }
+            (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
+        }
+    }
+    if let Some(Extremum { x, value: gap }) = worst {
+        return Err(ContactError::Overlap { x, gap, interval: hull, load: found.load });
+    }
+    Ok(Certificate { pressure, gap: closest, spacing, cost: cost + cells.cost() })
+}
+
+/// Returns what a solver assumes of the slope of the gap in one of its contacts, and how far that may be off.
+fn assumed<T: Real>(solver: &dyn Integrator<T>, contact: usize, x: T) -> Option<(T, T)> {
+    let Some(several) = panels::several(solver) else {
+        return solver.slope(x).zip(solver.doubt(x));
+    };
+    let panel_set = several.panel_set(contact);
+    let doubt = panel_set.truncation_error(x)? + panel_set.tolerance * panel_set.size;
+    Some((panel_set.slope(x)?, doubt))
+}
+
+/// Refuses corners that pull.
+fn presses_at<T: Real>(
+    found: &ContactState<T>,
+    at_corner: Ends<bool>,
+) -> Result<(), ContactError<T>> {
+    let ContactState { interval, load, strengths, .. } = *found;
+    let mean = T::of(0.5) * load.abs() / interval.half_width();
     // With adhesion there may be no load.
     let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
     // Where both edges are at fault it is the right one that is named.
     for side in [Side::Right, Side::Left] {
-        let lifts = at_corner[side] && strengths[side] < -share * pressed;
-        if lifts {
-            let x = on[side];
-            let (interval, load) = (on, found.load);
-            let pressure = -T::one() / T::zero();
+        if at_corner[side] && strengths[side] < -found.nothing() * pressed {
+            let (x, pressure) = (interval[side], -T::one() / T::zero());
             return Err(ContactError::Tension { x, pressure, interval, load });
         }
     }
-    let ends = followed(ends, on);
-    let spacing = (ends.right - ends.left) * T::of(SHARE);
-    let mut more = Cost::default();
-    panel_set.heights(gap, [sampled.left, sampled.centre(), sampled.right], &mut more)?;
-    let cells = missed::compare(gap, [&panel_set, &solver], sampled, spacing, view.steepest())?;
-    more += cells.cost;
-    balanced(kappa, found, &cells)?;
-    let pressure =
-        if adhesive != Ends::both(false) || rises(&panel_set.panels, on, share * view.steepest()) {
-            None
-        } else {
-            let mut integrator = Panels::FULL.integrator()?;
-            integrator.prepare(gap, on)?;
-            more += integrator.cost();
-            let load_case = LoadCase { kappa, load: found.load, free };
-            let (hull, allowed) = (on, share * mean);
-            let inside = Inside { integrator: &*integrator, gap, load_case, on, hull, allowed };
-            let Extremum { x, value } = inside.least(&mut more)?;
-            Some(Extremum { x, value: value / mean })
-        };
+    Ok(())
+}
 
-    let both = Ends::from_fn(|side| {
-        let counts = adhesive[side] || at_corner[side];
-        if free[side] || !counts { T::zero() } else { strengths[side] * T::pi() / kappa }
-    });
-    let allowed = share * view.steepest() * on.half_width();
-    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
-    for side in Side::BOTH {
-        if at_corner[side] {
-            continue;
-        }
-        let mut outside = OutsideOf::new(&view, side, both, allowed);
-        outside.follow(gap, ends[side], spacing, &mut panel_set, MOST_EVALUATIONS)?;
-        outside.part_again();
-        worst = nearer(worst, outside.worst);
-        closest = nearer(closest, outside.closest);
+/// The least pressure of all contacts, each beside that of a smooth body under its load.
+fn least_pressure<T: Real>(
+    gap: &Gap<'_, T>,
+    kappa: T,
+    found: &ContactState<T>,
+    several: &Several<T>,
+    cost: Cost,
+) -> Result<Extremum<T>, ContactError<T>> {
+    let ContactState { interval: hull, load, free, .. } = *found;
+    let pressures = |x: &[T], pressures: &mut [T]| {
+        several.pressures(x, pressures);
+        pressures.iter_mut().for_each(|pressure| *pressure *= kappa);
+    };
+    let last = several.contacts().len() - 1;
+    let mut least = None;
+    for (i, &on) in several.contacts().iter().enumerate() {
+        let borne = if last == 0 { load } else { borne(&pressures, on) };
+        let mean = T::of(0.5) * borne.abs() / on.half_width();
+        let (free, allowed) = (free.of_contact(i, last), found.nothing() * mean);
+        let inside = Inside { pressures: &pressures, gap, on, free, load, hull, allowed };
+        let Extremum { x, value } = inside.least(cost)?;
+        least = nearer(least, Some(Extremum { x, value: value / mean }));
     }
-    if let Some(Extremum { x, value: gap }) = worst {
-        let (interval, load) = (on, found.load);
-        return Err(ContactError::Overlap { x, gap, interval, load });
-    }
-    Ok(Certificate { pressure, gap: closest, spacing, cost: panel_set.cost + more })
+    least.ok_or_else(|| undecided(hull.left, cost))
+}
+
+/// The load of one of several contacts, to a thousandth or so: a pressure may be infinite at kinks.
+fn borne<T: Real>(pressures: &dyn Fn(&[T], &mut [T]), on: Interval<T>) -> T {
+    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
+    let x: Vec<T> = (0..POINTS).map(|i| on.at_angle(angle(i))).collect();
+    let mut values = vec![T::zero(); POINTS];
+    pressures(&x, &mut values);
+    let finite = x.iter().zip(&values).filter(|(_, pressure)| pressure.is_finite());
+    let sum = finite.fold(T::zero(), |sum, (&x, &p)| sum + p * on.chebyshev_weight(x));
+    T::pi() * sum / T::count(POINTS)
 }
 
 /// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.
@@ -180,52 +262,81 @@ fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Opti
     }
 }
 
-/// Whether free edges are as free by the cells as the limits were found to be.
-fn balanced<T: Real>(
-    kappa: T,
-    found: &ContactState<T>,
-    cells: &Cells<T>,
-) -> Result<(), ContactError<T>> {
-    let ContactState { interval: on, load, free, .. } = *found;
-    let (stiffness, m) = (kappa * on.half_width(), cells.moments(on));
-    let size = load.abs().max(stiffness * m.l1_norm);
-    let error = found.error.unwrap_or(T::zero());
-    let said = found.force.unwrap_or(T::of(3.0) * size * error);
-    let rounding = T::of(64.0) * T::epsilon() * size;
-    let rounding = rounding * (T::one() + on.left.abs().max(on.right.abs()) / on.half_width());
-    // An estimate may be off by as much; a tolerance is kept.
-    let open = T::of(16.0) * m.error + cells.doubt;
-    let allowed = T::of(10.0) * said + stiffness * open + rounding;
-    let by_force = T::frac_1_pi() / on.half_width();
-    // Where both are at fault it is the right one that is named.
-    for (x, sign, free) in [(on.right, T::one(), free.right), (on.left, -T::one(), free.left)] {
-        let missed = load - stiffness * (m.m1 + sign * m.m0);
-        let met = missed.abs() <= allowed;
-        if free && !met {
-            let [strength, allowed] = [missed, allowed].map(|force| force * by_force);
-            return Err(ContactError::Unbalanced { x, strength, allowed });
-        }
-    }
-    Ok(())
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Panels;
+    use crate::gap::Shape;
+    use crate::numerics::LinearSystem;
+    use crate::profile::{Curve, CurvePoint, Flat};
+    use crate::search::Newton as Inversion;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Whether the slope of the gap rises over the contact, up to rounding and errors that do not matter.
-fn rises<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
-    let mut before: Option<[T; 2]> = None;
-    for panel in panels {
-        let part = Interval { left: panel.x[0].max(on.left), right: panel.x[1].min(on.right) };
-        let (series, n) = panel.over(part);
-        let size = series[..n].iter().fold(T::zero(), |sum, a| sum + a.abs());
-        let error = panel.tail + T::of(16.0) * T::epsilon() * size;
-        let jumps_down =
-            |[value, doubt]: [T; 2]| panel.value(part.left) - value < -T::of(4.0) * (error + doubt);
-        if error > allowed || before.is_some_and(jumps_down) {
-            return false;
+    const LOAD: f64 = 1.0;
+
+    /// What the conditions of two contacts make of `x⁴ - 2x²` less so many times `exp(-((x - at)/width)²)`.
+    fn certified([height, at, width]: [f64; 3]) -> Result<Certificate<f64>, ContactError<f64>> {
+        let body = Curve::new([-2.5, 2.5], move |k: f64| {
+            let s = (k - at) / width;
+            let bump = height * (-s * s).exp();
+            let (y, dy) = (k.powi(4) - 2.0 * k * k - bump, 4.0 * k.powi(3) - 4.0 * k);
+            CurvePoint { x: k, y, dx: 1.0, dy: dy + 2.0 * s / width * bump }
+        });
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
+        let (kappa, ends, corners) = (FRAC_PI_2, Ends::from(gap.range()), Ends::both(false));
+        let mut solver = crate::Quadrature::<f64>::integrator(&Panels::FULL)?;
+        let several = panels::several_mut(&mut *solver).unwrap();
+        let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
+        let d = (LOAD / PI).sqrt();
+        let [from, to] = [(1.0 - d).sqrt(), (1.0 + d).sqrt()];
+        let mut limits = [-to, -from, from, to];
+        for _ in 0..30 {
+            let [one, two, three, four] = limits;
+            let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
+            several.set(&gap, &on, corners, ends)?;
+            several.system(LOAD / kappa, &mut system);
+            assert!(linear.factor(&system.jacobian, 4));
+            linear.solve(&system.residual, &mut steps);
+            for (limit, step) in limits.iter_mut().zip(&steps) {
+                *limit -= step.clamp(-0.02, 0.02);
+            }
         }
-        if !series_bounds::rises(&series[..n], error) {
-            return false;
-        }
-        before = Some([panel.value(part.right), error]);
+        assert!(steps.iter().all(|step| step.abs() < 1e-12), "{steps:?}");
+        let found = ContactState {
+            interval: Interval { left: limits[0], right: limits[3] },
+            load: LOAD,
+            strengths: Ends::both(0.0),
+            free: Ends::both(true),
+            adhesive: Ends::both(false),
+            error: Some(1e-14),
+            error_by_load: None,
+            force: None,
+            trend: None,
+            tilt: 0.0,
+            ends,
+        };
+        certify(&gap, kappa, &found, &*solver)
     }
-    true
+
+    /// Solutions of the equations that the bodies do not have.
+    #[test]
+    fn what_is_no_contact() {
+        certified([0.0, 0.0, 1.0]).unwrap();
+        certified([-1e-3, 1.0, 0.1]).unwrap();
+        let error = certified([-0.3, 1.0, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Tension { x, pressure, .. }
+                if (x - 1.0).abs() < 0.02 && pressure < 0.0),
+            "{error}"
+        );
+        let near = certified([0.3, 0.1, 0.1]).unwrap().gap.unwrap();
+        assert!((near.x - 0.1).abs() < 0.02 && near.value > 0.0, "{near:?}");
+        let error = certified([0.6, 0.1, 0.1]).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Overlap { x, gap, .. }
+                if (x - 0.1).abs() < 0.02 && gap < 0.0),
+            "{error}"
+        );
+    }
 }

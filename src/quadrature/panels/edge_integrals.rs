@@ -86,7 +86,7 @@ fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
 
 /// Whether the slope rises over the contact, up to errors of this size: its derivative is not negative
 /// by its coefficients alone, and no jump goes down.
-pub(super) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
     let mut before: Option<T> = None;
     within(panels, on).iter().all(|panel| {
         let mut series = [T::zero(); MOST];

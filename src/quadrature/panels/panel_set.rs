@@ -154,15 +154,14 @@ impl<T: Real> PanelSet<T> {
             Side::Left => limit + inward,
             Side::Right => limit - inward,
         };
+        // Nor is what lies beyond a breakpoint beside it.
+        if gap.breakpoint_after(x.min(limit)).is_some_and(|next| next < x.max(limit)) {
+            return None;
+        }
         let mut sampler = Sampler::default();
         let slope = sampler.slope_untilted(gap, x, Side::Left);
         self.cost += sampler.cost;
         slope.ok().map(|slope| EndProbe { limit, x, slope })
-    }
-
-    /// Looks at both ends of an interval: beyond its last node a panel does not see.
-    pub fn look_at_ends(&mut self, gap: &Gap<'_, T>, on: Interval<T>) {
-        self.held = Ends::from_fn(|end| self.look_at(gap, end, on[end]));
     }
 
     /// What is covered.

@@ -64,6 +64,8 @@ pub(crate) struct Several<T> {
     count: usize,
     weight: Weight<T>,
     tolerance: T,
+    /// What V has besides: of one contact between two corners, whose load is given, `-π F/κ`.
+    constant: T,
 }
 
 /// The conditions on the free limits, from left to right, linearised.
@@ -116,7 +118,8 @@ impl<T: Real> System<T> {
 
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
-        Self { parts: Vec::new(), count: 0, weight: Weight::new(), tolerance }
+        let (parts, weight, constant) = (Vec::new(), Weight::new(), T::zero());
+        Self { parts, count: 0, weight, tolerance, constant }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -530,7 +533,8 @@ impl<T: Real> Several<T> {
                     for (lane, pressure) in out.iter_mut().enumerate() {
                         let x = lanes[lane];
                         let others = part.value.near.clone().filter(|&k| k != i);
-                        let others = self.outside(others, x, None) + part.value.far(x, T::zero());
+                        let others =
+                            self.outside(others, x, None) + part.value.far(x, self.constant);
                         let weight = self.weight.near(i, part.weight.near.clone(), x)
                             * part.weight.far(x, T::one());
                         *pressure =

@@ -11,8 +11,7 @@ use super::series_bounds::{below, least, truncation_error};
 use super::{Extremum, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::Table;
-use crate::quadrature::{Integrator, LoadCase};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// Nodes of a cell.
 const NODES: usize = 16;
@@ -30,12 +29,14 @@ struct CheckedCell<T> {
     series: [T; NODES],
 }
 
-/// A contact whose integrator has been prepared.
+/// A contact whose pressures are known.
 pub(super) struct Inside<'c, T: Real> {
-    pub integrator: &'c dyn Integrator<T>,
+    pub pressures: &'c dyn Fn(&[T], &mut [T]),
     pub gap: &'c Gap<'c, T>,
-    pub load_case: LoadCase<T>,
     pub on: Interval<T>,
+    /// Whether its limits are free.
+    pub free: Ends<bool>,
+    pub load: T,
     /// From the first limit of all contacts to the last.
     pub hull: Interval<T>,
     /// Pressures down to the negative of this are zero.
@@ -44,13 +45,13 @@ pub(super) struct Inside<'c, T: Real> {
 
 impl<T: Real> Inside<'_, T> {
     fn tension(&self, Extremum { x, value: pressure }: Extremum<T>) -> ContactError<T> {
-        let (interval, load) = (self.hull, self.load_case.load);
+        let (interval, load) = (self.hull, self.load);
         ContactError::Tension { x, pressure, interval, load }
     }
 
     /// The least pressure found, negative only if it is less than what is allowed for; and where
     /// the ratio of the pressure to that under a smooth body is least.
-    pub fn least(&self, cost: &mut Cost) -> Result<Extremum<T>, ContactError<T>> {
+    pub fn least(&self, cost: Cost) -> Result<Extremum<T>, ContactError<T>> {
         let on = self.on;
         let worst: std::cell::Cell<Option<Extremum<T>>> = std::cell::Cell::new(None);
         let mut meet = |x: T, value: T| {
@@ -60,7 +61,7 @@ impl<T: Real> Inside<'_, T> {
         };
         for x in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
             let mut pressure = [T::zero()];
-            self.integrator.pressures(self.gap, &self.load_case, &[x], &mut pressure, cost)?;
+            (self.pressures)(&[x], &mut pressure);
             meet(x, pressure[0]);
         }
         // Each span between two breakpoints is a cell or more.
@@ -79,11 +80,11 @@ impl<T: Real> Inside<'_, T> {
                     // One place with tension is enough.
                     let seen = worst.get();
                     return Err(
-                        seen.map_or_else(|| undecided(from, *cost), |place| self.tension(place))
+                        seen.map_or_else(|| undecided(from, cost), |place| self.tension(place))
                     );
                 }
                 let middle = T::of(0.5) * from + T::of(0.5) * to;
-                let Some(cell) = self.cell([from, to], cost)? else { continue };
+                let Some(cell) = self.cell([from, to]) else { continue };
                 let CheckedCell { x, pressure, series } = cell;
                 let left_out = truncation_error(&series);
                 let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
@@ -103,7 +104,7 @@ impl<T: Real> Inside<'_, T> {
                         ratio = Some(Extremum { x, value });
                     }
                     if value < -self.allowed {
-                        self.deepest([from, to], &mut meet, cost)?;
+                        self.deepest([from, to], &mut meet);
                     }
                     continue;
                 }
@@ -117,32 +118,28 @@ impl<T: Real> Inside<'_, T> {
         match (worst.get(), ratio) {
             (Some(place), _) => Err(self.tension(place)),
             (None, Some(ratio)) => Ok(ratio),
-            (None, None) => Err(undecided(on.centre(), *cost)),
+            (None, None) => Err(undecided(on.centre(), cost)),
         }
     }
 
     /// Looks at a cell; nothing if there is no room.
-    fn cell(
-        &self,
-        [from, to]: [T; 2],
-        cost: &mut Cost,
-    ) -> Result<Option<CheckedCell<T>>, ContactError<T>> {
+    fn cell(&self, [from, to]: [T; 2]) -> Option<CheckedCell<T>> {
         let half = T::of(0.5);
         let (middle, reach) = (half * from + half * to, half * (to - from));
         let table = Table::of(NODES);
         let x: [T; NODES] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
         if x[0] <= from || x[NODES - 1] >= to {
-            return Ok(None);
+            return None;
         }
         let mut pressure = [T::zero(); NODES];
-        self.integrator.pressures(self.gap, &self.load_case, &x, &mut pressure, cost)?;
+        (self.pressures)(&x, &mut pressure);
         let smooth: [T; NODES] = std::array::from_fn(|i| pressure[i] * self.factor(x[i]));
-        Ok(Some(CheckedCell { x, pressure, series: table.coefficients(&smooth) }))
+        Some(CheckedCell { x, pressure, series: table.coefficients(&smooth) })
     }
 
     /// What makes the pressure smooth at the edges.
     fn factor(&self, x: T) -> T {
-        let free = self.load_case.free;
+        let free = self.free;
         let by_half_width = T::one() / self.on.half_width();
         let part = |distance: T, free: bool| {
             let root = (distance * by_half_width).sqrt();
@@ -152,14 +149,9 @@ impl<T: Real> Inside<'_, T> {
     }
 
     /// The least pressure itself on a cell that has some below zero, by shrinking a grid.
-    fn deepest(
-        &self,
-        [mut from, mut to]: [T; 2],
-        meet: &mut dyn FnMut(T, T),
-        cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    fn deepest(&self, [mut from, mut to]: [T; 2], meet: &mut dyn FnMut(T, T)) {
         for _ in 0..12 {
-            let Some(CheckedCell { x, pressure, .. }) = self.cell([from, to], cost)? else { break };
+            let Some(CheckedCell { x, pressure, .. }) = self.cell([from, to]) else { break };
             let lower = |best: usize, i: usize| if pressure[i] < pressure[best] { i } else { best };
             let best = (0..NODES).fold(0, lower);
             meet(x[best], pressure[best]);
@@ -167,6 +159,5 @@ impl<T: Real> Inside<'_, T> {
             from = if best == 0 { start } else { x[best - 1] };
             to = if best + 1 == NODES { end } else { x[best + 1] };
         }
-        Ok(())
     }
 }

@@ -1,61 +1,45 @@
 //! No overlap outside.
 //!
-//! At the distance d outside an edge the deformed gap opens with the slope
-//!
-//! ```text
-//! (w/π) ∫ (g(x) - g(t))/(x - t) dθ - (π/κ) (K (1 + d/2L) - K' d/2L)/sqrt(d/L (2 + d/L))
-//! ```
-//!
-//! w² = d (d + 2L), t = c + L cos θ, K of this edge and K' of the other. In y = √d its integral is
-//! smooth up to the edge. Where g is larger than anywhere in the contact, the gap grows: there
-//! the slope itself is not computed, and what the pressure adds to the height is made up for
-//! only where the gap stops growing.
+//! From each limit the gap is followed to the end of the bodies, or half the way to the next contact. There the pressure
+//! takes Φ/κ off the slope of the bodies. In y = √d, d the distance from the limit, the integral of what is left is
+//! smooth up to there. Where P ≥ 0, Φ falls outward: where the bodies are steeper than anywhere in the contact the gap
+//! grows, the slope itself is not computed, and what the pressure adds to the height is made up for only where the gap
+//! stops growing.
 
+use super::cells::{Cells, places};
 use super::series_bounds::{above, below, integral, least, truncation_error};
 use super::{Extremum, undecided};
-use crate::gap::{Cost, Gap, Sampler};
+use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels::{Panel, PanelSet, Rises};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::quadrature::panels::{Panel, Several, System};
+use crate::{ContactError, Interval, Real, Side};
 
 /// Nodes of a cell.
 const NODES: usize = 24;
 /// How often a panel is halved.
 const MOST_LEVELS: usize = 40;
-/// Cells on one side.
+/// Those cells on one side.
 const MOST_CELLS: usize = 1 << 16;
 
-/// A contact as seen from beside it, without the strengths of its edges.
-pub(super) trait OpeningRate<T: Real> {
-    fn on(&self) -> Interval<T>;
-
-    /// Beyond these, on the left and on the right, the slope of the bodies is one at which the gap grows
-    /// outward.
-    fn slopes(&self) -> [T; 2];
-
-    /// The largest slope in the contact.
-    fn steepest(&self) -> T;
-
-    /// What the pressure takes off the slope of the gap at a distance from an edge.
-    fn pull(&self, distance: T, side: Side) -> T;
-
-    /// What it leaves of a slope g there.
-    fn left_of(&self, g: T, distance: T, side: Side) -> T {
-        g - self.pull(distance, side)
-    }
-}
-
-/// One side of the contact.
-pub(super) struct OutsideOf<'o, T: Real> {
-    pub view: &'o dyn OpeningRate<T>,
-    side: Side,
-    /// π/κ times the strength of this edge, and of the other.
-    strengths: [T; 2],
+/// One side of a contact.
+pub(super) struct Beside<'o, T> {
+    pub several: &'o Several<T>,
+    pub system: &'o System<T>,
+    pub contact: usize,
+    pub side: Side,
+    pub on: Interval<T>,
+    /// The least and the largest slope of the bodies in the contact.
+    pub slopes: [T; 2],
+    /// Whether Φ falls outward.
+    pub falls: bool,
     /// Overlaps up to this are none.
     pub allowed: T,
-    /// By how much the gap between the bodies, before they are loaded, rises towards larger x over what was followed.
-    risen: T,
+}
+
+/// What has been followed of it.
+pub(super) struct OutsideOf<'o, T: Real> {
+    of: Beside<'o, T>,
     /// The height of the gap at `y`, and what the slopes of the bodies have added since.
     height: T,
     y: T,
@@ -71,140 +55,60 @@ pub(super) struct OutsideOf<'o, T: Real> {
 }
 
 impl<'o, T: Real> OutsideOf<'o, T> {
-    /// With π/κ times the strengths of both edges.
-    pub fn new(view: &'o dyn OpeningRate<T>, side: Side, strengths: Ends<T>, allowed: T) -> Self {
-        let strengths = match side {
-            Side::Left => [strengths.left, strengths.right],
-            Side::Right => [strengths.right, strengths.left],
-        };
-        let zero = T::zero();
-        let (risen, height, y, pending) = (zero, zero, zero, zero);
-        let (open, cells) = (false, 0);
-        let (worst, closest, falling) = (None, None, None);
-        Self {
-            view,
-            side,
-            strengths,
-            allowed,
-            risen,
-            height,
-            y,
-            pending,
-            open,
-            cells,
-            worst,
-            closest,
-            falling,
-        }
+    pub fn new(of: Beside<'o, T>) -> Self {
+        let [height, y, pending] = [T::zero(); 3];
+        let (open, cells, worst, closest, falling) = (false, 0, None, None, None);
+        Self { of, height, y, pending, open, cells, worst, closest, falling }
     }
 
     fn sign(&self) -> T {
-        match self.side {
+        match self.of.side {
             Side::Left => -T::one(),
             Side::Right => T::one(),
         }
     }
 
     fn edge(&self) -> T {
-        self.view.on()[self.side]
+        self.of.on[self.of.side]
     }
 
     fn distance(&self, x: T) -> T {
         (self.sign() * (x - self.edge())).max(T::zero())
     }
 
-    /// What the strengths add to the slope of the gap, times 2 √d.
-    fn singular(&self, distance: T) -> T {
-        let half_width = self.view.on().half_width();
-        let share = T::of(0.5) * distance / half_width;
-        let [own, other] = self.strengths;
-        let by_root = T::of(2.0) * (half_width / (T::of(2.0) + share + share)).sqrt();
-        -(own * (T::one() + share) - other * share) * by_root
+    /// Returns what the pressure takes off the slope of the gap at a distance.
+    fn pull(&self, distance: T) -> T {
+        let Beside { several, system, contact, side, .. } = self.of;
+        several.pull(system, contact, side, distance)
     }
 
-    /// Takes in all panels of the way from the edge to an end of the bodies, in cells no longer
-    /// than `spacing`.
+    /// Follows the gap from the edge to a place.
     pub fn follow(
         &mut self,
         gap: &Gap<'_, T>,
         end: T,
         spacing: T,
-        panel_set: &mut PanelSet<T>,
-        most: usize,
+        cells: &mut Cells<'_, T>,
+        cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        let half_width = self.view.on().half_width();
-        let (mut reached, reach) = (T::zero(), self.distance(end));
-        let mut left_out = T::zero();
-        let (edge, sign) = (self.edge(), self.sign());
-        let place = |distance: T| if distance >= reach { end } else { edge + sign * distance };
-        let mut x = edge;
-        let mut cells = Vec::new();
-        while reached < reach && cells.len() < most {
-            let step = (T::of(0.5) * reached).max(T::of(0.0625) * half_width).min(spacing);
-            // No sliver at the end.
-            let next = if reached + T::of(1.25) * step >= reach { reach } else { reached + step };
-            let to = place(next);
-            if to != x {
-                cells.push([x.min(to), x.max(to)]);
-            }
-            (x, reached) = (to, next);
-        }
-        let mut waiting: Vec<Panel<T>> = Vec::new();
-        for [left, right] in cells {
-            panel_set.sample_anew(gap, Interval { left, right })?;
-            let breakpoint = if self.side == Side::Right { left } else { right };
-            if let Some(before) = self.edge_of(&waiting, breakpoint) {
-                // What happens between the last node and the end of a cell shows at its neighbour.
-                let after = self.edge_of(&panel_set.panels, breakpoint).unwrap_or(before);
-                let size = panel_set.size.max(before[0].abs());
-                let doubt = before[1] + after[1] + panel_set.tolerance * size;
-                let apart = (before[0] - after[0]).abs() > T::of(16.0) * doubt;
-                if apart && !gap.is_breakpoint(breakpoint) {
-                    let ends = waiting.iter().flat_map(|panel| panel.x);
-                    let [left, right] =
-                        ends.fold([left, right], |[from, to], x| [from.min(x), to.max(x)]);
-                    panel_set.sample_anew(gap, Interval { left, right })?;
-                    waiting.clear();
-                }
-            }
-            if panel_set.cost.evaluations > most || panel_set.cost.samples > most {
-                return Err(undecided(breakpoint, panel_set.cost));
-            }
-            for panel in waiting.drain(..) {
-                self.take(&panel, &mut left_out, panel_set.cost)?;
-            }
-            waiting.extend_from_slice(&panel_set.panels);
-            if self.side == Side::Left {
-                waiting.reverse();
-            }
-        }
+        let edge = self.edge();
+        let places = places(edge, end, self.of.on.half_width(), spacing);
+        let mut row = cells.over(&places)?;
         // Short of the last cell: at the end of a body the slope may be infinite.
-        if let Some(panel) = waiting.first() {
-            let place = panel.x[usize::from(self.side == Side::Left)];
-            let mut sampler = Sampler::default();
-            let heights = [gap.nearest(edge), place].map(|x| sampler.height(gap, x));
-            let [at_edge, at_place] = heights;
-            let rises = Rises {
-                between: [edge, place],
-                by_heights: at_place? - at_edge?,
-                by_slopes: sign * self.risen,
-                highest: sampler.highest,
-                open: left_out,
-            };
-            let compared = rises.compare_beside_noise(gap, &mut sampler);
-            panel_set.cost.heights += sampler.cost.evaluations;
-            compared?;
+        let last = places.len() - 1;
+        let known = if self.of.side == Side::Left {
+            [places[1.min(last)], edge]
+        } else {
+            [edge, places[last.max(1) - 1]]
+        };
+        if known[0] < known[1] {
+            row.heights(gap, known, cost)?;
         }
-        for panel in waiting {
-            self.take(&panel, &mut left_out, panel_set.cost)?;
+        if self.of.side == Side::Left {
+            row.panels.reverse();
         }
-        Ok(())
-    }
-
-    /// The slope and its error at a place where a row of panels ends.
-    fn edge_of(&self, panels: &[Panel<T>], x: T) -> Option<[T; 2]> {
-        let panel = panels.iter().find(|panel| panel.x.contains(&x))?;
-        Some([panel.value(x), panel.tail])
+        let mut left_out = T::zero();
+        row.panels.iter().try_for_each(|panel| self.take(panel, &mut left_out, cells.cost()))
     }
 
     /// The next panel outward.
@@ -215,21 +119,19 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
-        self.risen += panel.rise(panel.x[0], panel.x[1]);
         let rounding = T::of(16.0) * T::epsilon();
         *left_out += length * (panel.tail + rounding * panel.series[0].abs());
         let series = panel.coefficients();
-        let [own, other] = self.strengths;
         // A straight flank is as steep as in the contact.
-        let slack = rounding * self.view.steepest();
-        let growing = if self.side == Side::Right {
-            below(series) >= self.view.slopes()[1] - slack
-        } else {
-            above(series) <= self.view.slopes()[0] + slack
+        let [least, most] = self.of.slopes;
+        let slack = rounding * least.abs().max(most.abs());
+        let growing = match self.of.side {
+            Side::Right => below(series) >= most - slack,
+            Side::Left => above(series) <= least + slack,
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
-        if growing && own <= T::zero() && own <= other {
+        if growing && self.of.falls {
             let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
             self.pending += self.sign() * sum * panel.half();
             self.part_again();
@@ -238,10 +140,10 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         if self.pending != T::zero() {
             let drawn = self.drawn(self.y, from);
             self.height += self.pending - drawn;
-            self.open |= self.height > self.allowed;
+            self.open |= self.height > self.of.allowed;
             self.pending = T::zero();
         }
-        self.bound(panel, [from, to], self.allowed + *left_out, cost)?;
+        self.bound(panel, [from, to], self.of.allowed + *left_out, cost)?;
         self.y = to;
         Ok(())
     }
@@ -258,10 +160,8 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             };
             for i in 0..rule.n {
                 let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
-                let distance = y * y;
-                let pull = (y + y) * self.sign() * self.view.pull(distance, self.side);
                 let weight = half * (top - bottom) * T::of(rule.weights[i]);
-                sum += weight * (pull - self.singular(distance));
+                sum += weight * (y + y) * self.sign() * self.pull(y * y);
             }
             if bottom <= from {
                 break;
@@ -297,10 +197,10 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let x = self.edge() + sign * distance;
                 // Rounding of x is more than the length of a panel that ends beside a breakpoint.
                 let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
-                let opens = sign * self.view.left_of(g, distance, self.side);
+                let opens = sign * (g - self.pull(distance));
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
                 terms = terms.max((y + y) * (g.abs() + lost) * reach);
-                *value = ((y + y) * opens + self.singular(distance)) * reach;
+                *value = (y + y) * opens * reach;
             }
             let rate = &table.coefficients(&values);
             let left_out = truncation_error(rate);

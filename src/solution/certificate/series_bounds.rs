@@ -2,6 +2,7 @@
 
 use crate::Real;
 use crate::numerics::chebyshev::{expand, value_at};
+use crate::quadrature::panels::Panel;
 
 /// Halves looked at before a least value is taken as it is.
 const MOST_HALVES: usize = 512;
@@ -15,6 +16,14 @@ pub(super) fn below<T: Real>(series: &[T]) -> T {
 /// No value of the series is above this.
 pub(super) fn above<T: Real>(series: &[T]) -> T {
     series.iter().skip(1).fold(series[0], |sum, a| sum + a.abs())
+}
+
+/// The least and the largest slope on panels.
+pub(super) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
+    let infinite = T::one() / T::zero();
+    panels.iter().map(Panel::coefficients).fold([infinite, -infinite], |[least, most], series| {
+        [least.min(below(series)), most.max(above(series))]
+    })
 }
 
 /// The place, from -1 to 1, and the value of the minimum, to within `enough`: halves whose bound is
@@ -39,21 +48,6 @@ pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
         }
     }
     best
-}
-
-/// Whether the series rises from -1 to 1, up to errors of this size in its values.
-pub(super) fn rises<T: Real>(series: &[T], error: T) -> bool {
-    let n = series.len();
-    let mut slopes = vec![T::zero(); n + 1];
-    for k in (1..n).rev() {
-        let before = if k + 1 < n { slopes[k + 1] } else { T::zero() };
-        slopes[k - 1] = before + T::count(2 * k) * series[k];
-    }
-    slopes[0] *= T::of(0.5);
-    let slopes = &slopes[..(n - 1).max(1)];
-    // Markov's inequality: so large may the derivative of such an error be.
-    let noise = error * T::count(n * n);
-    below(slopes) >= -noise || least(slopes, noise)[1] >= -(noise + noise)
 }
 
 /// The coefficients of the integral from -1, one more than there are.

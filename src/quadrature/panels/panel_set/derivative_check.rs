@@ -161,12 +161,13 @@ impl<T: Real> PanelSet<T> {
         for (height, x) in heights.iter_mut().zip(places) {
             *height = sampler.height_untilted(gap, x)?;
         }
-        let tail = self.panels.iter().fold(T::zero(), |tail, panel| tail.max(panel.tail));
         for (between, heights) in places.windows(2).zip(heights.windows(2)) {
             let (from, to) = (between[0], between[1]);
             let by_slopes = self.rise(from, to) - self.tilt * (to - from);
             let (by_heights, highest) = (heights[1] - heights[0], sampler.highest);
-            let open = T::of(8.0) * tail * (to - from);
+            let span = within(&self.panels, Interval { left: from, right: to });
+            let doubt = |sum, panel: &Panel<T>| sum + panel.tail * (panel.x[1] - panel.x[0]);
+            let open = T::of(8.0) * span.iter().fold(T::zero(), doubt);
             let rises = Rises { between: [from, to], by_heights, by_slopes, highest, open };
             rises.compare_beside_noise(gap, &mut sampler)?;
         }

@@ -3,20 +3,23 @@
 
 use super::one_of_several::OneOfSeveral;
 use super::{Several, System};
-use crate::quadrature::panels::Panel;
-use crate::{Real, Side};
+use crate::quadrature::panels::PanelSet;
+use crate::{Ends, Real, Side};
 
 impl<T: Real> Several<T> {
     /// As many contacts on panels that others have sampled, over all of each of them.
-    pub fn sampled(tolerance: T, tilt: T, panels: impl Iterator<Item = Vec<Panel<T>>>) -> Self {
-        let mut several = Self::new(tolerance);
-        for panels in panels {
-            let mut part = OneOfSeveral::new(tolerance);
-            (part.panel_set.panels, part.panel_set.tilt) = (panels, tilt);
-            several.parts.push(part);
-        }
+    pub fn sampled(panel_sets: Vec<PanelSet<T>>) -> Self {
+        let mut several = Self::new(panel_sets[0].tolerance);
+        several.parts = panel_sets.into_iter().map(OneOfSeveral::on_panels).collect();
         several.count = several.parts.len();
         several
+    }
+
+    /// Makes ready for pressures under a load, that is F/κ: the only contact between two corners bears any.
+    pub fn press_with(&mut self, load: T) {
+        self.press();
+        let is_given = self.count == 1 && self.corners() == Ends::both(true);
+        self.constant = if is_given { -T::pi() * load } else { T::zero() };
     }
 
     /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
@@ -35,7 +38,8 @@ impl<T: Real> Several<T> {
             Side::Right => Some(contact).filter(|k| k + 1 < self.count),
         };
         let Some(k) = in_gap else {
-            return -self.weight.beyond(side, x, distance) * value(distance) / T::pi();
+            return -self.weight.beyond(side, x, distance) * (value(distance) + self.constant)
+                / T::pi();
         };
         let width = self.parts[k + 1].on.left - self.parts[k].on.right;
         let rest = width - distance;

@@ -86,6 +86,13 @@ impl<T: Real> OneOfSeveral<T> {
         }
     }
 
+    /// One whose slope others have sampled.
+    pub fn on_panels(panel_set: PanelSet<T>) -> Self {
+        let mut one = Self::new(panel_set.tolerance);
+        one.panel_set = panel_set;
+        one
+    }
+
     /// Forgets the samples: the contact is another, or the bodies are.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panel_set.clear(same_bodies);

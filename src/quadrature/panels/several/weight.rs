@@ -150,6 +150,12 @@ impl<T: Real> Weight<T> {
             }
         }
         let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * size / self.corner_factor(x)
+        // A corner on this side is as far as the limit is.
+        let outward = if side == Side::Left { -distance } else { distance };
+        let other = side.other();
+        let far = self.on[self.on.len() - 1 - own][other];
+        let factor = if self.corners[side] { outward } else { T::one() };
+        let factor = if self.corners[other] { factor * (x - far) } else { factor };
+        sign * size / factor
     }
 }

@@ -1,0 +1,56 @@
+//! Whether the limits balance the bodies.
+
+use crate::numerics::LinearSystem;
+use crate::quadrature::panels::{Several, System};
+use crate::solution::ContactState;
+use crate::{ContactError, Real, Side};
+
+/// Whether the limits are by the cells where they were found to be: the steps that their conditions still ask
+/// for, as strengths at the limits, are within what the solver said and what the cells leave open.
+pub(super) fn balanced<T: Real>(
+    kappa: T,
+    found: &ContactState<T>,
+    cells: &Several<T>,
+    system: &System<T>,
+    doubt: T,
+) -> Result<(), ContactError<T>> {
+    if system.jacobian.is_empty() {
+        return Ok(());
+    }
+    let n = system.residual.len();
+    let mut linear = LinearSystem::new();
+    let (mut steps, mut open) = (Vec::new(), vec![T::zero(); n]);
+    if linear.factor(&system.jacobian, n) {
+        let mut unit = vec![T::zero(); n];
+        for (k, &error) in system.open.iter().enumerate() {
+            unit.fill(T::zero());
+            unit[k] = error;
+            linear.solve(&unit, &mut steps);
+            open.iter_mut().zip(&steps).for_each(|(open, step)| *open += step.abs());
+        }
+        linear.solve(&system.residual, &mut steps);
+    } else {
+        // No strength meets this.
+        steps.resize(n, T::one() / T::zero());
+    }
+    let contacts = cells.contacts();
+    let limits = (0..contacts.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
+    let is_free = |&(i, side): &(usize, Side)| found.free.of_contact(i, contacts.len() - 1)[side];
+    let mut fault = Ok(());
+    for (((i, side), step), open) in limits.filter(is_free).zip(steps).zip(open) {
+        let on = contacts[i];
+        let x = on[side];
+        let rounding = T::of(64.0) * T::epsilon() * (x.abs() + on.half_width());
+        let said = T::of(10.0) * found.error.unwrap_or(T::zero()) * on.half_width();
+        let by_limit = kappa * cells.strength_by_limit(system, i, side);
+        let strength = by_limit * step.abs();
+        // An estimate may be off by as much; a tolerance is kept.
+        let allowed = by_limit * (said + T::of(16.0) * open + rounding) + kappa * doubt;
+        let met = strength <= allowed;
+        // Of those at fault it is the rightmost that is named, as of two.
+        if !met {
+            fault = Err(ContactError::Unbalanced { x, strength, allowed });
+        }
+    }
+    fault
+}
