@@ -136,49 +136,78 @@ pub(crate) fn certify<T: Real>(
     several.set(gap, &contacts, is_held, found.ends)?;
     several.system(load, &mut system);
     several.press_with(load);
-    let strengths = found.strengths.zip(is_held);
-    let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
-    let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
-    // Where the bodies come closer up to the middle of a gap, from its left.
-    let mut falling: Option<Extremum<T>> = None;
-    let last = contacts.len() - 1;
-    let half = T::of(0.5);
-    for (contact, &on) in contacts.iter().enumerate() {
-        for side in Side::BOTH {
-            let is_outer = contact == if side == Side::Right { last } else { 0 };
-            if is_outer && at_corner[side] {
-                continue;
-            }
-            let end = match side {
-                _ if is_outer => ends[side],
-                Side::Right => half * on.right + half * contacts[contact + 1].left,
-                Side::Left => half * contacts[contact - 1].right + half * on.left,
-            };
-            let mut outside = OutsideOf::new(Beside {
-                several: &several,
-                system: &system,
-                contact,
-                side,
-                on,
-                slopes: slopes[contact],
-                falls: last > 0 || strengths[side] <= T::zero().min(strengths[side.other()]),
-                allowed: share * steepest * hull.half_width(),
-            });
-            outside.follow(gap, end, spacing, &mut cells, &mut cost)?;
-            if is_outer {
-                outside.part_again();
-            } else if side == Side::Right {
-                falling = outside.falling;
-            } else if falling.is_some() && outside.falling.is_some() {
-                outside.part_again();
-            }
-            (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
-        }
-    }
-    if let Some(Extremum { x, value: gap }) = worst {
-        return Err(ContactError::Overlap { x, gap, interval: hull, load: found.load });
-    }
+    let allowed = share * steepest * hull.half_width();
+    let state = Loaded { gap, found, several: &several, system: &system, slopes: &slopes, allowed };
+    let closest = state.outside([is_held, at_corner], spacing, &mut cells, &mut cost)?;
     Ok(Certificate { pressure, gap: closest, spacing, cost: cost + cells.cost() })
+}
+
+/// Contacts, and how steep the bodies are in each.
+struct Loaded<'c, T: Real> {
+    gap: &'c Gap<'c, T>,
+    found: &'c ContactState<T>,
+    several: &'c Several<T>,
+    system: &'c System<T>,
+    slopes: &'c [[T; 2]],
+    allowed: T,
+}
+
+impl<T: Real> Loaded<'_, T> {
+    /// Returns the least gap beside and between them, where none is below zero; `is_held` are edges that may pull.
+    fn outside(
+        &self,
+        [is_held, at_corner]: [Ends<bool>; 2],
+        spacing: T,
+        cells: &mut Cells<'_, T>,
+        cost: &mut Cost,
+    ) -> Result<Option<Extremum<T>>, ContactError<T>> {
+        let Self { gap, found, several, system, slopes, allowed } = *self;
+        let (contacts, ends) = (several.contacts(), followed(found.ends, found.interval));
+        let strengths = found.strengths.zip(is_held);
+        let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
+        let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
+        // Where the bodies come closer up to the middle of a gap, from its left.
+        let mut falling: Option<Extremum<T>> = None;
+        let last = contacts.len() - 1;
+        let half = T::of(0.5);
+        for (contact, &on) in contacts.iter().enumerate() {
+            for side in Side::BOTH {
+                let is_outer = contact == if side == Side::Right { last } else { 0 };
+                if is_outer && at_corner[side] {
+                    continue;
+                }
+                let end = match side {
+                    _ if is_outer => ends[side],
+                    Side::Right => half * on.right + half * contacts[contact + 1].left,
+                    Side::Left => half * contacts[contact - 1].right + half * on.left,
+                };
+                let mut outside = OutsideOf::new(Beside {
+                    several,
+                    system,
+                    contact,
+                    side,
+                    on,
+                    slopes: slopes[contact],
+                    falls: last > 0 || strengths[side] <= T::zero().min(strengths[side.other()]),
+                    allowed,
+                });
+                outside.follow(gap, end, spacing, cells, cost)?;
+                if is_outer {
+                    outside.part_again();
+                } else if side == Side::Right {
+                    falling = outside.falling;
+                } else if falling.is_some() && outside.falling.is_some() {
+                    outside.part_again();
+                }
+                (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
+            }
+        }
+        if let Some(Extremum { x, value: gap }) = worst {
+            let ContactState { interval, load, .. } = *found;
+            return Err(ContactError::Overlap { x, gap, interval, load });
+        }
+        Ok(closest)
+    }
 }
 
 /// Returns what a solver assumes of the slope of the gap in one of its contacts, and how far that may be off.
@@ -285,7 +314,7 @@ mod tests {
         let inversion = Inversion::default();
         let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
         let (kappa, ends, corners) = (FRAC_PI_2, Ends::from(gap.range()), Ends::both(false));
-        let mut solver = crate::Quadrature::<f64>::integrator(&Panels::FULL)?;
+        let mut solver = crate::quadrature::Quadrature::<f64>::integrator(&Panels::FULL)?;
         let several = panels::several_mut(&mut *solver).unwrap();
         let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
         let d = (LOAD / PI).sqrt();
