@@ -40,7 +40,7 @@ fn a_value_in_a_jump_is_refused_with_both_sides() {
     let error = quartic().solve(Control::HalfWidth(0.5)).unwrap_err();
     let ContactError::InJump { wanted, below, above, .. } = error else { panic!("{error}") };
     assert_eq!((wanted, below), (0.5, 0.0));
-    assert!(above >= 1.0 && above < 1.1, "{above}");
+    assert!((1.0..1.1).contains(&above), "{above}");
 
     // A hill beside the one that is touched first.
     let body = graph(-1.0, 3.0, |x: f64| {
