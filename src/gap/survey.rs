@@ -146,6 +146,7 @@ impl<T: Real> Survey<T> {
     /// [`ContactError::Profile`] with [`ProfileError::NotFinite`] inside the common range,
     /// [`ProfileError::TurnsBack`], [`ProfileError::Pieces`] or [`ProfileError::Derivative`].
     pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+        let is_again = !self.nodes.is_empty();
         self.range = gap.range();
         (self.known, self.is_one) = (None, false);
         self.seen.clear();
@@ -165,13 +166,16 @@ impl<T: Real> Survey<T> {
         }
         self.spent = cost.heights - before;
         self.join();
-        for spans in &mut self.marked {
-            spans.clear();
-            spans.reserve(self.nodes.capacity());
+        // Bodies that move allocate nothing.
+        if is_again {
+            for spans in &mut self.marked {
+                spans.clear();
+                spans.reserve(self.nodes.capacity());
+            }
+            self.seen.reserve(self.nodes.capacity());
+            self.stretches.clear();
+            self.stretches.reserve(self.nodes.capacity());
         }
-        self.seen.reserve(self.nodes.capacity());
-        self.stretches.clear();
-        self.stretches.reserve(self.nodes.capacity());
         Ok(())
     }
 

@@ -48,7 +48,7 @@ pub(crate) fn crossing<T: Real>([first, second]: [T; 2]) -> Option<[T; 2]> {
     Some([t, (first * t).max(second * (T::one() - t))])
 }
 
-fn segment<T: Real>(from: &Node<T>, to: &Node<T>) -> Segment<T> {
+pub(super) fn segment<T: Real>(from: &Node<T>, to: &Node<T>) -> Segment<T> {
     Segment::new([from.x, from.height], [to.x, to.height], [from.slopes[1], to.slopes[0]])
 }
 

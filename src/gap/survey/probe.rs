@@ -4,8 +4,9 @@
 //! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
 
 use super::body::{Body, Scratch};
+use super::lows::segment;
 use super::panel::Missed;
-use super::{Cost, Survey, hull_in};
+use super::{Cost, Node, Survey, hull_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
@@ -256,7 +257,7 @@ impl<T: Real> Survey<T> {
                 let least = if is_beside { T::of(0.5) * apart } else { apart };
                 let is_wide = |x: [T; 2]| x[1] - x[0] > least;
                 if (is_wide([from, end]) || is_asked && end > from)
-                    && let Some(x) = self.within(gap, [from, end], level + pair[0].after)
+                    && let Some(x) = within(gap, pair, [from, end], level + pair[0].after)
                     && (is_wide(x) || is_asked)
                 {
                     let kept = if is_asked { apart } else { T::of(KEPT) * apart };
@@ -300,25 +301,26 @@ impl<T: Real> Survey<T> {
         let span = Interval { left: first.x[0], right: last.x[1] };
         gap.check_budget(Cost { evaluations, ..Cost::default() }, 1, 0, span)
     }
+}
 
-    /// Cuts a span off about where the gap rises to a level, at the end that is not below it.
-    fn within(&self, gap: &Gap<'_, T>, x: [T; 2], level: T) -> Option<[T; 2]> {
-        let is_below = |x: T| gap.turned(x, self.height_near(x)) < level;
-        let (from, mut low, mut high) = match x.map(is_below) {
-            [true, true] => return Some(x),
-            [true, false] => (x[0], x[0], x[1]),
-            [false, true] => (x[1], x[1], x[0]),
-            [false, false] => return None,
-        };
-        for _ in 0..MOST_HALVES {
-            if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
-                break;
-            }
-            let middle = T::of(0.5) * (low + high);
-            *(if is_below(middle) { &mut low } else { &mut high }) = middle;
+/// Cuts a span between two points off about where the gap rises to a level, at the end that is not below it.
+fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> Option<[T; 2]> {
+    let curve = segment(&pair[0], &pair[1]);
+    let is_below = |x: T| gap.turned(x, curve.at((x - pair[0].x) / curve.width)[0]) < level;
+    let (from, mut low, mut high) = match x.map(is_below) {
+        [true, true] => return Some(x),
+        [true, false] => (x[0], x[0], x[1]),
+        [false, true] => (x[1], x[1], x[0]),
+        [false, false] => return None,
+    };
+    for _ in 0..MOST_HALVES {
+        if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
+            break;
         }
-        Some([from.min(high), from.max(high)])
+        let middle = T::of(0.5) * (low + high);
+        *(if is_below(middle) { &mut low } else { &mut high }) = middle;
     }
+    Some([from.min(high), from.max(high)])
 }
 
 impl<T: Real> Body<T> {
