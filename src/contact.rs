@@ -532,7 +532,8 @@ impl<'b, T: Real> Contact<'b, T> {
         control: Control<T>,
         cost: &mut Cost,
     ) -> Result<ContactState<T>, ContactError<T>> {
-        let (kappa, bodies) = (self.kappa, self.elasticity()?);
+        self.elasticity()?;
+        let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
             return Err(match self.stiffness {
                 Stiffness::Modulus(modulus) => ContactError::InvalidModulus { modulus },
@@ -548,51 +549,7 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::EdgePressureLoad);
         }
         workspace.report = Report::new();
-        let mut found = match (control, self.edge_pressure) {
-            (Control::Load(load), Some(wanted)) => {
-                workspace.report.add(Start::Middle, Outcome::Unchecked);
-                self.by_edge_pressure(wanted, integrator, load, cost)?
-            }
-            (Control::Load(load), None) => {
-                topology::find(self, self.under(load)?, integrator, workspace, cost)?
-            }
-            (Control::HalfWidth(half_width), _) => {
-                check_positive("half-width", half_width)?;
-                let given = Given::HalfWidth(half_width);
-                let conditions = Conditions { kappa, edges: self.checked_edges()?, given };
-                match topology::find(self, conditions, integrator, workspace, cost) {
-                    Err(error) if self.may_have_several(&error) => {
-                        let quantity = Quantity::HalfWidth;
-                        let wanted = half_width;
-                        let contact = self;
-                        ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
-                    }
-                    found => found?,
-                }
-            }
-            (Control::PeakPressure(wanted), _) => {
-                check_positive("peak pressure", wanted)?;
-                by_load::check_edges(self)?;
-                let (contact, quantity) = (self, Quantity::Peak);
-                ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
-            }
-            (Control::Approach { approach: wanted, references }, _) => {
-                if bodies.is_none() {
-                    return Err(ContactError::NoMaterials);
-                }
-                check_positive("approach", wanted)?;
-                let (contact, quantity) = (self, Quantity::Approach { references, bodies });
-                ByLoad { contact, quantity, wanted, integrator, workspace, cost }.find()?
-            }
-            (Control::Moment { load, moment, about }, _) => {
-                let line = moment::LineOfLoad::of_moment(load, moment, about)?;
-                moment::find(self, line, integrator, workspace, cost)?
-            }
-            (Control::CentreOfPressure { load, at }, _) => {
-                let line = moment::LineOfLoad::through(load, at)?;
-                moment::find(self, line, integrator, workspace, cost)?
-            }
-        };
+        let mut found = self.find_under(control, integrator, workspace, cost)?;
         // A width may be less than the rounding of x, and its load less than any number.
         check(found.interval)?;
         if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
@@ -646,6 +603,64 @@ impl<'b, T: Real> Contact<'b, T> {
             return Err(ContactError::InvalidLoad { quantity: "load", value: load });
         }
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
+    }
+
+    /// Finds the contact that meets a control, in a scene that has been checked.
+    fn find_under(
+        &self,
+        control: Control<T>,
+        integrator: &mut dyn Integrator<T>,
+        workspace: &mut Workspace<T>,
+        cost: &mut Cost,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        let by_load = |quantity, wanted, integrator, workspace, cost| {
+            ByLoad { contact: self, quantity, wanted, integrator, workspace, cost }.find()
+        };
+        match (control, self.edge_pressure) {
+            (Control::Load(load), Some(wanted)) => {
+                workspace.report.add(Start::Middle, Outcome::Unchecked);
+                self.by_edge_pressure(wanted, integrator, load, cost)
+            }
+            (Control::Load(load), None) => {
+                topology::find(self, self.under(load)?, integrator, workspace, cost)
+            }
+            (Control::HalfWidth(half_width), _) => {
+                check_positive("half-width", half_width)?;
+                let given = Given::HalfWidth(half_width);
+                let conditions =
+                    Conditions { kappa: self.kappa, edges: self.checked_edges()?, given };
+                match topology::find(self, conditions, integrator, workspace, cost) {
+                    Err(error)
+                        if panels::is_panels(integrator) && self.may_have_several(&error) =>
+                    {
+                        by_load(Quantity::HalfWidth, half_width, integrator, workspace, cost)
+                    }
+                    found => found,
+                }
+            }
+            (Control::PeakPressure(wanted), _) => {
+                check_positive("peak pressure", wanted)?;
+                by_load::check_edges(self)?;
+                by_load(Quantity::Peak, wanted, integrator, workspace, cost)
+            }
+            (Control::Approach { approach: wanted, references }, _) => {
+                let bodies = self.elasticity()?;
+                if bodies.is_none() {
+                    return Err(ContactError::NoMaterials);
+                }
+                check_positive("approach", wanted)?;
+                let quantity = Quantity::Approach { references, bodies };
+                by_load(quantity, wanted, integrator, workspace, cost)
+            }
+            (Control::Moment { load, moment, about }, _) => {
+                let line = moment::LineOfLoad::of_moment(load, moment, about)?;
+                moment::find(self, line, integrator, workspace, cost)
+            }
+            (Control::CentreOfPressure { load, at }, _) => {
+                let line = moment::LineOfLoad::through(load, at)?;
+                moment::find(self, line, integrator, workspace, cost)
+            }
+        }
     }
 
     /// Tells whether a half-width may be that of several contacts, by what one alone fails by.

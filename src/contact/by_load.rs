@@ -75,7 +75,6 @@ enum Bound<T> {
     At(T, T),
     /// The widest contact has the wanted value.
     Widest(ContactState<T>),
-    Fails,
 }
 
 /// A contact, its quantity, and the derivative of that by the load.
@@ -125,10 +124,9 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 return Err(ContactError::Overflow { interval: self.whole() });
             }
             let [value, rate] = match self.at(load) {
-                Ok((found, [value, rate])) => {
-                    let step = (self.wanted - value) / rate.component(0);
+                Ok((found, at)) => {
+                    let step = (self.wanted - at[0]) / at[1].component(0);
                     let size = step.abs() / load;
-                    let is_near = size <= T::epsilon().sqrt();
                     let is_there = T::DERIVATIVE_ORDER == 0 && size <= T::epsilon();
                     if last_steps == Some(0) || is_there {
                         let error = found.error.map(|error| error + size);
@@ -137,30 +135,24 @@ impl<T: Real> ByLoad<'_, '_, T> {
                     last_steps = match last_steps {
                         Some(left) => Some(left - 1),
                         // The rate of a peak is known to half the digits only.
-                        None => is_near.then_some(2 * T::DERIVATIVE_ORDER),
+                        None => (size <= T::epsilon().sqrt()).then_some(2 * T::DERIVATIVE_ORDER),
                     };
                     if last_steps.is_some() {
                         load += step;
                         continue;
                     }
-                    if value >= self.wanted {
-                        fault = None;
+                    fault = fault.filter(|_| at[0] < self.wanted);
+                    at
+                }
+                Err(error) => match self.bound(&error, load, enclosure.high.is_some())? {
+                    Bound::Widest(found) => return Ok(found),
+                    Bound::At(at, value) => {
+                        // What the bodies bear says more than the first load.
+                        (first, load) = (if at < load { at } else { first }, at);
+                        fault = Some(error);
+                        [value, T::zero()]
                     }
-                    [value, rate]
-                }
-                Err(error) => {
-                    let value = match self.bound(&error, load, &enclosure)? {
-                        Bound::Widest(found) => return Ok(found),
-                        Bound::Fails => return Err(error),
-                        Bound::At(at, value) => {
-                            // What the bodies bear says more than the first load.
-                            (first, load) = (if at < load { at } else { first }, at);
-                            value
-                        }
-                    };
-                    fault = Some(error);
-                    [value, T::zero()]
-                }
+                },
             };
             enclosure.add([load, value], self.wanted);
             load = enclosure.inside(self.next(load, [value, rate]));
@@ -280,76 +272,64 @@ impl<T: Real> ByLoad<'_, '_, T> {
         &mut self,
         error: &ContactError<T>,
         load: T,
-        enclosure: &Enclosure<T>,
+        is_enclosed: bool,
     ) -> Result<Bound<T>, ContactError<T>> {
-        let infinite = T::one() / T::zero();
+        let (wanted, infinite) = (self.wanted, T::one() / T::zero());
+        let large = |load| Bound::At(load, infinite);
         Ok(match *error {
-            ContactError::DomainTooShort { carried, half_width, peak, .. } => {
-                let value = match self.quantity {
-                    Quantity::HalfWidth => half_width,
-                    Quantity::Peak => peak,
+            ContactError::DomainTooShort {
+                end,
+                carried,
+                half_width,
+                peak,
+                kappa_is_default,
+                ..
+            } => {
+                let given = Given::HalfWidth(half_width);
+                let (at, load) = (carried.min(load), carried);
+                let (value, too_large) = match self.quantity {
+                    Quantity::HalfWidth => (
+                        half_width,
+                        ContactError::HalfWidthTooLarge {
+                            wanted,
+                            half_width,
+                            end,
+                            load,
+                            peak,
+                            kappa_is_default,
+                        },
+                    ),
+                    Quantity::Peak => (
+                        peak,
+                        ContactError::PeakTooHigh {
+                            wanted,
+                            half_width,
+                            found: peak,
+                            end,
+                            load,
+                            kappa_is_default,
+                        },
+                    ),
                     // How much nearer the bodies would come is not known.
-                    Quantity::Approach { .. } => return Ok(Bound::At(carried.min(load), infinite)),
+                    Quantity::Approach { .. } => (infinite, error.clone()),
                 };
-                let room = T::of(8.0) * T::epsilon() * self.wanted;
-                if (value - self.wanted).abs() <= room {
-                    let given = Given::HalfWidth(half_width);
-                    return Ok(Bound::Widest(
-                        self.solve(Conditions { given, ..self.contact.under(load)? })?,
-                    ));
+                if (value - wanted).abs() <= T::of(8.0) * T::epsilon() * wanted {
+                    let conditions = self.contact.under(load)?;
+                    return Ok(Bound::Widest(self.solve(Conditions { given, ..conditions })?));
                 }
-                if value < self.wanted {
-                    return Err(self.too_large(error).unwrap_or_else(|| error.clone()));
+                if value < wanted {
+                    return Err(too_large);
                 }
-                Bound::At(carried.min(load), value)
+                Bound::At(at, value)
             }
-            ContactError::EndReached { .. } | ContactError::OutsideBodies { .. } => {
-                Bound::At(load, infinite)
-            }
-            ContactError::NoEquilibrium { .. } if enclosure.high.is_some() => {
-                Bound::At(load, infinite)
-            }
+            ContactError::EndReached { .. } | ContactError::OutsideBodies { .. } => large(load),
+            ContactError::NoEquilibrium { .. } if is_enclosed => large(load),
             // A corner does not hold so small a load, or it does not close a hollow.
             ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
                 Bound::At(load, T::zero())
             }
-            _ => Bound::Fails,
+            _ => return Err(error.clone()),
         })
-    }
-
-    /// Returns the error for a value that is larger than that of any contact which the bodies have room for.
-    fn too_large(&self, error: &ContactError<T>) -> Option<ContactError<T>> {
-        let ContactError::DomainTooShort {
-            end,
-            carried: load,
-            half_width,
-            peak,
-            kappa_is_default,
-            ..
-        } = *error
-        else {
-            return None;
-        };
-        let wanted = self.wanted;
-        match self.quantity {
-            Quantity::HalfWidth => Some(ContactError::HalfWidthTooLarge {
-                wanted,
-                half_width,
-                end,
-                load,
-                peak,
-                kappa_is_default,
-            }),
-            Quantity::Peak => Some(ContactError::PeakTooHigh {
-                wanted,
-                half_width,
-                found: peak,
-                end,
-                load,
-                kappa_is_default,
-            }),
-            Quantity::Approach { .. } => None,
-        }
     }
 
     /// Returns the error for a value that no load has.
