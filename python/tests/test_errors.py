@@ -17,6 +17,12 @@ from linecontact import _native, errors
 
 SOURCE = Path(__file__).parents[2] / "src"
 FLAT = lc.Flat()
+# Two equal hills at -1 and 1.
+HILLS = lc.Contact(
+    FLAT,
+    lc.Curve((-3.0, 3.0), lambda k: (k, k * k * (k * k - 2.0), 1.0, 4.0 * k * (k * k - 1.0))),
+    kappa=1.0,
+)
 BODY = lc.Parabola(1.0, (-1.0, 1.0))
 STEEL = lc.Material(210e3, 0.3)
 X = np.linspace(-1.0, 1.0, 21)
@@ -278,6 +284,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"wanted": 3.0, "half_width": 1.0, "kappa_is_default": True},
     ),
     (lambda: contact().solve(peak_pressure=9.0), "PeakTooHighError", {"wanted": 9.0}),
+    (lambda: HILLS.solve(half_width=0.5), "InJumpError", {"wanted": 0.5, "below": 0.0}),
     (
         lambda: lc.Contact(FLAT, lc.Wedge((-0.1, 0.1), 1.0), kappa=1.0).solve(peak_pressure=1.0),
         "NoPeakError",

@@ -144,7 +144,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                     fault = fault.filter(|_| at[0] < self.wanted);
                     at
                 }
-                Err(error) => match self.bound(&error, load, enclosure.high.is_some())? {
+                Err(error) => match self.bound(&error, load)? {
                     Bound::Widest(found) => return Ok(found),
                     Bound::At(at, value) => {
                         // What the bodies bear says more than the first load.
@@ -268,14 +268,8 @@ impl<T: Real> ByLoad<'_, '_, T> {
     }
 
     /// Tells what the failure of a trial says about its load.
-    fn bound(
-        &mut self,
-        error: &ContactError<T>,
-        load: T,
-        is_enclosed: bool,
-    ) -> Result<Bound<T>, ContactError<T>> {
+    fn bound(&mut self, error: &ContactError<T>, load: T) -> Result<Bound<T>, ContactError<T>> {
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
-        let large = |load| Bound::At(load, infinite);
         Ok(match *error {
             ContactError::DomainTooShort {
                 end,
@@ -322,8 +316,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 }
                 Bound::At(at, value)
             }
-            ContactError::EndReached { .. } | ContactError::OutsideBodies { .. } => large(load),
-            ContactError::NoEquilibrium { .. } if is_enclosed => large(load),
+            ContactError::EndReached { .. } => Bound::At(load, infinite),
             // A corner does not hold so small a load, or it does not close a hollow.
             ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
                 Bound::At(load, T::zero())
