@@ -118,7 +118,6 @@ pub(crate) fn certify<T: Real>(
     let (load, share) = (found.load / kappa, found.nothing());
     several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
     several.system(load, &mut system);
-    several.press_with(load);
     let mut cost = several.cost();
     for (i, on) in contacts.iter().enumerate() {
         several.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
@@ -129,13 +128,17 @@ pub(crate) fn certify<T: Real>(
     let is_plain = contacts.len() == 1 && rises(contacts[0]);
     let pressure = match is_plain || adhesive != Ends::both(false) {
         true => None,
-        false => Some(least_pressure(gap, kappa, found, &several, cells.cost())?),
+        false => {
+            several.bear(load);
+            several.press();
+            Some(least_pressure(gap, kappa, found, &several, cells.cost())?)
+        }
     };
 
     let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
     several.set(gap, &contacts, is_held, found.ends)?;
     several.system(load, &mut system);
-    several.press_with(load);
+    several.bear(load);
     let allowed = share * steepest * hull.half_width();
     let state = Loaded { gap, found, several: &several, system: &system, slopes: &slopes, allowed };
     let closest = state.outside([is_held, at_corner], spacing, &mut cells, &mut cost)?;

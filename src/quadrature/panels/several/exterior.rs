@@ -15,9 +15,8 @@ impl<T: Real> Several<T> {
         several
     }
 
-    /// Makes ready for pressures under a load, that is F/κ: the only contact between two corners bears any.
-    pub fn press_with(&mut self, load: T) {
-        self.press();
+    /// Takes a load, that is F/κ, where the contacts do not say it: the only one between two corners bears any.
+    pub fn bear(&mut self, load: T) {
         let is_given = self.count == 1 && self.corners() == Ends::both(true);
         self.constant = if is_given { -T::pi() * load } else { T::zero() };
     }
