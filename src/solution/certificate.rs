@@ -136,8 +136,10 @@ pub(crate) fn certify<T: Real>(
     };
 
     let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
-    several.set(gap, &contacts, is_held, found.ends)?;
-    several.system(load, &mut system);
+    if is_held != several.corners() {
+        several.set(gap, &contacts, is_held, found.ends)?;
+        several.system(load, &mut system);
+    }
     several.bear(load);
     let allowed = share * steepest * hull.half_width();
     let state = Loaded { gap, found, several: &several, system: &system, slopes: &slopes, allowed };
