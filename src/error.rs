@@ -558,8 +558,8 @@ pub enum ContactError<T: Real> {
         /// The peak pressure there; infinite where the slope of a body jumps, NaN where no contact was found.
         found: T,
     },
-    /// What is given jumps over the wanted value: a contact is born outside the others, a corner is reached, or even
-    /// the lightest load touches more.
+    /// The wanted value lies in a jump: a contact is born outside the others, a corner is reached, or even the lightest
+    /// load gives more.
     #[error(
         "nothing between {below} and {above} can be had, so not {wanted}: under the load {load} it jumps, where a \
          contact is born or a corner reached; ask for one of both sides",

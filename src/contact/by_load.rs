@@ -38,7 +38,7 @@ const MOST_STEP: f64 = 1e3;
 /// How far the load may go from the first one while the quantity is not even finite.
 const FARTHEST: f64 = 1e12;
 
-/// What is given instead of the load.
+/// A quantity that is given instead of the load.
 #[derive(Clone, Copy)]
 pub(super) enum Quantity<T> {
     HalfWidth,
@@ -69,7 +69,7 @@ pub(super) struct ByLoad<'s, 'b, T: Real> {
     pub cost: &'s mut Cost,
 }
 
-/// What the failure of a trial says.
+/// A reading of a trial that failed.
 enum Bound<T> {
     /// About how large the quantity is under a load.
     At(T, T),
@@ -147,7 +147,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 Err(error) => match self.bound(&error, load)? {
                     Bound::Widest(found) => return Ok(found),
                     Bound::At(at, value) => {
-                        // What the bodies bear says more than the first load.
+                        // The load that the bodies bear is nearer than the first guess.
                         (first, load) = (if at < load { at } else { first }, at);
                         fault = Some(error);
                         [value, T::zero()]
@@ -260,7 +260,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
     /// Returns the next load by Newton's rule for the logarithms, as far as it may be trusted.
     fn next(&self, load: T, [value, rate]: [T; 2]) -> T {
         let power = value / (load * rate);
-        // That of a round body, where nothing is known.
+        // As of a round body, where the rate is not known.
         let power = if power.is_finite() { power } else { T::of(2.0) };
         let (step, largest) = ((self.wanted / value).powf(power), T::of(MOST_STEP));
         let step = if step.is_finite() && value > T::zero() { step } else { largest };
