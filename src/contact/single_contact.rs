@@ -31,7 +31,7 @@ const MOST_GUESSES: usize = 120;
 const MOST_AT_END: [usize; 2] = [2, 24];
 
 /// Initial guesses that may reach for an end before it is asked what the bodies bear.
-const MOST_GUESSES_AT_END: usize = 12;
+const MOST_GUESSES_AT_END: usize = 2;
 
 /// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;

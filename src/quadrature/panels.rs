@@ -215,6 +215,7 @@ pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option
     let integrator: &mut dyn Any = integrator;
     let integrator: &mut PanelIntegrator<T> = integrator.downcast_mut()?;
     integrator.is_several = true;
+    integrator.several.spent = integrator.panel_set.cost;
     Some(&mut integrator.several)
 }
 
@@ -264,6 +265,11 @@ pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Severa
 }
 
 impl<T: Real> PanelIntegrator<T> {
+    fn turn_to_one(&mut self) {
+        self.is_several = false;
+        self.panel_set.spent = self.several.cost;
+    }
+
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
         self.panel_set.own_up_alone();
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
@@ -320,7 +326,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         on: Interval<T>,
         coarse: bool,
     ) -> Result<Option<T>, ContactError<T>> {
-        self.is_several = false;
+        self.turn_to_one();
         if !coarse {
             self.panel_set.initial = self.expected_size(on);
         }
@@ -343,7 +349,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
-        self.is_several = false;
+        self.turn_to_one();
         if self.panel_set.turn(gap.tilt()) {
             self.moments = None;
         }
@@ -375,7 +381,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     }
 
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        self.is_several = false;
+        self.turn_to_one();
         let m = self.moments(gap, on)?;
         // Nor is it to what little the contact has beyond a breakpoint.
         if self.fall.is_none() && self.is_poor(&m) && self.panel_set.overshoots(gap, on) {
@@ -442,7 +448,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     }
 
     fn cost(&self) -> Cost {
-        self.panel_set.cost + self.several.cost()
+        self.panel_set.cost + self.several.cost
     }
 
     fn sampled_interval(&self) -> Option<Interval<T>> {
@@ -476,7 +482,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.cost = Cost::default();
         self.panel_set.look_back();
         self.several.reset(same_bodies);
-        self.is_several = false;
+        self.turn_to_one();
         if !same_bodies {
             self.panel_set.clear(false);
             (self.fall, self.moments) = (None, None);

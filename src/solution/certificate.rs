@@ -118,7 +118,7 @@ pub(crate) fn certify<T: Real>(
     let (load, share) = (found.load / kappa, found.nothing());
     several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
     several.system(load, &mut system);
-    let mut cost = several.cost();
+    let mut cost = several.cost;
     for (i, on) in contacts.iter().enumerate() {
         several.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
     }

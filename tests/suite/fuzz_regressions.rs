@@ -321,8 +321,7 @@ fn a_search_spends_no_more_than_its_budget() {
     };
     let (fine, coarse) = (saw(400.0), saw(40.0));
     let contact = Contact::new(&Flat, &fine).unwrap();
-    let error =
-        contact.clone().single_interval(true).solve(Control::PeakPressure(0.07)).unwrap_err();
+    let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);
     assert!(taken < (1 << 20) + 4096, "{taken}");
     let ContactError::BudgetSpent { evaluations, budget, last } = error else { panic!("{error}") };

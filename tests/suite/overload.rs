@@ -178,7 +178,7 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
         }
         println!("{name}: {first:?}; evaluations {worst:?}, at half of it {at_half}");
         // A gap that is soon proved convex costs half the load next to nothing.
-        let at_half = at_half.max(230);
+        let at_half = at_half.max(200);
         if worst.iter().any(|&worst| worst > 20 * at_half) {
             faults.push(format!("{name}: {worst:?} > 20 {at_half}"));
         }

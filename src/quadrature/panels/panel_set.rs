@@ -81,6 +81,8 @@ pub(crate) struct PanelSet<T> {
     pub coarse: bool,
     pub tolerance: T,
     pub cost: Cost,
+    /// What the same search has spent on other contacts.
+    pub spent: Cost,
     /// Looked at beforehand, at given limits.
     pub held: Ends<Option<EndProbe<T>>>,
     /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
@@ -109,6 +111,7 @@ impl<T: Real> PanelSet<T> {
             coarse: false,
             tolerance,
             cost: Cost::default(),
+            spent: Cost::default(),
             held: Ends::both(None),
             derivatives: Vec::new(),
             slopes: [[T::zero(); MOST]; 2],

@@ -66,6 +66,9 @@ pub(crate) struct Several<T> {
     tolerance: T,
     /// What V has besides: of one contact between two corners, whose load is given, `-π F/κ`.
     constant: T,
+    /// The cost of sampling, and what one contact had cost before.
+    pub cost: Cost,
+    pub spent: Cost,
 }
 
 /// The conditions on the free limits, from left to right, linearised.
@@ -119,22 +122,16 @@ impl<T: Real> System<T> {
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
         let (parts, weight, constant) = (Vec::new(), Weight::new(), T::zero());
-        Self { parts, count: 0, weight, tolerance, constant }
+        let [cost, spent] = [Cost::default(); 2];
+        Self { parts, count: 0, weight, tolerance, constant, cost, spent }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
     pub fn reset(&mut self, same_bodies: bool) {
-        for part in &mut self.parts {
-            part.panel_set.cost = Cost::default();
-            if !same_bodies {
-                part.clear(false);
-            }
+        self.cost = Cost::default();
+        if !same_bodies {
+            self.parts.iter_mut().for_each(|part| part.clear(false));
         }
-    }
-
-    /// What sampling has cost.
-    pub fn cost(&self) -> Cost {
-        self.parts.iter().fold(Cost::default(), |sum, part| sum + part.panel_set.cost)
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
@@ -164,7 +161,10 @@ impl<T: Real> Several<T> {
             // No contact is sampled beyond the middle of a gap.
             let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
             let to = on.get(i + 1).map_or(ends.right, |next| half * on[i].right + half * next.left);
-            part.sample(gap, on[i], [from, to])?;
+            part.panel_set.spent = self.spent + self.cost;
+            let sampled = part.sample(gap, on[i], [from, to]);
+            self.cost += std::mem::take(&mut part.panel_set.cost);
+            sampled?;
             let (near, weight) = (self.weight.next_to(i), &self.weight);
             let far = |x| weight.far(i, near.clone(), x);
             let apart = DistantContacts::new(near.clone(), self.count, on[i], self.tolerance, far);
@@ -179,7 +179,10 @@ impl<T: Real> Several<T> {
         let mut is_missed = false;
         for part in &mut self.parts[..self.count] {
             let on = part.on;
-            is_missed |= part.panel_set.probe(gap, on)?;
+            part.panel_set.spent = self.spent + self.cost;
+            let probed = part.panel_set.probe(gap, on);
+            self.cost += std::mem::take(&mut part.panel_set.cost);
+            is_missed |= probed?;
         }
         Ok(is_missed)
     }

@@ -94,7 +94,7 @@ impl<T: Real> PanelSet<T> {
         let spacing = T::pi() * panel.half() / T::count(panel.n);
         let parts = gap.parts(spacing, apart, MOST_PARTS);
         for part in 1..parts {
-            gap.check_budget(self.cost, 1, 0, on)?;
+            gap.check_budget(self.spent + self.cost, 1, 0, on)?;
             let missed =
                 by_size!(panel.n, N => self.missed_at::<N>(gap, panel, on, apart, [part, parts]))?;
             if missed.is_some() {

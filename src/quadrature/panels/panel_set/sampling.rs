@@ -57,7 +57,7 @@ impl<T: Real> PanelSet<T> {
         let (panel, level) = (&mut trial.panel, trial.level);
         let mut n = if self.coarse { 4 } else { self.initial };
         let [left, right] = panel.x;
-        gap.check_budget(self.cost, 1, 0, Interval { left, right })?;
+        gap.check_budget(self.spent + self.cost, 1, 0, Interval { left, right })?;
         loop {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
             let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
