@@ -235,7 +235,8 @@ impl<T: Real> NewtonSeveral<T> {
                 }
                 more_steps = Some(T::DERIVATIVE_ORDER);
             }
-            before = Some(size);
+            // A long step tells nothing of the next.
+            before = Some(size).filter(|&size| size <= half * half);
         }
         Ok(SeveralOutcome::Failed)
     }

@@ -5,7 +5,9 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, on_flat, parabola};
-use linecontact::{Contact, ContactError, Control, Edge, Flat};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Solution, Solver,
+};
 use std::f64::consts::PI;
 
 /// Limits and a pressure.
@@ -132,5 +134,38 @@ fn an_edge_may_be_fixed_close_to_the_end_of_the_bodies() {
         let solution = contact.solve(Control::Load(load)).unwrap();
         let l = solution.hull().half_width();
         assert_relative_eq!(l * (1.5 * l + s.abs()), load, epsilon = 0.0, max_relative = 1e-12);
+    }
+}
+
+/// The double well `(x² - 1)²` touches at `sqrt(1 ± sqrt(F/(2κ)))` until the outer limits are at the corners.
+#[test]
+fn two_contacts_grow_to_their_corners_and_leave_them() {
+    let well = Curve::new([-1.5, 1.5], |k: f64| {
+        let s = k * k - 1.0;
+        CurvePoint { x: k, y: s * s, dx: 1.0, dy: 4.0 * k * s }
+    });
+    let corners = [-1.2, 1.2].map(Edge::FreeUntil);
+    let contact = Contact::new(&Flat, &well).unwrap().edges(corners[0], corners[1]);
+    let limits = |solution: &Solution<f64>| -> Vec<f64> {
+        solution.intervals().iter().flat_map(|on| [on.left, on.right]).collect()
+    };
+    for loads in [&[0.3, 0.5, 0.1][..], &[1e-3, 1.0, 1e-3], &[1e-3, 0.7], &[1.0, 0.01, 0.03]] {
+        let mut solver = Solver::new();
+        for &load in loads {
+            let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+            let found = limits(&solution);
+            let [inner, outer] =
+                [-1.0f64, 1.0].map(|sign| (1.0 + sign * f64::sqrt(load / 2.0)).sqrt());
+            let due = if outer < 1.2 {
+                vec![-outer, -inner, inner, outer]
+            } else {
+                limits(&contact.solve(Control::Load(load)).unwrap())
+            };
+            assert_eq!(found.len(), 4, "{loads:?} {load}: {found:?}");
+            for i in 0..4 {
+                let [off, askew] = [found[i] - due[i], found[i] + found[3 - i]];
+                assert!(off.abs() < 1e-13 && askew.abs() < 1e-13, "{loads:?} {load}: {found:?}");
+            }
+        }
     }
 }

@@ -25,7 +25,8 @@ const MOST_PANELS: usize = 1 << 12;
 /// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
 const ROOM: f64 = 0.1;
 
-/// A contact much narrower than what was sampled is sampled anew.
+/// A contact much narrower or wider than the span sampled is sampled anew: beside a corner the distances in panels far
+/// narrower than the contact are rounding.
 const NARROWER: f64 = 0.4;
 
 /// The distance from a contact, in half-widths, from which on the cosines that its panels are summed up in
@@ -109,7 +110,10 @@ impl<T: Real> OneOfSeveral<T> {
         self.on = on;
         let plain = on.plain();
         let covers = |have: Interval<T>| have.left <= plain.left && have.right >= plain.right;
-        let close = |have: Interval<T>| on.half_width() >= T::of(NARROWER) * have.half_width();
+        let close = |have: Interval<T>| {
+            let [on, have] = [on, have].map(|on| on.half_width());
+            on.min(have) >= T::of(NARROWER) * on.max(have)
+        };
         if !self.panel_set.interval().is_some_and(|have| covers(have) && close(have)) {
             if !self.panel_set.interval().is_some_and(close) {
                 self.clear(true);
