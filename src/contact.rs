@@ -1,40 +1,22 @@
 //! The scene: two bodies, how stiff they are, and how the contact is to be found.
 
-mod active_set;
-mod by_load;
-mod capacity;
+mod control;
 mod edge_pressure;
-mod edges;
-mod equations;
-mod exterior_field;
-mod first_contact;
-mod moment;
-mod nested;
-mod newton_several;
-mod newton_single;
-mod signorini_check;
-mod single_contact;
-mod topology;
+pub(crate) mod edges;
 
+pub use control::Control;
 pub use edge_pressure::EdgePressure;
 pub use edges::Edge;
 
 use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
-use crate::quadrature::panels;
-use crate::quadrature::{Integrator, Panels, Quadrature};
+use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::solution::{
-    ContactState, Outcome, PartialSlip, References, Report, Shear, Solution, Start, certify,
-};
-use crate::{ContactError, Ends, Interval, ParametricProfile, Real, Solver};
-use by_load::{ByLoad, Quantity};
+use crate::{ContactError, Ends, Interval, ParametricProfile, Real};
 use edges::{Conditions, Given};
-use equations::Equations;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-pub(crate) use topology::Workspace;
 
 /// Two bodies to be pressed together, and the way to find their contact.
 ///
@@ -63,16 +45,16 @@ pub(crate) use topology::Workspace;
 /// ```
 #[derive(Clone)]
 pub struct Contact<'b, T: Real> {
-    gap: Gap<'b, T>,
-    kappa: T,
+    pub(crate) gap: Gap<'b, T>,
+    pub(crate) kappa: T,
     stiffness: Stiffness<T>,
-    edges: Ends<Edge<T>>,
-    edge_pressure: Option<EdgePressure<T>>,
-    start: Option<Interval<T>>,
-    search: Option<&'b dyn LimitSearch<T>>,
-    quadrature: &'b dyn Quadrature<T>,
-    certified: bool,
-    single_interval: bool,
+    pub(crate) edges: Ends<Edge<T>>,
+    pub(crate) edge_pressure: Option<EdgePressure<T>>,
+    pub(crate) start: Option<Interval<T>>,
+    pub(crate) search: Option<&'b dyn LimitSearch<T>>,
+    pub(crate) quadrature: &'b dyn Quadrature<T>,
+    pub(crate) certified: bool,
+    pub(crate) single_interval: bool,
 }
 
 /// Where κ is from.
@@ -84,70 +66,6 @@ enum Stiffness<T> {
     Modulus(T),
     /// What the bodies are made of, as given.
     Materials([Material<T>; 2], PlaneState),
-}
-
-/// What is prescribed of the contact: the load, or another number for which the load comes out
-/// ([`Solution::load`]).
-///
-/// ```
-/// use linecontact::profile::Parabola;
-/// use linecontact::{Contact, Control, Flat};
-///
-/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
-/// let contact = Contact::new(&Flat, &body)?;
-/// let by_width = contact.solve(Control::HalfWidth(0.2))?;
-/// assert!((by_width.load() / 0.02 - 1.0).abs() < 1e-14); // κ L²/(2 R)
-/// let by_peak = contact.solve(Control::PeakPressure(0.05))?;
-/// assert!((by_peak.a() / (0.05 * std::f64::consts::PI) - 1.0).abs() < 1e-12); // π R p₀/κ
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-#[non_exhaustive]
-pub enum Control<T> {
-    /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
-    Load(T),
-    /// The half-width L = (a + b)/2, of several contacts from the first to the last: a length.
-    HalfWidth(T),
-    /// The largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded: a pressure.
-    PeakPressure(T),
-    /// How far the bodies come together, from where they just touch: the [approach](Solution::approach)
-    /// `Approach::bodies`, to given references. The bodies' [materials](Contact::materials) must be known, and the
-    /// approach must grow with the load.
-    Approach {
-        /// δ: a length, positive.
-        approach: T,
-        /// What it is measured between.
-        references: References<T>,
-    },
-    /// A load, and the moment of the pressures about a given place. The bodies turn until it is that: by
-    /// [`Solution::tilt`].
-    ///
-    /// Body 2 may turn freely, as one that is held by a hinge; what is turned is the gap, so that it does
-    /// not matter which body turns, nor about which point. The load must be positive, and the moment such
-    /// that the load acts at a place of the bodies, `x₀ + M/F`.
-    ///
-    /// M is one more equation of the same search, and the tilt one more unknown (Johnson, *Contact Mechanics*,
-    /// 1985, §2.7, has the flat punch under an eccentric load).
-    Moment {
-        /// The load per unit length F = ∫ P dx: force/length.
-        load: T,
-        /// M = ∫ P (x - x₀) dx, a force; positive where the load acts at the right of x₀.
-        moment: T,
-        /// x₀, a length.
-        about: T,
-    },
-    /// A load, and the place where it acts, `x̄ = ∫ x P dx/F`: as a [`Moment`](Self::Moment) F x̄ about x = 0.
-    CentreOfPressure {
-        /// The load per unit length F: force/length.
-        load: T,
-        /// x̄, a length.
-        at: T,
-    },
 }
 
 impl<'b, T: Real> Contact<'b, T> {
@@ -371,129 +289,8 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { single_interval, ..self }
     }
 
-    /// Finds the contact under what is prescribed: its limits, and the load or tilt where they come out. The pressure is left for
-    /// [`Solution::pressure`].
-    ///
-    /// # Errors
-    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
-    /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
-    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
-    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for what was
-    /// set; [`ContactError::NotConvex`] for what was declared;
-    /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
-    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`], [`ContactError::NoEquilibrium`],
-    /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
-    /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
-    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::InJump`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
-    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
-    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`], [`ContactError::BothRigid`] for materials;
-    /// [`ContactError::NoMaterials`], [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
-    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach; where [`certified`](Self::certified), those of
-    /// [`Solution::certify`].
-    pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
-        let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
-        let mut cost = Cost::default();
-        let found = self.find(&mut *integrator, &mut workspace, control, &mut cost)?;
-        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
-    }
-
-    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
-    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
-    /// for that. A corner that is [`Edge::Fixed`] may slip.
-    ///
-    /// # Errors
-    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
-    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
-    /// [`ContactError::UnlikeBodies`];
-    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
-    pub fn partial_slip(
-        &self,
-        control: Control<T>,
-        shear: Shear<T>,
-    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
-        Solver::new().partial_slip(self, control, shear)
-    }
-
-    /// Whether partial slip can be asked for.
-    pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
-        let Shear { friction, force, tension } = *shear;
-        if !(friction.is_finite() && friction > T::zero()) {
-            return Err(ContactError::InvalidSlipFriction { friction });
-        }
-        for (quantity, value) in [("force", force), ("tension", tension)] {
-            if !value.is_finite() {
-                return Err(ContactError::InvalidShear { quantity, value });
-            }
-        }
-        let refuse = |why| Err(ContactError::SlipNotSupported { why });
-        if self.edge_pressure.is_some() {
-            return refuse("the edges are by Eq. (6)");
-        }
-        if self.edges.are_adhesive() {
-            return refuse("an edge is Adhesive");
-        }
-        if let Some(bodies) = self.elasticity()? {
-            let beta = Elasticity::dundurs(bodies);
-            if beta.abs() > T::of(16.0) * T::epsilon() {
-                return Err(ContactError::UnlikeBodies { beta });
-            }
-        }
-        Ok(())
-    }
-
-    /// The scene whose contacts are where the bodies stick, and its load.
-    pub(crate) fn sticking(
-        &self,
-        normal: &Solution<'b, T>,
-        shear: &Shear<T>,
-    ) -> Result<(Self, T), ContactError<T>> {
-        let Shear { friction, force, tension } = *shear;
-        let (load, limit) = (normal.load(), friction * normal.load());
-        if force.abs() >= limit {
-            return Err(ContactError::SlipsEverywhere { force, limit });
-        }
-        // The traction is a difference, of which nothing would be left.
-        let least = T::epsilon().powf(T::of(0.75)) * limit;
-        if !force.is_zero() && force.abs() < least {
-            return Err(ContactError::SticksEverywhere { force, limit });
-        }
-        // μ E*, with the sign of the force.
-        let stiffness = friction * self.kappa / T::frac_pi_2();
-        let turn = T::of(0.5) * tension / stiffness;
-        let turn = if force < T::zero() { turn } else { -turn };
-        let scene = Self {
-            gap: self.gap.tilted(normal.tilt() + turn),
-            edges: self.edges.map(Edge::let_go),
-            start: None,
-            certified: false,
-            ..self.clone()
-        };
-        Ok((scene, load - force.abs() / friction))
-    }
-
-    /// The solution that was found.
-    pub(crate) fn solution(
-        &self,
-        integrator: Arc<Box<dyn Integrator<T>>>,
-        found: ContactState<T>,
-        cost: Cost,
-        report: Report,
-    ) -> Solution<'b, T> {
-        let gap = self.gap.tilted(found.tilt);
-        Solution::new(
-            gap,
-            integrator,
-            self.kappa,
-            self.elasticity().ok().flatten(),
-            found,
-            cost,
-            report,
-        )
-    }
-
     /// The elasticity of both bodies, where it is known.
-    fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
+    pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
         match self.stiffness {
             Stiffness::Materials(materials, state) => {
                 Ok(Some(Elasticity::of_bodies(materials, state)?.0))
@@ -510,28 +307,8 @@ impl<'b, T: Real> Contact<'b, T> {
         self.quadrature
     }
 
-    /// Finds the limits with an integrator that has been reset, from the contacts in the workspace. `cost` is what
-    /// that takes, found or not.
-    pub(crate) fn find(
-        &self,
-        integrator: &mut dyn Integrator<T>,
-        workspace: &mut Workspace<T>,
-        control: Control<T>,
-        cost: &mut Cost,
-    ) -> Result<ContactState<T>, ContactError<T>> {
-        let found = self.find_by(integrator, workspace, control, cost);
-        *cost += integrator.cost();
-        let is_default = matches!(self.stiffness, Stiffness::Default);
-        found.map_err(|error| error.with_stiffness(is_default))
-    }
-
-    fn find_by(
-        &self,
-        integrator: &mut dyn Integrator<T>,
-        workspace: &mut Workspace<T>,
-        control: Control<T>,
-        cost: &mut Cost,
-    ) -> Result<ContactState<T>, ContactError<T>> {
+    /// Checks the settings of the scene.
+    pub(crate) fn check(&self, control: Control<T>) -> Result<(), ContactError<T>> {
         self.elasticity()?;
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
@@ -544,56 +321,19 @@ impl<'b, T: Real> Contact<'b, T> {
             check(start)?;
         }
         self.gap.check_resolution(T::zero())?;
-        let by_load = matches!(control, Control::Load(_));
-        if self.edge_pressure.is_some() && !by_load {
+        if self.edge_pressure.is_some() && !matches!(control, Control::Load(_)) {
             return Err(ContactError::EdgePressureLoad);
         }
-        workspace.report = Report::new();
-        let mut found = self.find_under(control, integrator, workspace, cost)?;
-        // A width may be less than the rounding of x, and its load less than any number.
-        check(found.interval)?;
-        if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
-            return Err(ContactError::Overflow { interval: found.interval });
-        }
-        let known = found.error.is_none_or(|error| error >= T::zero());
-        if !known && found.adhesive == Ends::both(false) {
-            return Err(ContactError::Overflow { interval: found.interval });
-        }
-        found.ends = self.ends();
-        let gap = self.gap.tilted(found.tilt);
-        if panels::several(integrator).is_none() {
-            integrator.prepare(&gap, found.interval)?;
-        }
-        if found.is_doubtful() {
-            workspace.report.doubt();
-        }
-        if self.certified {
-            certify(&gap, self.kappa, &found, integrator)?;
-        }
-        Ok(found)
+        Ok(())
     }
 
-    /// The contact with edges by Eq. (6), under a given load.
-    fn by_edge_pressure(
-        &self,
-        wanted: EdgePressure<T>,
-        integrator: &mut dyn Integrator<T>,
-        load: T,
-        cost: &mut Cost,
-    ) -> Result<ContactState<T>, ContactError<T>> {
-        let kappa = self.kappa;
-        wanted.check()?;
-        check_positive("load", load)?;
-        let equations = Equations::Pressure { kappa, load, wanted };
-        let nested = nested::find(self, equations, integrator, self.start, cost)?;
-        let m = integrator.moments(&self.gap, nested.on)?;
-        let given = Given::Load(load);
-        let conditions = Conditions { kappa, edges: Ends::both(Edge::Fixed(load)), given };
-        Ok(ContactState::new(&conditions, nested.on, load, Some(nested.error), &m))
+    /// Tells whether nobody has set κ.
+    pub(crate) fn has_default_stiffness(&self) -> bool {
+        matches!(self.stiffness, Stiffness::Default)
     }
 
     /// The conditions of a given load.
-    fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
+    pub(crate) fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
         // Adhesion bears a pull, and so does an interval that nothing is checked of.
         let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
@@ -605,73 +345,8 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
 
-    /// Finds the contact that meets a control, in a scene that has been checked.
-    fn find_under(
-        &self,
-        control: Control<T>,
-        integrator: &mut dyn Integrator<T>,
-        workspace: &mut Workspace<T>,
-        cost: &mut Cost,
-    ) -> Result<ContactState<T>, ContactError<T>> {
-        let by_load = |quantity, wanted, integrator, workspace, cost| {
-            ByLoad { contact: self, quantity, wanted, integrator, workspace, cost }.find()
-        };
-        match (control, self.edge_pressure) {
-            (Control::Load(load), Some(wanted)) => {
-                workspace.report.add(Start::Middle, Outcome::Unchecked);
-                self.by_edge_pressure(wanted, integrator, load, cost)
-            }
-            (Control::Load(load), None) => {
-                topology::find(self, self.under(load)?, integrator, workspace, cost)
-            }
-            (Control::HalfWidth(half_width), _) => {
-                check_positive("half-width", half_width)?;
-                let given = Given::HalfWidth(half_width);
-                let conditions =
-                    Conditions { kappa: self.kappa, edges: self.checked_edges()?, given };
-                match topology::find(self, conditions, integrator, workspace, cost) {
-                    Err(error)
-                        if panels::is_panels(integrator) && self.may_have_several(&error) =>
-                    {
-                        by_load(Quantity::HalfWidth, half_width, integrator, workspace, cost)
-                    }
-                    found => found,
-                }
-            }
-            (Control::PeakPressure(wanted), _) => {
-                check_positive("peak pressure", wanted)?;
-                by_load::check_edges(self)?;
-                by_load(Quantity::Peak, wanted, integrator, workspace, cost)
-            }
-            (Control::Approach { approach: wanted, references }, _) => {
-                let bodies = self.elasticity()?;
-                if bodies.is_none() {
-                    return Err(ContactError::NoMaterials);
-                }
-                check_positive("approach", wanted)?;
-                let quantity = Quantity::Approach { references, bodies };
-                by_load(quantity, wanted, integrator, workspace, cost)
-            }
-            (Control::Moment { load, moment, about }, _) => {
-                let line = moment::LineOfLoad::of_moment(load, moment, about)?;
-                moment::find(self, line, integrator, workspace, cost)
-            }
-            (Control::CentreOfPressure { load, at }, _) => {
-                let line = moment::LineOfLoad::through(load, at)?;
-                moment::find(self, line, integrator, workspace, cost)
-            }
-        }
-    }
-
-    /// Tells whether a half-width may be that of several contacts, by what one alone fails by.
-    fn may_have_several(&self, error: &ContactError<T>) -> bool {
-        use ContactError::{NoEquilibrium, Overlap, Tension};
-        let fails = matches!(error, NoEquilibrium { .. } | Overlap { .. } | Tension { .. });
-        fails && self.search.is_none() && !self.single_interval && !self.edges.are_adhesive()
-    }
-
     /// Where the bodies end. A corner ends them.
-    fn ends(&self) -> Ends<T> {
+    pub(crate) fn ends(&self) -> Ends<T> {
         let [left, right] = self.gap.range();
         let corner = |edge: Edge<T>| match edge {
             Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => Some(x),
@@ -684,7 +359,7 @@ impl<'b, T: Real> Contact<'b, T> {
         }
     }
 
-    fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
+    pub(crate) fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
@@ -712,13 +387,16 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// The strategy of the nested search.
-    fn strategy(&self) -> &dyn LimitSearch<T> {
+    pub(crate) fn strategy(&self) -> &dyn LimitSearch<T> {
         self.search.unwrap_or(&Brent::DEFAULT)
     }
 }
 
 /// Whether a number can be asked for where limits are sought.
-fn check_positive<T: Real>(quantity: &'static str, value: T) -> Result<(), ContactError<T>> {
+pub(crate) fn check_positive<T: Real>(
+    quantity: &'static str,
+    value: T,
+) -> Result<(), ContactError<T>> {
     if value.is_finite() && value > T::zero() && !is_subnormal(value) {
         Ok(())
     } else {
@@ -727,7 +405,7 @@ fn check_positive<T: Real>(quantity: &'static str, value: T) -> Result<(), Conta
 }
 
 /// Whether an interval lies in a range, up to the rounding of its limits.
-fn check_within<T: Real>(
+pub(crate) fn check_within<T: Real>(
     Interval { left, right }: Interval<T>,
     ends: Ends<T>,
     rounding: T,
@@ -741,7 +419,7 @@ fn check_within<T: Real>(
     Ok(())
 }
 
-fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {
+pub(crate) fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {
     let Interval { left, right } = interval;
     if left.is_finite() && right.is_finite() && left < right {
         Ok(())

@@ -97,6 +97,7 @@ pub mod reference;
 mod rounded;
 pub mod search;
 mod solution;
+mod solve;
 mod solver;
 mod spring;
 #[cfg(feature = "rayon")]

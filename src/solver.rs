@@ -1,10 +1,11 @@
 //! Solving again: the next load, the next time step.
 
-use crate::contact::{Control, Workspace};
+use crate::contact::Control;
 use crate::gap::Cost;
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::solution::{PartialSlip, Shear, Solution};
+use crate::solve::{Work, Workspace, find};
 use crate::{Contact, ContactError, ErrorKind, Real};
 use std::sync::Arc;
 
@@ -98,21 +99,23 @@ impl<T: Real> Solver<T> {
             None => Arc::new(contact.chosen_quadrature().integrator()?),
         };
         let integrator = self.integrator.insert(integrator);
-        let work = loop {
+        let own = loop {
             match Arc::get_mut(integrator) {
-                Some(work) => break &mut **work,
+                Some(own) => break &mut **own,
                 // A solution that was kept keeps its integrator.
                 None => *integrator = Arc::new(integrator.fork()),
             }
         };
         let number = contact.gap().number();
-        work.reset(self.last.take() == Some(number));
+        own.reset(self.last.take() == Some(number));
         let mut cost = Cost::default();
-        let found = contact.find(work, &mut self.workspace, control, &mut cost);
+        let mut work =
+            Work { integrator: &mut *own, workspace: &mut self.workspace, cost: &mut cost };
+        let found = find(contact, control, &mut work);
         *spent += cost;
         let found = found?;
         let one = std::slice::from_ref(&found.interval);
-        self.workspace.keep(panels::several(work).map_or(one, Several::contacts));
+        self.workspace.keep(panels::several(own).map_or(one, Several::contacts));
         self.last = Some(number);
         Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report))
     }

@@ -1,6 +1,5 @@
 //! Edges by the paper's conditions, Eq. (6).
 
-use super::equations::Residual;
 use crate::{ContactError, Interval, Real};
 
 /// The paper's conditions at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
@@ -59,19 +58,15 @@ impl<T: Real> EdgePressure<T> {
     }
 
     /// `ε_b - b` and `a - ε_a`.
-    pub(super) fn places(&self, on: Interval<T>) -> [T; 2] {
+    pub(crate) fn places(&self, on: Interval<T>) -> [T; 2] {
         [on.left + self.distance_b, on.right - self.distance_a]
     }
 
-    /// Whether a contact meets the conditions, given by how much it misses them.
-    pub(super) fn met(
-        &self,
-        on: Interval<T>,
-        residual: &Residual<T>,
-    ) -> Result<(), ContactError<T>> {
+    /// Checks the pressures at the edges of a contact, by `π sqrt((x + b)(a - x))` times what they differ by.
+    pub(crate) fn met(&self, on: Interval<T>, [at_a, at_b]: [T; 2]) -> Result<(), ContactError<T>> {
         let [x_b, x_a] = self.places(on);
-        let at_a = residual.at_a / (T::pi() * on.chebyshev_weight(x_a));
-        let at_b = residual.at_b / (T::pi() * on.chebyshev_weight(x_b));
+        let at_a = at_a / (T::pi() * on.chebyshev_weight(x_a));
+        let at_b = at_b / (T::pi() * on.chebyshev_weight(x_b));
         if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {
             Ok(())
         } else {
@@ -79,7 +74,7 @@ impl<T: Real> EdgePressure<T> {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), ContactError<T>> {
+    pub(crate) fn check(&self) -> Result<(), ContactError<T>> {
         let entries = [
             ("A", self.at_a, false),
             ("B", self.at_b, false),

@@ -42,7 +42,7 @@ pub enum Edge<T> {
 
 impl<T: Real> Edge<T> {
     /// The limit, where it is known.
-    pub(super) fn limit(&self) -> Option<T> {
+    pub(crate) fn limit(&self) -> Option<T> {
         match *self {
             Self::Fixed(x) => Some(x),
             _ => None,
@@ -50,30 +50,30 @@ impl<T: Real> Edge<T> {
     }
 
     /// Lets go of a corner where it does not press.
-    pub(super) fn let_go(self) -> Self {
+    pub(crate) fn let_go(self) -> Self {
         if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }
     }
 
-    pub(super) fn is_free(&self) -> bool {
+    pub(crate) fn is_free(&self) -> bool {
         matches!(self, Self::Free | Self::FreeUntil(_))
     }
 }
 
 impl<T: Real> Ends<Edge<T>> {
     /// Whether adhesion acts at either edge.
-    pub(super) fn are_adhesive(self) -> bool {
+    pub(crate) fn are_adhesive(self) -> bool {
         self.into_iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
     }
 
     /// Whether either limit is to be found.
-    pub(super) fn are_sought(self) -> bool {
+    pub(crate) fn are_sought(self) -> bool {
         self.into_iter().any(|edge| edge.limit().is_none())
     }
 }
 
 /// What is asked of the contact as a whole.
 #[derive(Clone, Copy)]
-pub(super) enum Given<T> {
+pub(crate) enum Given<T> {
     Load(T),
     HalfWidth(T),
     /// A load, and where it acts: the bodies turn.
@@ -85,7 +85,7 @@ pub(super) enum Given<T> {
 
 /// What a contact has to meet.
 #[derive(Clone, Copy)]
-pub(super) struct Conditions<T> {
+pub(crate) struct Conditions<T> {
     pub kappa: T,
     pub edges: Ends<Edge<T>>,
     pub given: Given<T>,
@@ -203,7 +203,7 @@ impl<T: Real> Conditions<T> {
 }
 
 impl<T: Real> ContactState<T> {
-    pub(super) fn new(
+    pub(crate) fn new(
         conditions: &Conditions<T>,
         interval: Interval<T>,
         load: T,
@@ -235,7 +235,7 @@ impl<T: Real> ContactState<T> {
     }
 
     /// Whether the contact ends at those corners that are said to hold it, to rounding.
-    pub(super) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
+    pub(crate) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
         let rounding = T::epsilon().sqrt() * self.interval.half_width();
         let ends = Ends { left: self.interval.left, right: self.interval.right };
         let is_near = |(edge, end): (Edge<T>, T)| {
@@ -245,7 +245,7 @@ impl<T: Real> ContactState<T> {
     }
 
     /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
-    pub(super) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
+    pub(crate) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
         let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
         let mean = T::of(0.5) * load.abs() / interval.half_width();
         let rounding = T::epsilon().sqrt() * mean;

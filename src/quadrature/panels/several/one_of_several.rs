@@ -25,9 +25,12 @@ const MOST_PANELS: usize = 1 << 12;
 /// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
 const ROOM: f64 = 0.1;
 
-/// A contact much narrower or wider than the span sampled is sampled anew: beside a corner the distances in panels far
-/// narrower than the contact are rounding.
+/// A contact narrower than this share of the span sampled is sampled anew.
 const NARROWER: f64 = 0.4;
+
+/// A span sampled that is narrower than this share of the contact is forgotten: a panel beside a corner, as narrow as a
+/// share s of the contact, costs eps/√s of the limits.
+const REMNANT: f64 = 1e-3;
 
 /// The distance from a contact, in half-widths, from which on the cosines that its panels are summed up in
 /// are enough for rounding: u²⁴ there.
@@ -112,7 +115,7 @@ impl<T: Real> OneOfSeveral<T> {
         let covers = |have: Interval<T>| have.left <= plain.left && have.right >= plain.right;
         let close = |have: Interval<T>| {
             let [on, have] = [on, have].map(|on| on.half_width());
-            on.min(have) >= T::of(NARROWER) * on.max(have)
+            on >= T::of(NARROWER) * have && have >= T::of(REMNANT) * on
         };
         if !self.panel_set.interval().is_some_and(|have| covers(have) && close(have)) {
             if !self.panel_set.interval().is_some_and(close) {

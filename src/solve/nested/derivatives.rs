@@ -4,9 +4,9 @@
 //! their values. A few steps with a fixed Jacobian, from differences, make up for that: each leaves
 //! a share of what is missing that is as small as the differences are good. Plain numbers need none.
 
-use crate::contact::equations::Equations;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Integrator;
+use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real};
 
 /// Steps taken; each gains three to five digits.

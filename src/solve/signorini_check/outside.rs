@@ -2,7 +2,7 @@
 //! their corners.
 
 use super::SignoriniCheck;
-use crate::contact::exterior_field::ExteriorField;
+use crate::solve::exterior_field::ExteriorField;
 use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -27,7 +27,7 @@ const MOST_HALVES: usize = 8;
 
 /// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
-pub(in crate::contact) struct Overlaps<T> {
+pub(in crate::solve) struct Overlaps<T> {
     /// The lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
     pub dips: Vec<[T; 2]>,
     /// Spans outside the contacts that a heavier load has closed.

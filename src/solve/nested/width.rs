@@ -2,8 +2,8 @@
 
 use super::centre::Centred;
 use super::{NestedSearch, TrialContact, nearer};
-use crate::contact::equations::{Equations, Residual};
 use crate::search::Bracket;
+use crate::solve::equations::{Equations, Residual};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
@@ -142,9 +142,10 @@ impl<T: Real> NestedSearch<'_, T> {
     /// The error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, on: Interval<T>) -> ContactError<T> {
         let missed = match self.equations {
-            Equations::Pressure { wanted, .. } => {
-                self.attempt(on).and_then(|trial| wanted.met(on, &trial.residual)).err()
-            }
+            Equations::Pressure { wanted, .. } => self
+                .attempt(on)
+                .and_then(|trial| wanted.met(on, [trial.residual.at_a, trial.residual.at_b]))
+                .err(),
             Equations::Strength { .. } => None,
         };
         missed.unwrap_or(self.no_balance(on.half_width()))

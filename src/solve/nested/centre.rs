@@ -2,8 +2,8 @@
 
 use super::width::ulps;
 use super::{NestedSearch, TrialContact, nearer};
-use crate::contact::equations::Equations;
 use crate::search::Bracket;
+use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real};
 
 /// What became of a contact of given width.

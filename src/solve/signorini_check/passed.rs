@@ -18,7 +18,7 @@ const SAME: f64 = 1e-12;
 
 /// Solutions for two bodies that have passed, under the heaviest load and under the lightest.
 #[derive(Clone, Debug)]
-pub(in crate::contact) struct Passed<T> {
+pub(in crate::solve) struct Passed<T> {
     heaviest: Checked<T>,
     lightest: Checked<T>,
 }
@@ -76,7 +76,7 @@ impl<T: Real> Passed<T> {
 
 /// A load, F/κ, with the tilt of the bodies, and the samples of the gap so far.
 #[derive(Clone, Copy)]
-pub(in crate::contact) struct Under<T> {
+pub(in crate::solve) struct Under<T> {
     pub under: [T; 2],
     pub samples: usize,
 }

@@ -4,11 +4,8 @@
 //! limits of [several](super::newton_several), and with the forces of the [active set](super::active_set). A change
 //! of the tilt samples nothing.
 
-use super::Contact;
 use super::edges::{Conditions, Given};
-use super::topology::{self, Workspace};
-use crate::gap::Cost;
-use crate::quadrature::Integrator;
+use super::{Contact, Work, topology};
 use crate::quadrature::panels::{self, Several};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
@@ -51,9 +48,7 @@ impl<T: Real> LineOfLoad<T> {
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     line: LineOfLoad<T>,
-    integrator: &mut dyn Integrator<T>,
-    workspace: &mut Workspace<T>,
-    cost: &mut Cost,
+    work: &mut Work<'_, T>,
 ) -> Result<ContactState<T>, ContactError<T>> {
     let edges = contact.checked_edges()?;
     let refuse = |why| Err(ContactError::TiltNotSupported { why });
@@ -63,7 +58,7 @@ pub(super) fn find<T: Real>(
     if contact.search.is_some() {
         return refuse("a strategy of one's own adjusts the limits");
     }
-    if !panels::is_panels(integrator) {
+    if !panels::is_panels(work.integrator) {
         return refuse("the quadrature is another");
     }
     let LineOfLoad { load, at, rounding } = line;
@@ -75,13 +70,13 @@ pub(super) fn find<T: Real>(
         let range = [ends.left, ends.right];
         return Err(ContactError::OutsideBodies { x: at, range });
     }
-    let mut found = match topology::find(contact, conditions, integrator, workspace, cost) {
+    let mut found = match topology::find(contact, conditions, work) {
         Err(error) if !given && may_be_beyond(&error) => {
-            return Err(nearest(contact, conditions, integrator, workspace, cost).unwrap_or(error));
+            return Err(nearest(contact, conditions, work).unwrap_or(error));
         }
         found => found?,
     };
-    let several = panels::several(integrator).map(Several::contacts);
+    let several = panels::several(work.integrator).map(Several::contacts);
     let contacts = several.unwrap_or(std::slice::from_ref(&found.interval));
     let narrowest = contacts.iter().map(Interval::half_width).reduce(|one, other| one.min(other));
     let doubt = rounding / narrowest.unwrap_or(T::one());
@@ -102,14 +97,12 @@ fn may_be_beyond<T: Real>(error: &ContactError<T>) -> bool {
 fn nearest<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,
-    integrator: &mut dyn Integrator<T>,
-    workspace: &mut Workspace<T>,
-    cost: &mut Cost,
+    work: &mut Work<'_, T>,
 ) -> Option<ContactError<T>> {
     let (load, at, ends) = (conditions.load(), conditions.at()?, contact.ends());
     let mut find = |given| {
         let conditions = Conditions { given, ..conditions };
-        topology::find(contact, conditions, integrator, workspace, cost)
+        topology::find(contact, conditions, work)
     };
     let half = T::of(0.5);
     let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);

@@ -85,7 +85,7 @@ pub(super) fn find<T: Real>(
     let mut search = NestedSearch::new(contact, equations, integrator, origin, cost);
     let trial = search.widen(half_width)?;
     if let Equations::Pressure { wanted, .. } = equations {
-        wanted.met(trial.on, &trial.residual)?;
+        wanted.met(trial.on, [trial.residual.at_a, trial.residual.at_b])?;
     }
     // What the quadrature leaves open, and what the search has left of the conditions.
     let Residual { at_a, at_b, size, .. } = trial.residual;

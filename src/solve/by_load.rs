@@ -14,14 +14,13 @@
 //! half-width where a contact is born outside the others, the peak where a corner is reached. A value inside a jump has
 //! no load.
 
-use super::Contact;
 use super::capacity::{Capacity, capacity};
 use super::edges::{Conditions, Edge, Given};
-use super::topology::{self, Workspace};
-use crate::gap::{Asked, Cost};
+use super::{Contact, Work, topology};
+use crate::gap::Asked;
 use crate::material::Elasticity;
+use crate::quadrature::complete;
 use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{Integrator, complete};
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, References, Report, Solved};
 use crate::{ContactError, Ends, Interval, Real};
@@ -60,13 +59,11 @@ pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), Conta
 }
 
 /// A search for the load under which a quantity has the wanted value.
-pub(super) struct ByLoad<'s, 'b, T: Real> {
-    pub contact: &'s Contact<'b, T>,
-    pub quantity: Quantity<T>,
-    pub wanted: T,
-    pub integrator: &'s mut dyn Integrator<T>,
-    pub workspace: &'s mut Workspace<T>,
-    pub cost: &'s mut Cost,
+pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
+    contact: &'s Contact<'b, T>,
+    quantity: Quantity<T>,
+    wanted: T,
+    work: &'s mut Work<'w, T>,
 }
 
 /// A reading of a trial that failed.
@@ -110,9 +107,18 @@ impl<T: Real> Enclosure<T> {
     }
 }
 
-impl<T: Real> ByLoad<'_, '_, T> {
-    /// Finds the load.
-    pub fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
+    /// Finds the contact under the load.
+    pub fn find(
+        contact: &'s Contact<'b, T>,
+        quantity: Quantity<T>,
+        wanted: T,
+        work: &'s mut Work<'w, T>,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        Self { contact, quantity, wanted, work }.run()
+    }
+
+    fn run(&mut self) -> Result<ContactState<T>, ContactError<T>> {
         let mut first = self.first()?;
         let (mut load, mut fault) = (first, None);
         let mut enclosure = Enclosure { low: None, high: None };
@@ -162,7 +168,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 return Err(self.none(&enclosure, fault));
             }
         }
-        let best = self.workspace.hull().unwrap_or(self.whole());
+        let best = self.work.workspace.hull().unwrap_or(self.whole());
         let residual = enclosure.high.map_or(self.wanted, |[_, value]| value - self.wanted);
         let source = SearchError::NotConverged { x: load, residual };
         Err(ContactError::LimitSearch { best, source })
@@ -171,7 +177,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
     /// Returns the load to start with.
     fn first(&mut self) -> Result<T, ContactError<T>> {
         let (kappa, wanted, gap) = (self.contact.kappa, self.wanted, &self.contact.gap);
-        let known = self.workspace.hull().or(self.contact.start);
+        let known = self.work.workspace.hull().or(self.contact.start);
         let [left, right] = gap.range();
         let sixty_fourth = T::of(1.0 / 64.0) * (right - left);
         let half_width = known.map_or(sixty_fourth, |on| on.half_width());
@@ -186,7 +192,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 Asked::Peak(wanted / kappa)
             }
         };
-        let load = kappa * self.workspace.about(gap, asked, self.cost)?;
+        let load = kappa * self.work.workspace.about(gap, asked, self.work.cost)?;
         Ok(if load > T::zero() { load } else { hertz })
     }
 
@@ -195,14 +201,14 @@ impl<T: Real> ByLoad<'_, '_, T> {
         let conditions = self.contact.under(load)?;
         let found = self.solve(conditions)?;
         let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
-        let solved = Solved { gap, integrator: &*self.integrator, kappa, found: &found };
+        let solved = Solved { gap, integrator: &*self.work.integrator, kappa, found: &found };
         let (at, doubt) = match self.quantity {
             Quantity::HalfWidth => {
                 let rates = LoadRates::new(solved)?;
                 let half = T::of(0.5);
                 ([found.interval.half_width(), half * (rates.a + rates.b)], T::zero())
             }
-            Quantity::Peak => match solved.largest_pressure(self.cost) {
+            Quantity::Peak => match solved.largest_pressure(self.work.cost) {
                 Ok((_, x, top)) => {
                     let rate = match solved.several() {
                         Some(_) => LoadRates::new(solved)?.pressure(x)?,
@@ -234,20 +240,21 @@ impl<T: Real> ByLoad<'_, '_, T> {
 
     /// Returns the widest contact that no corner holds, where a corner holds the one that was found.
     fn up_to_corner(&mut self, found: &ContactState<T>) -> Option<Capacity<T>> {
-        if found.free == Ends::both(true) || panels::several(&*self.integrator).is_some() {
+        if found.free == Ends::both(true) || panels::several(&*self.work.integrator).is_some() {
             return None;
         }
         let (contact, edges) = (self.contact, Ends::both(Edge::Free));
         let conditions = Conditions { edges, ..contact.under(found.load).ok()? };
-        let widest = capacity(contact, &conditions, contact.ends(), self.cost)?;
+        let widest = capacity(contact, &conditions, contact.ends(), self.work.cost)?;
         (widest.load <= found.load).then_some(widest)
     }
 
     /// Finds the contacts under some conditions, ready for their pressures.
     fn solve(&mut self, conditions: Conditions<T>) -> Result<ContactState<T>, ContactError<T>> {
-        let Self { contact, integrator, workspace, cost, .. } = self;
-        workspace.report = Report::new();
-        let found = topology::find(contact, conditions, *integrator, workspace, cost)?;
+        let Self { contact, work, .. } = self;
+        work.workspace.report = Report::new();
+        let found = topology::find(contact, conditions, work)?;
+        let Work { integrator, workspace, cost } = &mut **work;
         if panels::several(*integrator).is_none() {
             integrator.prepare(&contact.gap, found.interval)?;
         }
@@ -337,7 +344,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
             (Some(error), ..) => error,
             // At any load.
             (None, None, high, Quantity::Peak) => {
-                let half_width = self.workspace.hull().unwrap_or(self.whole()).half_width();
+                let half_width = self.work.workspace.hull().unwrap_or(self.whole()).half_width();
                 let found = high.map_or(T::of(f64::NAN), |[_, found]| found);
                 ContactError::NoPeak { wanted, half_width, found }
             }

@@ -1,0 +1,227 @@
+//! The search for the contact under a control.
+//!
+//! Under a load the contacts are sought from a start, moved until they meet the conditions, checked, and revised
+//! ([`topology`]). A half-width is one of these conditions, and so is the place at which the load acts ([`moment`]); a peak
+//! pressure and an approach are sought [by the load](by_load). The paper's edges, Eq. (6), own strategies and
+//! own quadratures are served by a [search of one limit at a time](nested).
+
+mod active_set;
+mod by_load;
+mod capacity;
+mod equations;
+mod exterior_field;
+mod first_contact;
+mod moment;
+mod nested;
+mod newton_several;
+mod newton_single;
+mod partial_slip;
+mod signorini_check;
+mod single_contact;
+mod topology;
+
+use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
+use crate::gap::Cost;
+use crate::quadrature::{Integrator, panels};
+use crate::solution::{
+    ContactState, Outcome, PartialSlip, Report, Shear, Solution, Start, certify,
+};
+use crate::{ContactError, Edge, Ends, Real, Solver};
+use by_load::{ByLoad, Quantity};
+use edges::{Conditions, Given};
+use equations::Equations;
+use std::sync::Arc;
+pub(crate) use topology::Workspace;
+
+/// The means of a search: the integrals, what is kept from one solve to the next, and the cost so far.
+pub(crate) struct Work<'s, T: Real> {
+    pub integrator: &'s mut dyn Integrator<T>,
+    pub workspace: &'s mut Workspace<T>,
+    pub cost: &'s mut Cost,
+}
+
+impl<'b, T: Real> Contact<'b, T> {
+    /// Finds the contact under what is prescribed: its limits, and the load or tilt where they come out. The pressure is left for
+    /// [`Solution::pressure`].
+    ///
+    /// # Errors
+    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
+    /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
+    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
+    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for what was
+    /// set; [`ContactError::NotConvex`] for what was declared;
+    /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
+    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`], [`ContactError::NoEquilibrium`],
+    /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
+    /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
+    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
+    /// [`ContactError::NoPeak`], [`ContactError::InJump`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
+    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
+    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`], [`ContactError::BothRigid`] for materials;
+    /// [`ContactError::NoMaterials`], [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
+    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach; where [`certified`](Self::certified), those of
+    /// [`Solution::certify`].
+    pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
+        let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
+        let mut cost = Cost::default();
+        let mut work =
+            Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
+        let found = find(self, control, &mut work)?;
+        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
+    }
+
+    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
+    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
+    /// for that. A corner that is [`Edge::Fixed`] may slip.
+    ///
+    /// # Errors
+    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
+    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
+    /// [`ContactError::UnlikeBodies`];
+    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
+    pub fn partial_slip(
+        &self,
+        control: Control<T>,
+        shear: Shear<T>,
+    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
+        Solver::new().partial_slip(self, control, shear)
+    }
+
+    /// The solution that was found.
+    pub(crate) fn solution(
+        &self,
+        integrator: Arc<Box<dyn Integrator<T>>>,
+        found: ContactState<T>,
+        cost: Cost,
+        report: Report,
+    ) -> Solution<'b, T> {
+        let gap = self.gap.tilted(found.tilt);
+        Solution::new(
+            gap,
+            integrator,
+            self.kappa,
+            self.elasticity().ok().flatten(),
+            found,
+            cost,
+            report,
+        )
+    }
+}
+
+/// Finds the limits by an integrator that has been reset, from the contacts in the workspace. The cost is that of the
+/// search, whether it succeeds or not.
+pub(crate) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    control: Control<T>,
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    let found = contact.check(control).and_then(|()| find_checked(contact, control, work));
+    *work.cost += work.integrator.cost();
+    found.map_err(|error| error.with_stiffness(contact.has_default_stiffness()))
+}
+
+/// Finds the contact of a scene that has been checked, ready for its pressures.
+fn find_checked<T: Real>(
+    contact: &Contact<'_, T>,
+    control: Control<T>,
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    work.workspace.report = Report::new();
+    let mut found = find_under(contact, control, work)?;
+    // A width may be less than the rounding of x, and its load less than any number.
+    check(found.interval)?;
+    if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
+        return Err(ContactError::Overflow { interval: found.interval });
+    }
+    let known = found.error.is_none_or(|error| error >= T::zero());
+    if !known && found.adhesive == Ends::both(false) {
+        return Err(ContactError::Overflow { interval: found.interval });
+    }
+    found.ends = contact.ends();
+    let (gap, integrator) = (contact.gap.tilted(found.tilt), &mut *work.integrator);
+    if panels::several(integrator).is_none() {
+        integrator.prepare(&gap, found.interval)?;
+    }
+    if found.is_doubtful() {
+        work.workspace.report.doubt();
+    }
+    if contact.certified {
+        certify(&gap, contact.kappa, &found, integrator)?;
+    }
+    Ok(found)
+}
+
+/// Finds the contact that meets a control.
+fn find_under<T: Real>(
+    contact: &Contact<'_, T>,
+    control: Control<T>,
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    match (control, contact.edge_pressure) {
+        (Control::Load(load), Some(wanted)) => {
+            work.workspace.report.add(Start::Middle, Outcome::Unchecked);
+            by_edge_pressure(contact, wanted, load, work)
+        }
+        (Control::Load(load), None) => topology::find(contact, contact.under(load)?, work),
+        (Control::HalfWidth(half_width), _) => {
+            check_positive("half-width", half_width)?;
+            let (kappa, edges) = (contact.kappa, contact.checked_edges()?);
+            let conditions = Conditions { kappa, edges, given: Given::HalfWidth(half_width) };
+            match topology::find(contact, conditions, work) {
+                Err(error) if may_have_several(contact, &error, work) => {
+                    ByLoad::find(contact, Quantity::HalfWidth, half_width, work)
+                }
+                found => found,
+            }
+        }
+        (Control::PeakPressure(wanted), _) => {
+            check_positive("peak pressure", wanted)?;
+            by_load::check_edges(contact)?;
+            ByLoad::find(contact, Quantity::Peak, wanted, work)
+        }
+        (Control::Approach { approach: wanted, references }, _) => {
+            let bodies = contact.elasticity()?;
+            if bodies.is_none() {
+                return Err(ContactError::NoMaterials);
+            }
+            check_positive("approach", wanted)?;
+            ByLoad::find(contact, Quantity::Approach { references, bodies }, wanted, work)
+        }
+        (Control::Moment { load, moment, about }, _) => {
+            moment::find(contact, moment::LineOfLoad::of_moment(load, moment, about)?, work)
+        }
+        (Control::CentreOfPressure { load, at }, _) => {
+            moment::find(contact, moment::LineOfLoad::through(load, at)?, work)
+        }
+    }
+}
+
+/// Tells whether a half-width may be that of several contacts, by the error of the search for one.
+fn may_have_several<T: Real>(
+    contact: &Contact<'_, T>,
+    error: &ContactError<T>,
+    work: &Work<'_, T>,
+) -> bool {
+    use ContactError::{NoEquilibrium, Overlap, Tension};
+    let fails = matches!(error, NoEquilibrium { .. } | Overlap { .. } | Tension { .. });
+    let serves = panels::is_panels(work.integrator) && contact.search.is_none();
+    fails && serves && !contact.single_interval && !contact.edges.are_adhesive()
+}
+
+/// Finds the contact with edges by the paper's Eq. (6), under a given load.
+fn by_edge_pressure<T: Real>(
+    contact: &Contact<'_, T>,
+    wanted: EdgePressure<T>,
+    load: T,
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    let kappa = contact.kappa;
+    wanted.check()?;
+    check_positive("load", load)?;
+    let equations = Equations::Pressure { kappa, load, wanted };
+    let nested = nested::find(contact, equations, work.integrator, contact.start, work.cost)?;
+    let m = work.integrator.moments(&contact.gap, nested.on)?;
+    let (edges, given) = (Ends::both(Edge::Fixed(load)), Given::Load(load));
+    let conditions = Conditions { kappa, edges, given };
+    Ok(ContactState::new(&conditions, nested.on, load, Some(nested.error), &m))
+}

@@ -1,0 +1,62 @@
+//! The scene whose contacts are where the bodies stick.
+
+use crate::contact::{Contact, Edge};
+use crate::material::Elasticity;
+use crate::solution::{Shear, Solution};
+use crate::{ContactError, Real};
+
+impl<'b, T: Real> Contact<'b, T> {
+    /// Whether partial slip can be asked for.
+    pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
+        let Shear { friction, force, tension } = *shear;
+        if !(friction.is_finite() && friction > T::zero()) {
+            return Err(ContactError::InvalidSlipFriction { friction });
+        }
+        for (quantity, value) in [("force", force), ("tension", tension)] {
+            if !value.is_finite() {
+                return Err(ContactError::InvalidShear { quantity, value });
+            }
+        }
+        let refuse = |why| Err(ContactError::SlipNotSupported { why });
+        if self.edge_pressure.is_some() {
+            return refuse("the edges are by Eq. (6)");
+        }
+        if self.edges.are_adhesive() {
+            return refuse("an edge is Adhesive");
+        }
+        if let Some(bodies) = self.elasticity()? {
+            let beta = Elasticity::dundurs(bodies);
+            if beta.abs() > T::of(16.0) * T::epsilon() {
+                return Err(ContactError::UnlikeBodies { beta });
+            }
+        }
+        Ok(())
+    }
+
+    /// The scene whose contacts are where the bodies stick, and its load.
+    pub(crate) fn sticking(
+        &self,
+        normal: &Solution<'b, T>,
+        shear: &Shear<T>,
+    ) -> Result<(Self, T), ContactError<T>> {
+        let Shear { friction, force, tension } = *shear;
+        let (load, limit) = (normal.load(), friction * normal.load());
+        if force.abs() >= limit {
+            return Err(ContactError::SlipsEverywhere { force, limit });
+        }
+        // The traction is a difference, of which nothing would be left.
+        let least = T::epsilon().powf(T::of(0.75)) * limit;
+        if !force.is_zero() && force.abs() < least {
+            return Err(ContactError::SticksEverywhere { force, limit });
+        }
+        // μ E*, with the sign of the force.
+        let stiffness = friction * self.kappa / T::frac_pi_2();
+        let turn = T::of(0.5) * tension / stiffness;
+        let turn = if force < T::zero() { turn } else { -turn };
+        let mut scene = self.clone();
+        scene.gap = self.gap.tilted(normal.tilt() + turn);
+        scene.edges = self.edges.map(Edge::let_go);
+        (scene.start, scene.certified) = (None, false);
+        Ok((scene, load - force.abs() / friction))
+    }
+}

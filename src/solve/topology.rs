@@ -1,0 +1,224 @@
+//! The intervals in which the bodies touch: start, converge, check, revise.
+//!
+//! A contact is sought as one interval first, from where it was, or from the lowest gap; several valleys of the gap are
+//! several contacts at once. What is found is [checked](check): corners press, nothing pulls inside, nothing overlaps
+//! outside. What a search or a check says [revises](revise) the set of contacts, from which [all
+//! limits](super::newton_several) are sought anew; where it says too little a coarse [active
+//! set](super::active_set) tells about where the contacts are. A search that leads to an end of the bodies asks what
+//! they [bear](bears). Without adhesion a contact problem has one solution: what passes the checks is it, whatever
+//! the way there.
+
+mod bears;
+mod check;
+mod revise;
+mod workspace;
+
+use super::active_set::FIRST_CELLS;
+use super::edges::{Conditions, Edge, Given};
+use super::signorini_check::step_of_heights;
+use super::single_contact::Single;
+use super::{Contact, Work};
+use crate::gap::{Asked, Survey};
+use crate::quadrature::panels;
+use crate::solution::{ContactState, Outcome, Start};
+use crate::{ContactError, Interval, Real, Side};
+pub(crate) use workspace::Workspace;
+
+/// Finds the contacts of two bodies.
+pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: Conditions<T>,
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    contact.checked_edges()?;
+    work.workspace.look_for_features(&contact.gap);
+    let found = Search::new(contact, conditions, work).find();
+    found.map_err(|error| match error {
+        // A step of the heights of which no slope tells is no crest that could be pressed flat.
+        ContactError::Overlap { x, interval, .. } => {
+            step_of_heights(&contact.gap, interval, x).unwrap_or(error)
+        }
+        _ => error,
+    })
+}
+
+/// A search for the contacts.
+struct Search<'s, 'w, 'b, T: Real> {
+    contact: &'s Contact<'b, T>,
+    conditions: Conditions<T>,
+    work: &'s mut Work<'w, T>,
+    /// Cells that the next active set starts with.
+    cells: usize,
+    /// Where gaps have closed.
+    closed: Vec<Interval<T>>,
+    /// The end of the bodies that contacts reach, where no corner holds them.
+    runs_out: Option<Side>,
+    /// Whether it was asked what the bodies bear.
+    has_run_out: bool,
+    /// The end of the bodies that the contacts are to reach, where the load is sought under which they do.
+    end: Option<Side>,
+}
+
+impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
+    fn new(
+        contact: &'s Contact<'b, T>,
+        conditions: Conditions<T>,
+        work: &'s mut Work<'w, T>,
+    ) -> Self {
+        let (cells, closed, has_run_out) = (FIRST_CELLS, Vec::new(), false);
+        let (runs_out, end) = (None, None);
+        Self { contact, conditions, work, cells, closed, runs_out, has_run_out, end }
+    }
+
+    fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+        if self.contact.single_interval {
+            let start = self.start_of_one(false);
+            let found = self.one(start, false);
+            self.report(start, Outcome::Unchecked);
+            return found;
+        }
+        if self.work.workspace.last.len() > 1 {
+            return self.several(None);
+        }
+        // Of several valleys heights tell at less cost what a search for one contact fails at.
+        if self.has_valleys()? {
+            match self.several(None) {
+                Err(error) if !matches!(error, ContactError::DomainTooShort { .. }) => {}
+                found => return found,
+            }
+        }
+        match self.one_checked()? {
+            Ok(found) => Ok(found),
+            Err(fault) => self.several(Some(fault)),
+        }
+    }
+
+    fn report(&mut self, start: Start, outcome: Outcome) {
+        self.work.workspace.report.add(start, outcome);
+    }
+
+    /// Seeks one contact and checks it. The inner error is one that several contacts may not have.
+    fn one_checked(&mut self) -> Result<Result<ContactState<T>, ContactError<T>>, ContactError<T>> {
+        let (turns, is_said) = (self.turns(), self.contact.gap.is_convex());
+        let looks = !is_said && !turns && self.contact.edges.are_sought();
+        let mut start = self.start_of_one(looks);
+        let mut found = self.one(start, looks);
+        // Without a look at the bodies.
+        if is_said && !turns && matches!(found, Err(ContactError::NoEquilibrium { .. })) {
+            self.report(start, Outcome::NotFound);
+            start = self.start_of_one(true);
+            found = self.one(start, true).or(found);
+        }
+        let fault = match found {
+            Ok(found) => match self.checked(&found)? {
+                None => {
+                    self.report(start, Outcome::Passed);
+                    return Ok(Ok(found));
+                }
+                // Of bodies that turn, more contacts may press at the corner.
+                Some(error @ ContactError::LiftsOff { .. }) if self.is_convex() || !turns => {
+                    return Err(error);
+                }
+                Some(error) => error,
+            },
+            Err(error) if self.is_of_any_number(&error)? => return Err(error),
+            Err(error) => error,
+        };
+        self.report(start, Outcome::of(&fault));
+        Ok(Err(fault))
+    }
+
+    /// Tells whether the error of a search for one contact is that of a search for several, too.
+    fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
+        if !self.contact.edges.are_sought() || !error.may_be_several() {
+            return Ok(true);
+        }
+        // Of bodies that turn, one contact may be hard to find too; so it may among waves that nothing has shown yet.
+        let is_lost = matches!(error, ContactError::NoEquilibrium { .. });
+        Ok(!self.turns() && (self.is_convex() || !is_lost && self.look()?.bulges()))
+    }
+
+    /// Returns the start of a search for one contact: where it was, where the user says, or at the lowest gap;
+    /// without a look at the bodies in their middle.
+    fn start_of_one(&self, looks: bool) -> Start {
+        match (self.work.workspace.last.first(), self.contact.start) {
+            (Some(_), _) => Start::Last,
+            (_, Some(_)) => Start::Given,
+            _ if looks => Start::LowestGap,
+            _ if self.turns() => Start::LineOfLoad,
+            _ => Start::Middle,
+        }
+    }
+
+    /// Seeks one contact, again as long as its panels miss narrow features.
+    fn one(&mut self, start: Start, looks: bool) -> Result<ContactState<T>, ContactError<T>> {
+        if start == Start::LowestGap {
+            self.look()?;
+        }
+        let mut found = self.one_from(self.work.workspace.last.first().copied(), looks)?;
+        for _ in 0..panels::MOST_MISSED {
+            if !self.misses(&found)? {
+                break;
+            }
+            found = self.one_from(Some(found.interval), looks)?;
+        }
+        Ok(found)
+    }
+
+    /// Seeks one contact around the last one, if any; without it where a survey may say.
+    fn one_from(
+        &mut self,
+        last: Option<Interval<T>>,
+        looks: bool,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        let (contact, Work { integrator, workspace, cost }) = (self.contact, &mut *self.work);
+        let look = workspace.survey_of(&contact.gap).filter(|_| looks);
+        let (conditions, start, bears) = (self.conditions, contact.start, None);
+        Single { contact, conditions, start, look, integrator: *integrator, cost, bears }.find(last)
+    }
+
+    /// Tells whether the gap has several low places, and nothing else says where to start.
+    fn has_valleys(&mut self) -> Result<bool, ContactError<T>> {
+        let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
+        let told = given || !self.work.workspace.last.is_empty();
+        if self.is_convex() || told || !self.may_be_several() {
+            return Ok(false);
+        }
+        Ok(!self.look()?.is_one_valley())
+    }
+
+    /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.
+    fn is_convex(&self) -> bool {
+        let gap = &self.contact.gap;
+        gap.is_convex() || self.work.workspace.survey_of(gap).is_some_and(Survey::is_convex)
+    }
+
+    /// Surveys the bodies as closely as the load asks for.
+    fn look(&mut self) -> Result<&Survey<T>, ContactError<T>> {
+        let asked = asked_by(&self.conditions);
+        self.work.workspace.look(&self.contact.gap, asked, self.work.cost)
+    }
+
+    /// Tells whether the bodies turn until the load acts at a given place.
+    fn turns(&self) -> bool {
+        self.conditions.at().is_some()
+    }
+
+    /// Tells whether several contacts can be sought: by own quadratures, the paper's and own searches only one can.
+    fn may_be_several(&self) -> bool {
+        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
+        by_load
+            && !self.contact.edges.are_adhesive()
+            && self.contact.search.is_none()
+            && panels::is_panels(self.work.integrator)
+    }
+}
+
+/// Returns the request to the survey.
+fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
+    match conditions.given {
+        Given::HalfWidth(half_width) => Asked::HalfWidth(half_width),
+        Given::Load(load) => Asked::Load(load / conditions.kappa),
+        Given::Centre { load, .. } => Asked::Turning(load / conditions.kappa),
+    }
+}

@@ -1,0 +1,128 @@
+//! The check of a solution: narrow features, corners, tension inside and overlap outside.
+
+use super::super::signorini_check::{SignoriniCheck, Under};
+use super::{Search, Workspace};
+use crate::gap::Gap;
+use crate::quadrature::panels::Several;
+use crate::quadrature::{Panels, Quadrature, panels};
+use crate::solution::ContactState;
+use crate::{ContactError, Ends, Interval, Real};
+
+impl<T: Real> Search<'_, '_, '_, T> {
+    /// Looks for narrow features in the contacts that were found; tells whether the panels missed one.
+    pub(super) fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
+        let contact = self.contact;
+        if contact.single_interval || contact.gap.is_convex() {
+            return Ok(false);
+        }
+        let Interval { left, right } = found.interval;
+        contact.gap.check_resolution(left.abs().max(right.abs()))?;
+        let (gap, load) = (&contact.gap.tilted(found.tilt), found.load.abs() / contact.kappa);
+        let survey = self.work.workspace.survey_of(gap);
+        if survey.is_some_and(|survey| survey.is_resolved(gap, load)) {
+            return Ok(false);
+        }
+        panels::probe(self.work.integrator, gap, found.interval)
+    }
+
+    /// What a solution fails by, if anything.
+    pub(super) fn checked(
+        &mut self,
+        found: &ContactState<T>,
+    ) -> Result<Option<ContactError<T>>, ContactError<T>> {
+        // More contacts may press at a corner that is not reached.
+        let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
+        let is_said = self.contact.gap.is_convex();
+        if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
+            return Ok(lifts_off);
+        }
+        self.resolve(found)?;
+        if self.is_convex() {
+            return Ok(lifts_off);
+        }
+        let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
+        if self.touches_once(gap, found)? {
+            return Ok(lifts_off);
+        }
+        // Where the integrator has no panels, the contact is looked at on some that are made for it.
+        let mut own = None;
+        if panels::several(self.work.integrator).is_none() {
+            let integrator = if panels::is_panels(self.work.integrator) {
+                &mut *self.work.integrator
+            } else {
+                &mut **own.insert(Panels::FULL.integrator()?)
+            };
+            integrator.prepare(gap, found.interval)?;
+        }
+        let integrator = own.as_deref().unwrap_or(&*self.work.integrator);
+        let covers = self.covers(found);
+        if !covers {
+            self.work.workspace.take(gap, self.work.cost)?;
+        }
+        let (interval, load) = (found.interval, found.load);
+        let Workspace { look, fields, tension_spans, passed, overlaps, .. } =
+            &mut *self.work.workspace;
+        let under = [load / kappa, found.tilt];
+        let on = Under { under, samples: integrator.cost().samples };
+        let contacts = panels::several(integrator).map(Several::contacts);
+        let contacts = contacts.unwrap_or(std::slice::from_ref(&interval));
+        // What a heavier load has left open a lighter one leaves open; what a lighter one presses a heavier one does.
+        let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
+        let closed = &self.closed;
+        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
+        fields.clear();
+        overlaps.dips.clear();
+        if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
+            if pressure.partial_cmp(&pressure).is_none() {
+                return Err(ContactError::Overflow { interval });
+            }
+            return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
+        }
+        // From end to end nothing lies outside.
+        if !covers {
+            check.overlap(fields, overlaps, look, self.contact.ends(), self.work.cost)?;
+        }
+        let overlap = overlaps.worst();
+        if overlap.is_none() && found.adhesive == Ends::both(false) {
+            passed.keep(on, contacts);
+            overlaps.closed_before.reserve(1 + 2 * contacts.len());
+        }
+        if let Some(own) = own {
+            self.work.cost.heights += own.cost().evaluations;
+        }
+        let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
+        Ok(overlap.or(lifts_off))
+    }
+
+    /// Looks for narrow features beside the contacts that were found.
+    fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
+        let gap = &self.contact.gap.tilted(found.tilt);
+        self.work.workspace.take(gap, self.work.cost)?;
+        let contacts = panels::several(self.work.integrator).map(|several| several.contacts());
+        let contacts = contacts.unwrap_or(std::slice::from_ref(&found.interval));
+        let load = found.load.abs() / self.contact.kappa;
+        self.work.workspace.look.resolve(gap, load, contacts, self.work.cost)
+    }
+
+    /// Tells whether one contact leaves nothing of the bodies outside.
+    fn covers(&self, found: &ContactState<T>) -> bool {
+        let (on, ends) = (found.interval, self.contact.ends());
+        let is_one = panels::several(self.work.integrator).is_none();
+        is_one && on.left <= ends.left && on.right >= ends.right
+    }
+
+    /// Tells whether the gap is convex around one contact as far as its load reaches.
+    fn touches_once(
+        &mut self,
+        gap: &Gap<'_, T>,
+        found: &ContactState<T>,
+    ) -> Result<bool, ContactError<T>> {
+        let is_one = panels::several(self.work.integrator).is_none();
+        if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
+            return Ok(false);
+        }
+        self.work.workspace.take(gap, self.work.cost)?;
+        let load = found.load / self.contact.kappa;
+        self.work.workspace.look.prove(gap, found.interval, load, self.work.cost)
+    }
+}

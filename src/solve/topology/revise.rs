@@ -1,0 +1,384 @@
+//! The loop over sets of contacts, and the table by which one is made of the last.
+//!
+//! | what the search or the check says | the next set of contacts |
+//! |---|---|
+//! | the bodies would pull at each other in spans | the contacts are parted there |
+//! | they would overlap in dips | a contact more in each dip |
+//! | a gap closes | the contacts beside it are one |
+//! | a contact vanishes | the others |
+//! | a limit passes a corner | it is put there |
+//! | a limit passes the other end of the bodies, where one end is to be reached | it is put there |
+//! | nothing of use, or the same set again | that of the cells |
+//!
+//! All faults of a kind are mended at once.
+
+use super::super::active_set::{Coarse, NotFound, Scene, active_set};
+use super::super::capacity::capacity;
+use super::super::newton_several::{Besides, SeveralOutcome};
+use super::{Conditions, Edge, FIRST_CELLS, Given, Search, Single, Work, Workspace, asked_by};
+use crate::quadrature::panels;
+use crate::solution::{ContactState, Outcome, Start};
+use crate::{ContactError, Ends, Interval, Real, Side};
+
+/// The share of F/κ by which heights may be uncertain, to tell by them alone where the bodies touch.
+const CLOSELY: f64 = 0.002;
+
+/// Sets of contacts tried before the search is given up.
+const MOST_TRIALS: usize = 12;
+
+/// The share of a contact by which a limit leaves a corner that does not hold it; its square is the share of the
+/// bodies that a contact has at first where they would overlap.
+const CLOSER: f64 = 0.01;
+
+/// The result of a trial of a set of contacts.
+enum Trial<T: Real> {
+    Passed(ContactState<T>),
+    /// The check has failed.
+    Fails(ContactError<T>),
+    /// The search has ended without limits.
+    Stops(SeveralOutcome),
+    /// The search for the only contact has failed.
+    NotFound(ContactError<T>),
+}
+
+impl<T: Real> Search<'_, '_, '_, T> {
+    /// Seeks any number of contacts; `fault` is the error of a search for one.
+    pub(super) fn several(
+        &mut self,
+        fault: Option<ContactError<T>>,
+    ) -> Result<ContactState<T>, ContactError<T>> {
+        if !self.may_be_several() {
+            return Err(fault.unwrap_or(self.no_balance()));
+        }
+        let first = fault.clone().filter(|fault| Outcome::of(fault) == Outcome::NotFound);
+        let mut fault = fault;
+        // Whether a corner presses is seen of the contacts that are there without it.
+        let edges = self.contact.edges.map(Edge::let_go);
+        let conditions = Conditions { edges, ..self.conditions };
+        let last = &self.work.workspace.last;
+        let is_near = last.len() > 1 && self.end.is_none();
+        let mut start = if is_near { Start::Last } else { Start::ActiveSet };
+        self.work.workspace.newton.on.clone_from(last);
+        for _ in 0..MOST_TRIALS {
+            let [left, right] = self.contact.gap.range();
+            self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
+            if start == Start::ActiveSet && !self.take_cells(&conditions)? {
+                break;
+            }
+            let (outcome, next) = match self.trial(&conditions)? {
+                Trial::Passed(found) => {
+                    self.report(start, Outcome::Passed);
+                    return Ok(found);
+                }
+                Trial::Fails(error @ ContactError::LiftsOff { .. }) => return Err(error),
+                Trial::Fails(error) => {
+                    let outcome = Outcome::of(&error);
+                    fault = Some(error);
+                    (outcome, self.mend(start))
+                }
+                Trial::NotFound(error) => {
+                    fault = Some(error);
+                    (Outcome::NotFound, Start::ActiveSet)
+                }
+                Trial::Stops(stop) => self.revise(stop, start),
+            };
+            self.report(start, outcome);
+            start = next;
+        }
+        Err(self.not_found(first, fault))
+    }
+
+    fn no_balance(&self) -> ContactError<T> {
+        let [from, to] = self.contact.gap.range();
+        ContactError::NoEquilibrium { half_width: T::of(0.5) * (to - from), near: from }
+    }
+
+    /// Returns the error of a search whose trials have all failed; `first` is that of the search for one contact.
+    fn not_found(
+        &self,
+        first: Option<ContactError<T>>,
+        fault: Option<ContactError<T>>,
+    ) -> ContactError<T> {
+        let (load, ends) = (self.conditions.load(), self.contact.ends());
+        let runs_out = self.runs_out.map(|side| ContactError::EndReached {
+            end: ends[side],
+            load,
+            kappa_is_default: false,
+        });
+        // The error of one contact alone says more, unless it is the load that this would bear.
+        let says = |fault: &ContactError<T>| match fault {
+            ContactError::NoEquilibrium { .. } => false,
+            ContactError::DomainTooShort { .. } => runs_out.is_none(),
+            _ => true,
+        };
+        first.filter(says).or(runs_out).or(fault).unwrap_or(self.no_balance())
+    }
+
+    /// Tries the contacts at hand.
+    fn trial(&mut self, conditions: &Conditions<T>) -> Result<Trial<T>, ContactError<T>> {
+        let workspace = &mut *self.work.workspace;
+        workspace.before.clone_from(&workspace.newton.on);
+        let found = match self.converge(conditions) {
+            Ok(Ok(found)) => found,
+            Ok(Err(stop)) => return Ok(Trial::Stops(stop)),
+            Err(error) if error.may_be_several() => return Ok(Trial::NotFound(error)),
+            Err(error) => return Err(error),
+        };
+        Ok(match self.checked(&found)? {
+            None => Trial::Passed(found),
+            Some(error) => Trial::Fails(error),
+        })
+    }
+
+    /// Revises the contacts by the way in which the search for their limits has ended. Returns the outcome, and the next
+    /// start.
+    fn revise(&mut self, stop: SeveralOutcome, start: Start) -> (Outcome, Start) {
+        let (ends, at_corner) = (self.contact.ends(), self.corners());
+        let Workspace { newton, before, .. } = &mut *self.work.workspace;
+        if let SeveralOutcome::Closed(i) = stop
+            && newton.is_nothing(i)
+        {
+            self.closed.push(newton.closed_gap(i));
+        }
+        let on = &mut newton.on;
+        // Where the search has led without an end says little.
+        on.clone_from(before);
+        let outcome = match stop {
+            SeveralOutcome::Closed(i) => {
+                on[i].right = on.remove(i + 1).right;
+                Outcome::Merged
+            }
+            SeveralOutcome::Lost(i) if on.len() > 1 => {
+                on.remove(i);
+                Outcome::Lost
+            }
+            SeveralOutcome::Beyond(side) if at_corner[side] => {
+                put(on, side, ends[side]);
+                Outcome::ReachedCorner
+            }
+            // This end is reached under less.
+            SeveralOutcome::Beyond(side) if self.end.is_some() => {
+                self.end = Some(side);
+                Outcome::ReachedCorner
+            }
+            _ => {
+                if let SeveralOutcome::Beyond(side) = stop {
+                    self.runs_out = Some(side);
+                }
+                // Where contacts were mended cells are to look; of others nothing is to be learnt.
+                if start != Start::Attempt {
+                    on.clear();
+                }
+                return (Outcome::NotFound, Start::ActiveSet);
+            }
+        };
+        (outcome, Start::Attempt)
+    }
+
+    /// Parts the contacts at hand where they would pull, or puts some where the bodies would overlap. Returns the next
+    /// start.
+    fn mend(&mut self, start: Start) -> Start {
+        let ends = self.contact.ends();
+        let Workspace { newton, before, tension_spans, overlaps, .. } = &mut *self.work.workspace;
+        let on = &mut newton.on;
+        for span in &tension_spans.spans {
+            let apart = |on: Interval<T>| {
+                let left = Interval { right: on.right.min(span.left), ..on };
+                let right = Interval { left: on.left.max(span.right), ..on };
+                [left, right].into_iter().filter(|on| on.left < on.right)
+            };
+            *on = on.drain(..).flat_map(apart).collect();
+        }
+        let half = T::of(0.5);
+        let aside = T::of(CLOSER * CLOSER) * (ends.right - ends.left);
+        for &[x, _] in &overlaps.dips {
+            let at = on.partition_point(|on| on.right < x);
+            let left = if at == 0 { ends.left } else { on[at - 1].right };
+            let right = on.get(at).map_or(ends.right, |next| next.left);
+            let seed = Interval {
+                left: (x - aside).max(half * (x + left)),
+                right: (x + aside).min(half * (x + right)),
+            };
+            if seed.left < seed.right {
+                on.insert(at, seed);
+            }
+        }
+        // Where one overlap follows another, cells see all of them at once; nor is a trial made twice.
+        let again = start == Start::Attempt && tension_spans.spans.is_empty() || on == before;
+        if on.is_empty() || again { Start::ActiveSet } else { Start::Attempt }
+    }
+
+    /// Tells at which sides a corner ends the bodies.
+    fn corners(&self) -> Ends<bool> {
+        self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)))
+    }
+
+    /// Moves the contacts at hand to where they bear the load, again as long as their panels miss narrow features.
+    fn converge(
+        &mut self,
+        conditions: &Conditions<T>,
+    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+        let ends = self.contact.ends();
+        let (at_corner, on) = (self.corners(), &self.work.workspace.newton.on);
+        let corners = Ends {
+            left: at_corner.left && on[0].left <= ends.left,
+            right: at_corner.right && on[on.len() - 1].right >= ends.right,
+        };
+        let mut found = self.converge_once(conditions, corners)?;
+        for _ in 0..panels::MOST_MISSED {
+            match &found {
+                Ok(state) if self.misses(state)? => {
+                    found = self.converge_once(conditions, corners)?
+                }
+                _ => break,
+            }
+        }
+        Ok(found)
+    }
+
+    fn converge_once(
+        &mut self,
+        conditions: &Conditions<T>,
+        corners: Ends<bool>,
+    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+        if let [on] = self.work.workspace.newton.on[..] {
+            return self.one_of_set(conditions, on);
+        }
+        let (contact, ends) = (self.contact, self.contact.ends());
+        let Work { integrator, workspace, .. } = &mut *self.work;
+        let newton = &mut workspace.newton;
+        for side in Side::BOTH {
+            if corners[side] || self.end == Some(side) {
+                put(&mut newton.on, side, ends[side]);
+            }
+        }
+        let Some(several) = panels::several_mut(*integrator) else {
+            return Ok(Err(SeveralOutcome::Failed));
+        };
+        let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
+        let load = conditions.load() / conditions.kappa;
+        let outcome = newton.converge(several, &contact.gap, load, corners, ends, besides)?;
+        if outcome != SeveralOutcome::Found {
+            return Ok(Err(outcome));
+        }
+        let load = match self.end {
+            Some(_) => newton.load * conditions.kappa,
+            None => conditions.load(),
+        };
+        let found = newton.found(several, conditions.kappa, load, corners, ends);
+        // A corner that pulls does not hold the contact.
+        let pulls = |&side: &Side| corners[side] && found.strengths[side] < T::zero();
+        let lets_go = |&side: &Side| matches!(conditions.edges[side], Edge::FreeUntil(_));
+        let Some(side) = Side::BOTH.into_iter().filter(pulls).find(lets_go) else {
+            return Ok(Ok(found));
+        };
+        let inward = T::of(CLOSER) * outermost(&mut newton.on, side).half_width();
+        let inside = if side == Side::Left { ends.left + inward } else { ends.right - inward };
+        put(&mut newton.on, side, inside);
+        let mut corners = corners;
+        corners[side] = false;
+        self.converge_once(conditions, corners)
+    }
+
+    /// Moves the only contact of a set to where it bears the load, or to an end of the bodies.
+    fn one_of_set(
+        &mut self,
+        conditions: &Conditions<T>,
+        on: Interval<T>,
+    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+        let (contact, ends) = (self.contact, self.contact.ends());
+        let (mut start, mut conditions) = (on, *conditions);
+        if self.end.is_some() {
+            let mut widest = capacity(contact, &conditions, ends, self.work.cost);
+            // At a corner more is borne, up to the other end.
+            for side in Side::BOTH {
+                let (edge, end) = (&mut conditions.edges[side], ends[side]);
+                if matches!(edge, Edge::FreeUntil(_)) && widest.is_some_and(|at| at.end == end) {
+                    *edge = Edge::Fixed(end);
+                    widest = capacity(contact, &conditions, ends, self.work.cost);
+                    break;
+                }
+            }
+            let Some(widest) = widest else { return Ok(Err(SeveralOutcome::Failed)) };
+            start = widest.on;
+            conditions.given = Given::HalfWidth(widest.on.half_width());
+        }
+        let Work { integrator, workspace, cost } = &mut *self.work;
+        let (look, bears, integrator) = (None, Some(None), &mut **integrator);
+        let start = Some(start);
+        let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
+        let found = single.find(start)?;
+        (workspace.newton.on[0], workspace.newton.tilt) = (found.interval, found.tilt);
+        Ok(Ok(found))
+    }
+
+    /// Takes the contacts from a coarse active set, with a closer look where a check has failed. Returns false where
+    /// that has reached an end of the bodies before: more cells find no contact under more than the bodies bear.
+    fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<bool, ContactError<T>> {
+        if let Some(end) = self.runs_out {
+            if std::mem::replace(&mut self.has_run_out, true) {
+                return Ok(false);
+            }
+            // Turned, they bear another load.
+            let is_asked = self.end.is_none() && !self.turns();
+            let bears = if is_asked { self.bears(conditions, end) } else { None };
+            if let Some(bears) = bears.filter(|bears| bears.load < conditions.load()) {
+                return Err(bears.too_short(conditions.load()));
+            }
+        }
+        // As many cells as have not failed yet.
+        let cells = self.cells;
+        self.cells = (cells + cells).min(16 * FIRST_CELLS);
+        let coarse = self.coarse(conditions, cells)?;
+        self.runs_out = self.end_reached(&coarse);
+        let tilt = self.contact.gap.tilt() + coarse.tilt;
+        let newton = &mut self.work.workspace.newton;
+        (newton.on, newton.tilt) = (coarse.intervals, tilt);
+        Ok(true)
+    }
+
+    pub(super) fn coarse(
+        &mut self,
+        conditions: &Conditions<T>,
+        cells: usize,
+    ) -> Result<Coarse<T>, ContactError<T>> {
+        let (gap, ends) = (&self.contact.gap, self.contact.ends());
+        let Work { workspace, cost, .. } = &mut *self.work;
+        workspace.take(gap, cost)?;
+        workspace.look.refine(gap, asked_by(conditions), T::of(CLOSELY), cost)?;
+        let Workspace { look, newton, .. } = &**workspace;
+        let (kappa, load) = (conditions.kappa, conditions.load());
+        let turned = look.heights(gap);
+        let (known, start) = (&turned[..], &newton.on[..]);
+        let range = [ends.left, ends.right];
+        let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
+        let coarse = active_set(&scene, &mut |x| Ok(gap.turned(x, look.height(gap.nearest(x)))));
+        coarse.map_err(|error| match error {
+            NotFound::Height(error) => error,
+            _ => ContactError::NoEquilibrium {
+                half_width: T::of(0.5) * (ends.right - ends.left),
+                near: look.lowest(),
+            },
+        })
+    }
+
+    /// Returns the end of the bodies that contacts reach, where no corner holds them.
+    pub(super) fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
+        let at_corner = self.corners();
+        Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !at_corner[side])
+    }
+}
+
+fn outermost<T: Real>(on: &mut [Interval<T>], side: Side) -> &mut Interval<T> {
+    let last = on.len() - 1;
+    &mut on[if side == Side::Left { 0 } else { last }]
+}
+
+/// Puts an outermost limit at a place.
+fn put<T: Real>(on: &mut [Interval<T>], side: Side, x: T) {
+    let on = outermost(on, side);
+    match side {
+        Side::Left => on.left = x,
+        Side::Right => on.right = x,
+    }
+}
