@@ -147,7 +147,7 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// The scale by what body 1 and body 2 are made of. Besides E*, which follows, the
-    /// [approach](Solution::approach) depends on it.
+    /// [approach](crate::Solution::approach) depends on it.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -207,7 +207,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { search: Some(strategy), ..self }
     }
 
-    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`]
+    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
     /// that has solved with another takes up this one.
     #[must_use]
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
@@ -236,7 +236,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { gap: self.gap.with_watch(watch), ..self }
     }
 
-    /// If true, `solve` also runs [`Solution::certify`], and fails with its errors. Default: false, since the
+    /// If true, `solve` also runs [`Solution::certify`](crate::Solution::certify), and fails with its errors. Default: false, since the
     /// certificate samples all of the bodies, which takes far longer than the contact itself.
     #[must_use]
     pub fn certified(self, certified: bool) -> Self {
@@ -282,7 +282,7 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of
     /// the equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is
-    /// what solves them, and [`Outcome::Unchecked`]. Between two corners any load will do, one that
+    /// what solves them, and [`Outcome::Unchecked`](crate::Outcome::Unchecked). Between two corners any load will do, one that
     /// pulls too. Default: no; then the contact of the bodies is found, in one interval or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {

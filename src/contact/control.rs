@@ -3,7 +3,7 @@
 use crate::solution::References;
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
-/// ([`Solution::load`]).
+/// ([`Solution::load`](crate::Solution::load)).
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -31,8 +31,8 @@ pub enum Control<T> {
     HalfWidth(T),
     /// The largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded: a pressure.
     PeakPressure(T),
-    /// How far the bodies come together, from where they just touch: the [approach](Solution::approach)
-    /// `Approach::bodies`, to given references. The bodies' [materials](Contact::materials) must be known, and the
+    /// How far the bodies come together, from where they just touch: the [approach](crate::Solution::approach)
+    /// `Approach::bodies`, to given references. The bodies' [materials](crate::Contact::materials) must be known, and the
     /// approach must grow with the load.
     Approach {
         /// δ: a length, positive.
@@ -41,7 +41,7 @@ pub enum Control<T> {
         references: References<T>,
     },
     /// A load, and the moment of the pressures about a given place. The bodies turn until it is that: by
-    /// [`Solution::tilt`].
+    /// [`Solution::tilt`](crate::Solution::tilt).
     ///
     /// Body 2 may turn freely, as one that is held by a hinge; what is turned is the gap, so that it does
     /// not matter which body turns, nor about which point. The load must be positive, and the moment such

@@ -2,9 +2,9 @@
 //! their corners.
 
 use super::SignoriniCheck;
-use crate::solve::exterior_field::ExteriorField;
 use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
 use crate::quadrature::panels::{self, Rises};
+use crate::solve::exterior_field::ExteriorField;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The share of the load that the series of its pressures may leave open before more of them are

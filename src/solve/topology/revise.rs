@@ -228,7 +228,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         for _ in 0..panels::MOST_MISSED {
             match &found {
                 Ok(state) if self.misses(state)? => {
-                    found = self.converge_once(conditions, corners)?
+                    found = self.converge_once(conditions, corners)?;
                 }
                 _ => break,
             }
