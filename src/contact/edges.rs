@@ -140,20 +140,29 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The load under which the edges that are not fixed are as they should be, on an average;
+    /// Returns the only edge that is not fixed.
+    pub fn only_free(&self) -> Option<Side> {
+        match self.limits() {
+            Ends { left: Some(_), right: None } => Some(Side::Right),
+            Ends { left: None, right: Some(_) } => Some(Side::Left),
+            _ => None,
+        }
+    }
+
+    /// Returns the load under which the edges that are not fixed are as they should be, on an average;
     /// `None` if both are fixed.
     pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
         let half_width = on.half_width();
-        let (mut sum, mut count) = (T::zero(), 0);
-        let (limits, pulls) = (self.limits(), self.edge_strengths(half_width));
-        for (side, sign) in [(Side::Left, -T::one()), (Side::Right, T::one())] {
-            if limits[side].is_none() {
-                let pull = pulls[side];
-                sum += self.kappa * half_width * (m.m1 + sign * m.m0) - pull - pull;
-                count += 1;
-            }
+        let pulls = self.edge_strengths(half_width);
+        let bears = |side| {
+            let sum = if side == Side::Left { m.m1 - m.m0 } else { m.m1 + m.m0 };
+            self.kappa * half_width * sum - pulls[side] - pulls[side]
+        };
+        match self.only_free() {
+            Some(side) => Some(bears(side)),
+            None if !self.edges.are_sought() => None,
+            None => Some(T::of(0.5) * (bears(Side::Left) + bears(Side::Right))),
         }
-        (count > 0).then(|| sum / T::count(count))
     }
 
     /// The interval, with those limits that are given.

@@ -4,7 +4,7 @@ use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Integrator, LoadCase, Moments, complete};
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// The conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
@@ -134,86 +134,95 @@ impl<T: Real> Equations<T> {
         integrator: &mut dyn Integrator<T>,
         cost: &mut Cost,
     ) -> Result<Residual<T>, ContactError<T>> {
-        let two = T::of(2.0);
         match *self {
-            // π L K at each edge: forces, which stay finite as the contact shrinks.
             Self::Strength { conditions, load } => {
                 let m = integrator.moments(gap, on)?;
-                let stiffness = conditions.kappa * on.half_width();
-                let rounding = rounding(on);
-                let carried = stiffness * m.m1;
-                let balance = stiffness * m.m0;
-                let pull = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
-                let half = T::of(0.5);
-                // Beside a corner the two may cancel, and little load be left.
-                let both = m.m1.abs() + m.m0.abs();
-                // Only the free edges count.
-                let (at_a, at_b, needed, borne, sum) = match self.limits() {
-                    Ends { left: Some(_), right: None } => {
-                        let (needed, borne) = (load + pull.right, carried + balance);
-                        (needed - borne, needed - borne, needed, borne, both)
-                    }
-                    Ends { left: None, right: Some(_) } => {
-                        let (needed, borne) = (load + pull.left, carried - balance);
-                        (needed - borne, needed - borne, needed, borne, both)
-                    }
-                    _ => {
-                        let (at_a, at_b) =
-                            (load + pull.right - carried, load + pull.left - carried);
-                        let needed = load + half * (pull.left + pull.right);
-                        (at_a - balance, at_b + balance, needed, carried, m.m1.abs())
-                    }
-                };
-                let ratio = needed / borne;
-                let least = T::epsilon().powi(5);
-                let growth = if !(borne > T::zero() && needed > T::zero()) {
-                    two
-                } else if ratio > least && ratio < least.recip() {
-                    ratio.sqrt()
-                } else {
-                    // By roots, so as not to underflow.
-                    needed.sqrt() / borne.sqrt()
-                };
-                Ok(Residual {
-                    at_a,
-                    at_b,
-                    // The estimated error errs on the safe side.
-                    floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.l1_norm),
-                    carried: Some(borne),
-                    size: stiffness * sum,
-                    growth,
-                    error: relative_error(on, &m, sum),
-                })
+                Ok(Residual::of_strengths(&conditions, load, on, &m))
             }
-            // Likewise π sqrt((x + b)(a - x)) (P - A): a narrow contact is in balance where it is
-            // in the middle, however unlike the two distances are.
             Self::Pressure { kappa, load, wanted } => {
-                let [x_b, x_a] = wanted.places(on);
-                for (name, value, x, end) in [
-                    ("ε_a", wanted.distance_a, x_a, on.right),
-                    ("ε_b", wanted.distance_b, x_b, on.left),
-                ] {
-                    if x == end {
-                        return Err(ContactError::InvalidEdgePressure { name, value });
-                    }
-                }
-                integrator.prepare(gap, on)?;
-                complete(integrator, gap, on, cost)?;
-                let load_case = LoadCase { kappa, load, free: Ends::both(false) };
-                let mut error = T::zero();
-                let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
-                    let estimate = integrator.estimate(gap, &load_case, x, cost)?;
-                    let root = T::pi() * on.chebyshev_weight(x);
-                    error += root * estimate.error / load;
-                    Ok(root * (estimate.value - pressure))
-                };
-                let (at_a, at_b) = (residual(x_a, wanted.at_a)?, residual(x_b, wanted.at_b)?);
-                let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
-                let tolerance = |x, tolerance| T::pi() * on.chebyshev_weight(x) * tolerance;
-                let tolerance_a = tolerance(x_a, wanted.tolerance_a);
-                let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
-                Ok(Residual { at_a, at_b, floor, carried: None, size: load, growth, error })
+                of_pressures(kappa, load, wanted, gap, on, integrator, cost)
             }
         }
     }
+}
+
+impl<T: Real> Residual<T> {
+    /// Returns `π L K` at each edge: forces, which stay finite as the contact shrinks.
+    fn of_strengths(conditions: &Conditions<T>, load: T, on: Interval<T>, m: &Moments<T>) -> Self {
+        let (half, rounding) = (T::of(0.5), rounding(on));
+        let stiffness = conditions.kappa * on.half_width();
+        let [carried, balance] = [stiffness * m.m1, stiffness * m.m0];
+        let pulls = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
+        let needed = pulls.map(|pull| load + pull);
+        // Beside a corner, where the free edge alone counts, the two moments may cancel, and little load be left.
+        let (missing, needed, borne, sum) = match conditions.only_free() {
+            Some(side) => {
+                let borne = if side == Side::Left { carried - balance } else { carried + balance };
+                let sum = m.m1.abs() + m.m0.abs();
+                (Ends::both(needed[side] - borne), needed[side], borne, sum)
+            }
+            None => {
+                let missing = needed.map(|needed| needed - carried);
+                let missing = Ends { left: missing.left + balance, right: missing.right - balance };
+                (missing, load + half * (pulls.left + pulls.right), carried, m.m1.abs())
+            }
+        };
+        let ratio = needed / borne;
+        let least = T::epsilon().powi(5);
+        let growth = if !(borne > T::zero() && needed > T::zero()) {
+            T::of(2.0)
+        } else if ratio > least && ratio < least.recip() {
+            ratio.sqrt()
+        } else {
+            // By roots, so as not to underflow.
+            needed.sqrt() / borne.sqrt()
+        };
+        Self {
+            at_a: missing.right,
+            at_b: missing.left,
+            // The estimated error errs on the safe side.
+            floor: stiffness * (T::of(0.25) * m.error).max(rounding * m.l1_norm),
+            carried: Some(borne),
+            size: stiffness * sum,
+            growth,
+            error: relative_error(on, m, sum),
+        }
+    }
+}
+
+/// Returns `π sqrt((x + b)(a - x)) (P - A)` at both places: a narrow contact is in balance where it is in the middle,
+/// however unlike the two distances are.
+fn of_pressures<T: Real>(
+    kappa: T,
+    load: T,
+    wanted: EdgePressure<T>,
+    gap: &Gap<'_, T>,
+    on: Interval<T>,
+    integrator: &mut dyn Integrator<T>,
+    cost: &mut Cost,
+) -> Result<Residual<T>, ContactError<T>> {
+    let (two, [x_b, x_a]) = (T::of(2.0), wanted.places(on));
+    for (name, value, x, end) in
+        [("ε_a", wanted.distance_a, x_a, on.right), ("ε_b", wanted.distance_b, x_b, on.left)]
+    {
+        if x == end {
+            return Err(ContactError::InvalidEdgePressure { name, value });
+        }
+    }
+    integrator.prepare(gap, on)?;
+    complete(integrator, gap, on, cost)?;
+    let load_case = LoadCase { kappa, load, free: Ends::both(false) };
+    let mut error = T::zero();
+    let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
+        let estimate = integrator.estimate(gap, &load_case, x, cost)?;
+        let root = T::pi() * on.chebyshev_weight(x);
+        error += root * estimate.error / load;
+        Ok(root * (estimate.value - pressure))
+    };
+    let (at_a, at_b) = (residual(x_a, wanted.at_a)?, residual(x_b, wanted.at_b)?);
+    let growth = if at_a + at_b > T::zero() { two } else { two.recip() };
+    let tolerance = |x, tolerance| T::pi() * on.chebyshev_weight(x) * tolerance;
+    let tolerance_a = tolerance(x_a, wanted.tolerance_a);
+    let floor = T::of(0.5) * tolerance_a.min(tolerance(x_b, wanted.tolerance_b));
+    Ok(Residual { at_a, at_b, floor, carried: None, size: load, growth, error })
 }

@@ -1,7 +1,7 @@
 //! The contact under a load that acts at a given place: the bodies turn until it does.
 //!
-//! The tilt is one more unknown of every search: [eliminated](super::newton_single) of one interval, with all
-//! limits of [several](super::newton_several), and with the forces of the [active set](super::active_set). A change
+//! The tilt is one more unknown of every search: [eliminated](super::newton::single) of one interval, with all
+//! limits of [several](super::newton::several), and with the forces of the [active set](super::active_set). A change
 //! of the tilt samples nothing.
 
 use super::edges::{Conditions, Given};

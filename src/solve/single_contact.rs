@@ -14,7 +14,9 @@ use super::edges::{Conditions, Edge, Given};
 use super::equations::{Equations, relative_error};
 use super::first_contact::first_contact;
 use super::nested;
-use super::newton_single::{self, Converged, Effort, Outcome, load_of};
+use super::newton::Stop;
+use super::newton::linearised::load_of;
+use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use crate::gap::{Cost, Sampler, Survey};
 use crate::quadrature::{Integrator, panels};
 use crate::solution::ContactState;
@@ -259,7 +261,7 @@ impl<T: Real> Single<'_, '_, T> {
                     converged.on.half_width() >= T::of(0.3) * covered.half_width()
                 };
                 if let Some(converged) =
-                    known(self.converge(last, Effort::Full).map(Outcome::converged))?.filter(wide)
+                    known(self.converge(last, Effort::Full).map(Result::ok))?.filter(wide)
                 {
                     return Ok(Some(converged));
                 }
@@ -286,7 +288,7 @@ impl<T: Real> Single<'_, '_, T> {
         &mut self,
         from: Interval<T>,
         effort: Effort,
-    ) -> Result<Outcome<T>, ContactError<T>> {
+    ) -> Result<Verdict<T>, ContactError<T>> {
         let most_at_end = match (effort, self.bears) {
             (Effort::Guess, _) => MOST_AT_END[0],
             (Effort::Full, Some(Some(_))) => usize::MAX,
@@ -294,13 +296,15 @@ impl<T: Real> Single<'_, '_, T> {
         };
         let (gap, conditions) = (&self.contact.gap, self.conditions);
         let find = |integrator: &mut dyn Integrator<T>, most_at_end| {
-            newton_single::converge(integrator, gap, &conditions, from, effort, most_at_end)
+            let conditions = &conditions;
+            NewtonSingle { integrator, gap, conditions, effort, most_at_end }.converge(from)
         };
-        let mut outcome = find(self.integrator, most_at_end)?;
-        if effort == Effort::Full && matches!(outcome, Outcome::AtEnd(_)) && self.may_bear()? {
-            outcome = find(self.integrator, usize::MAX)?;
+        let verdict = find(self.integrator, most_at_end)?;
+        let is_at_end = matches!(verdict, Err(Stop::Beyond { .. }));
+        if effort == Effort::Full && is_at_end && self.may_bear()? {
+            return find(self.integrator, usize::MAX);
         }
-        Ok(outcome)
+        Ok(verdict)
     }
 
     /// By one limit at a time.
@@ -380,7 +384,7 @@ impl<T: Real> Single<'_, '_, T> {
             if self.integrator.sample_over(gap, span, false)?.is_none() {
                 return Ok(None);
             }
-            let Some(converged) = self.converge(guess, Effort::Full)?.converged() else {
+            let Ok(converged) = self.converge(guess, Effort::Full)? else {
                 return Ok(None);
             };
             // Panels much wider than the contact are not as good as they look.
@@ -412,8 +416,8 @@ impl<T: Real> Single<'_, '_, T> {
             };
             let begin = on.unwrap_or(span);
             let (guess, error) = match self.converge(begin, Effort::Guess)? {
-                Outcome::Converged(Converged { on, error, .. }) => (on, error),
-                Outcome::AtEnd(reached) => {
+                Ok(Converged { on, error, .. }) => (on, error),
+                Err(Stop::Beyond { reached, .. }) => {
                     let before = std::mem::replace(&mut span, self.up_to_corners(reached.plain()));
                     at_end += 1;
                     if span.is_same(&before) || at_end == MOST_GUESSES_AT_END && !self.may_bear()? {
@@ -422,7 +426,7 @@ impl<T: Real> Single<'_, '_, T> {
                     on = None;
                     continue;
                 }
-                Outcome::LeftBracket => return Ok(None),
+                Err(_) => return Ok(None),
             };
             let guess = guess.plain();
             on = Some(guess);

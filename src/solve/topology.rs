@@ -3,7 +3,7 @@
 //! A contact is sought as one interval first, from where it was, or from the lowest gap; several valleys of the gap are
 //! several contacts at once. What is found is [checked](check): corners press, nothing pulls inside, nothing overlaps
 //! outside. What a search or a check says [revises](revise) the set of contacts, from which [all
-//! limits](super::newton_several) are sought anew; where it says too little a coarse [active
+//! limits](super::newton::several) are sought anew; where it says too little a coarse [active
 //! set](super::active_set) tells about where the contacts are. A search that leads to an end of the bodies asks what
 //! they [bear](bears). Without adhesion a contact problem has one solution: what passes the checks is it, whatever
 //! the way there.

@@ -14,7 +14,8 @@
 
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::capacity::capacity;
-use super::super::newton_several::{Besides, SeveralOutcome};
+use super::super::newton::Stop;
+use super::super::newton::several::{self, Besides, outermost, put};
 use super::{Conditions, Edge, FIRST_CELLS, Given, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
@@ -36,7 +37,7 @@ enum Trial<T: Real> {
     /// The check has failed.
     Fails(ContactError<T>),
     /// The search has ended without limits.
-    Stops(SeveralOutcome),
+    Stops(Stop<T>),
     /// The search for the only contact has failed.
     NotFound(ContactError<T>),
 }
@@ -132,10 +133,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Revises the contacts by the way in which the search for their limits has ended. Returns the outcome, and the next
     /// start.
-    fn revise(&mut self, stop: SeveralOutcome, start: Start) -> (Outcome, Start) {
+    fn revise(&mut self, stop: Stop<T>, start: Start) -> (Outcome, Start) {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
-        if let SeveralOutcome::Closed(i) = stop
+        if let Stop::Closed(i) = stop
             && newton.is_nothing(i)
         {
             self.closed.push(newton.closed_gap(i));
@@ -144,25 +145,25 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // Where the search has led without an end says little.
         on.clone_from(before);
         let outcome = match stop {
-            SeveralOutcome::Closed(i) => {
+            Stop::Closed(i) => {
                 on[i].right = on.remove(i + 1).right;
                 Outcome::Merged
             }
-            SeveralOutcome::Lost(i) if on.len() > 1 => {
+            Stop::Lost(i) if on.len() > 1 => {
                 on.remove(i);
                 Outcome::Lost
             }
-            SeveralOutcome::Beyond(side) if at_corner[side] => {
+            Stop::Beyond { side, .. } if at_corner[side] => {
                 put(on, side, ends[side]);
                 Outcome::ReachedCorner
             }
             // This end is reached under less.
-            SeveralOutcome::Beyond(side) if self.end.is_some() => {
+            Stop::Beyond { side, .. } if self.end.is_some() => {
                 self.end = Some(side);
                 Outcome::ReachedCorner
             }
             _ => {
-                if let SeveralOutcome::Beyond(side) = stop {
+                if let Stop::Beyond { side, .. } = stop {
                     self.runs_out = Some(side);
                 }
                 // Where contacts were mended cells are to look; of others nothing is to be learnt.
@@ -217,7 +218,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn converge(
         &mut self,
         conditions: &Conditions<T>,
-    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
         let ends = self.contact.ends();
         let (at_corner, on) = (self.corners(), &self.work.workspace.newton.on);
         let corners = Ends {
@@ -240,7 +241,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
         corners: Ends<bool>,
-    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
         if let [on] = self.work.workspace.newton.on[..] {
             return self.one_of_set(conditions, on);
         }
@@ -253,19 +254,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         let Some(several) = panels::several_mut(*integrator) else {
-            return Ok(Err(SeveralOutcome::Failed));
+            return Ok(Err(Stop::Failed));
         };
         let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
         let load = conditions.load() / conditions.kappa;
-        let outcome = newton.converge(several, &contact.gap, load, corners, ends, besides)?;
-        if outcome != SeveralOutcome::Found {
-            return Ok(Err(outcome));
+        let sought = several::Conditions { gap: &contact.gap, load, corners, ends, besides };
+        if let Err(stop) = newton.converge(several, &sought)? {
+            return Ok(Err(stop));
         }
         let load = match self.end {
             Some(_) => newton.load * conditions.kappa,
             None => conditions.load(),
         };
-        let found = newton.found(several, conditions.kappa, load, corners, ends);
+        let found = newton.found(several, conditions.kappa, load, &sought);
         // A corner that pulls does not hold the contact.
         let pulls = |&side: &Side| corners[side] && found.strengths[side] < T::zero();
         let lets_go = |&side: &Side| matches!(conditions.edges[side], Edge::FreeUntil(_));
@@ -285,7 +286,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
         on: Interval<T>,
-    ) -> Result<Result<ContactState<T>, SeveralOutcome>, ContactError<T>> {
+    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
         let (contact, ends) = (self.contact, self.contact.ends());
         let (mut start, mut conditions) = (on, *conditions);
         if self.end.is_some() {
@@ -299,7 +300,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     break;
                 }
             }
-            let Some(widest) = widest else { return Ok(Err(SeveralOutcome::Failed)) };
+            let Some(widest) = widest else { return Ok(Err(Stop::Failed)) };
             start = widest.on;
             conditions.given = Given::HalfWidth(widest.on.half_width());
         }
@@ -366,19 +367,5 @@ impl<T: Real> Search<'_, '_, '_, T> {
     pub(super) fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
         let at_corner = self.corners();
         Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !at_corner[side])
-    }
-}
-
-fn outermost<T: Real>(on: &mut [Interval<T>], side: Side) -> &mut Interval<T> {
-    let last = on.len() - 1;
-    &mut on[if side == Side::Left { 0 } else { last }]
-}
-
-/// Puts an outermost limit at a place.
-fn put<T: Real>(on: &mut [Interval<T>], side: Side, x: T) {
-    let on = outermost(on, side);
-    match side {
-        Side::Left => on.left = x,
-        Side::Right => on.right = x,
     }
 }

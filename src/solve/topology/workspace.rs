@@ -1,7 +1,7 @@
 //! The state that a search keeps from one solve to the next.
 
 use super::super::exterior_field::ExteriorField;
-use super::super::newton_several::NewtonSeveral;
+use super::super::newton::several::NewtonSeveral;
 use super::super::signorini_check::{Overlaps, Passed, TensionSpans};
 use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::solution::Report;

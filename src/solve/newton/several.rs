@@ -5,7 +5,8 @@
 //! of the bodies no longer tell where it is, is one that closes; a contact that does so is one that the bodies do not
 //! have: the caller starts again without it.
 
-use super::single_contact::MOST_DOUBT;
+use super::super::single_contact::MOST_DOUBT;
+use super::{Progress, Stop};
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
@@ -26,22 +27,9 @@ const MOST_GROWTH: f64 = 4.0;
 /// contact where the bodies have just met, may be as narrow as rounding.
 const MOST_CUT: i32 = 12;
 
-/// How Newton's method ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum SeveralOutcome {
-    Found,
-    /// The gap after this contact closes.
-    Closed(usize),
-    /// This contact vanishes.
-    Lost(usize),
-    /// A limit reaches beyond an end of the bodies.
-    Beyond(Side),
-    Failed,
-}
-
 /// What is sought besides the limits.
 #[derive(Clone, Copy)]
-pub(super) enum Besides<T> {
+pub(in super::super) enum Besides<T> {
     /// The tilt under which the load acts at this place.
     Tilt(T),
     /// The load under which the outermost limit is at an end of the bodies.
@@ -51,11 +39,41 @@ pub(super) enum Besides<T> {
 /// A gap of so many units of rounding of x is nothing.
 const NOTHING: f64 = 64.0;
 
-/// What cuts a step short: a contact (even) or a gap (odd), by twice its number.
-type CutWidth = usize;
+/// A contact (even) or a gap (odd), by twice its number.
+type Width = usize;
+
+/// What cuts a step short.
+#[derive(Clone, Copy, PartialEq)]
+enum Cut {
+    Width(Width),
+    End(Side),
+}
+
+/// The conditions that several contacts have to meet.
+#[derive(Clone, Copy)]
+pub(in super::super) struct Conditions<'s, 'b, T: Real> {
+    pub gap: &'s Gap<'b, T>,
+    /// F/κ.
+    pub load: T,
+    /// The sides at which a corner holds the contacts.
+    pub corners: Ends<bool>,
+    /// The ends of the bodies.
+    pub ends: Ends<T>,
+    pub besides: Option<Besides<T>>,
+}
+
+impl<T: Real> Conditions<'_, '_, T> {
+    /// Returns the end that the outermost limit is put at while the load under which it is there is sought.
+    fn end(&self) -> Option<Side> {
+        match self.besides {
+            Some(Besides::Load(side)) => Some(side),
+            _ => None,
+        }
+    }
+}
 
 #[derive(Clone)]
-pub(super) struct NewtonSeveral<T> {
+pub(in super::super) struct NewtonSeveral<T> {
     /// By how much body 2 is turned.
     pub tilt: T,
     /// What the contacts bear: F/κ.
@@ -64,7 +82,11 @@ pub(super) struct NewtonSeveral<T> {
     pub on: Vec<Interval<T>>,
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
     pub errors: Vec<T>,
-    pub steps: usize,
+    /// The outermost limits that stay where they are.
+    held: Ends<bool>,
+    progress: Progress<T>,
+    /// What cut the last step short, and how often in a row.
+    cut: Option<(Cut, i32)>,
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
@@ -79,166 +101,201 @@ pub(super) struct NewtonSeveral<T> {
 
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
+        let (held, progress, cut) = (Ends::both(false), Progress::new(), None);
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
-        let steps = 0;
-        let order = Vec::new();
-        Self { tilt, load, on, errors, steps, system, linear, step, moves, order, unit, open }
+        let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
+        Self {
+            tilt,
+            load,
+            on,
+            errors,
+            held,
+            progress,
+            cut,
+            system,
+            linear,
+            step,
+            moves,
+            order,
+            unit,
+            open,
+        }
     }
 
-    /// Moves the contacts until they bear a load, that is F/κ; and turns the bodies until it acts at a place,
-    /// or changes the load until an outermost limit is where it has been put, at an end of the bodies.
+    /// Moves the contacts until they bear a load; and turns the bodies until it acts at a place, or changes the load
+    /// until an outermost limit is where it has been put, at an end of the bodies.
     pub fn converge(
         &mut self,
         several: &mut Several<T>,
-        gap: &Gap<'_, T>,
-        load: T,
-        corners: Ends<bool>,
-        ends: Ends<T>,
-        besides: Option<Besides<T>>,
-    ) -> Result<SeveralOutcome, ContactError<T>> {
+        conditions: &Conditions<'_, '_, T>,
+    ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
         self.errors.clear();
-        self.load = load;
-        if !matches!(besides, Some(Besides::Tilt(_))) {
-            self.tilt = gap.tilt();
+        self.load = conditions.load;
+        if !matches!(conditions.besides, Some(Besides::Tilt(_))) {
+            self.tilt = conditions.gap.tilt();
         }
-        // The limits that stay where they are.
-        let mut held = corners;
-        if let Some(Besides::Load(side)) = besides {
-            held[side] = true;
+        self.held = conditions.corners;
+        if let Some(side) = conditions.end() {
+            self.held[side] = true;
         }
-        let mut turned = gap.tilted(self.tilt);
-        let (one, half) = (T::one(), T::of(0.5));
-        let mut before: Option<T> = None;
-        let mut cut: Option<(CutWidth, i32)> = None;
-        let mut more_steps = None;
+        (self.progress, self.cut) = (Progress::new(), None);
+        let mut turned = conditions.gap.tilted(self.tilt);
         for _ in 0..MOST_STEPS {
-            self.steps += 1;
-            // Between two contacts at a concave kink the gap falls exponentially with the load.
-            if let Some(i) = (0..self.on.len() - 1).find(|&i| self.is_nothing(i)) {
-                return Ok(SeveralOutcome::Closed(i));
+            if let Err(stop) = self.assemble(several, &turned, conditions)? {
+                return Ok(Err(stop));
             }
-            several.set(&turned, &self.on, corners, ends)?;
-            several.system(self.load, &mut self.system);
-            match besides {
-                Some(Besides::Tilt(at)) => several.turning(load, at, &mut self.system),
-                Some(Besides::Load(side)) => several.by_load(side, &mut self.system),
-                None => {}
-            }
-            if let Some(i) = self.system.lost {
-                return Ok(SeveralOutcome::Closed(i));
-            }
-            if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
-                return Ok(SeveralOutcome::Failed);
-            }
-            self.linear.solve(&self.system.residual, &mut self.step);
-            self.set_moves(held);
-            let place = if more_steps.is_none() { self.too_far(held, cut) } else { None };
+            let narrowed = self.too_far();
             if !self.step.iter().all(|step| step.is_finite()) {
-                return Ok(SeveralOutcome::Failed);
+                break;
             }
-            match (besides, self.step.last()) {
-                (Some(Besides::Tilt(_)), Some(&step)) => {
-                    self.tilt -= step;
-                    turned = turned.tilted(self.tilt);
+            self.turn(&mut turned, conditions.besides);
+            let size = self.size();
+            match self.limit(narrowed, conditions) {
+                Ok(true) => continue,
+                Ok(false) => {}
+                Err(stop) => return Ok(Err(stop)),
+            }
+            if self.accept(size) {
+                if let Some(i) = self.closed() {
+                    return Ok(Err(Stop::Closed(i)));
                 }
-                (Some(Besides::Load(_)), Some(&step)) => self.load -= step,
-                _ => {}
-            }
-            // For the derivatives of dual numbers, beyond the convergence of the value.
-            if let Some(left) = &mut more_steps {
-                self.advance(held, None);
-                *left -= 1;
-                if *left == 0 {
-                    several.set(&turned, &self.on, corners, ends)?;
-                    several.press();
-                    return Ok(SeveralOutcome::Found);
+                for _ in 0..T::DERIVATIVE_ORDER {
+                    if let Err(stop) = self.assemble(several, &turned, conditions)? {
+                        return Ok(Err(stop));
+                    }
+                    self.turn(&mut turned, conditions.besides);
+                    self.advance();
                 }
-                continue;
+                several.set(&turned, &self.on, conditions.corners, conditions.ends)?;
+                several.press();
+                return Ok(Ok(()));
             }
-            let size = self.size(held);
-            let last = self.on.len() - 1;
-            let hull = Interval { left: self.on[0].left, right: self.on[last].right };
-            self.advance(held, cut);
-            // Where one load reaches both ends, one of them is passed by rounding.
-            if let Some(Besides::Load(_)) = besides {
-                let nothing = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
-                if self.on[0].left >= ends.left - nothing {
-                    self.on[0].left = self.on[0].left.max(ends.left);
-                }
-                if self.on[last].right <= ends.right + nothing {
-                    self.on[last].right = self.on[last].right.min(ends.right);
-                }
-            }
-            let next = Interval { left: self.on[0].left, right: self.on[last].right };
-            let (beyond_left, beyond_right) = (next.left < ends.left, next.right > ends.right);
-            if beyond_left {
-                self.on[0].left = half * hull.left + half * ends.left;
-            }
-            if beyond_right {
-                self.on[last].right = half * hull.right + half * ends.right;
-            }
-            // Nothing is left of a contact that was cut short time and again.
-            if let Some(i) = place.filter(|place| place % 2 == 0).map(|place| place / 2)
-                && self.on[i].left >= self.on[i].right
-            {
-                return Ok(SeveralOutcome::Lost(i));
-            }
-            // A contact may have left the bodies as a whole.
-            let ordered = |pair: [T; 2]| pair[0] < pair[1];
-            if !self.on.iter().all(|on| ordered([on.left, on.right]))
-                || !self.on.windows(2).all(|pair| ordered([pair[0].right, pair[1].left]))
-            {
-                return Ok(SeveralOutcome::Failed);
-            }
-            if place.is_some() || beyond_left || beyond_right {
-                let place = place.unwrap_or(if beyond_left { usize::MAX - 1 } else { usize::MAX });
-                let times = cut.filter(|&(at, _)| at == place).map_or(0, |(_, times)| times) + 1;
-                cut = Some((place, times));
-                if times > MOST_CUT {
-                    return Ok(match place {
-                        usize::MAX => SeveralOutcome::Beyond(Side::Right),
-                        place if place == usize::MAX - 1 => SeveralOutcome::Beyond(Side::Left),
-                        place if place % 2 == 0 => SeveralOutcome::Lost(place / 2),
-                        place => SeveralOutcome::Closed(place / 2),
-                    });
-                }
-                before = None;
-                continue;
-            }
-            cut = None;
-            let ratio = before.map_or(one, |before| size / before);
-            let done = size <= T::of(0.25) && ratio * ratio * size <= half * T::epsilon();
-            // Rounding keeps the steps from falling any further.
-            let stalled = ratio >= T::of(0.25);
-            let small = size <= T::epsilon().sqrt() || self.is_small();
-            if done || stalled && small {
-                self.estimate(held);
-            }
-            if done || stalled && small && (size <= T::epsilon().sqrt() || self.is_all_doubt()) {
-                if let Some(i) = (0..last).find(|&i| self.is_nothing(i)) {
-                    return Ok(SeveralOutcome::Closed(i));
-                }
-                if stalled {
-                    let left =
-                        self.moves.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
-                    let add = |(error, (step, half_width)): (&mut T, (&T, T))| {
-                        *error += step.abs() / half_width;
-                    };
-                    self.errors.iter_mut().zip(left).for_each(add);
-                }
-                if T::DERIVATIVE_ORDER == 0 {
-                    several.set(&turned, &self.on, corners, ends)?;
-                    several.press();
-                    return Ok(SeveralOutcome::Found);
-                }
-                more_steps = Some(T::DERIVATIVE_ORDER);
-            }
-            // A long step tells nothing of the next.
-            before = Some(size).filter(|&size| size <= half * half);
         }
-        Ok(SeveralOutcome::Failed)
+        Ok(Err(Stop::Failed))
+    }
+
+    /// States the equations of the contacts at hand, and solves them for the step.
+    fn assemble(
+        &mut self,
+        several: &mut Several<T>,
+        turned: &Gap<'_, T>,
+        conditions: &Conditions<'_, '_, T>,
+    ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
+        // Between two contacts at a concave kink the gap falls exponentially with the load.
+        if let Some(i) = self.closed() {
+            return Ok(Err(Stop::Closed(i)));
+        }
+        several.set(turned, &self.on, conditions.corners, conditions.ends)?;
+        several.system(self.load, &mut self.system);
+        match conditions.besides {
+            Some(Besides::Tilt(at)) => several.turning(conditions.load, at, &mut self.system),
+            Some(Besides::Load(side)) => several.by_load(side, &mut self.system),
+            None => {}
+        }
+        if let Some(i) = self.system.lost {
+            return Ok(Err(Stop::Closed(i)));
+        }
+        if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
+            return Ok(Err(Stop::Failed));
+        }
+        self.linear.solve(&self.system.residual, &mut self.step);
+        self.set_moves();
+        Ok(Ok(()))
+    }
+
+    /// Takes the step of the tilt, or of the load, where that is sought.
+    fn turn(&mut self, turned: &mut Gap<'_, T>, besides: Option<Besides<T>>) {
+        match (besides, self.step.last()) {
+            (Some(Besides::Tilt(_)), Some(&step)) => {
+                self.tilt -= step;
+                *turned = turned.tilted(self.tilt);
+            }
+            (Some(Besides::Load(_)), Some(&step)) => self.load -= step,
+            _ => {}
+        }
+    }
+
+    /// Takes the step of the limits, cut short where a width would be lost or an end passed; tells whether it was.
+    fn limit(
+        &mut self,
+        narrowed: Option<Width>,
+        conditions: &Conditions<'_, '_, T>,
+    ) -> Result<bool, Stop<T>> {
+        let (hull, ends) = (self.hull(), conditions.ends);
+        self.advance();
+        let mut cut = narrowed.map(Cut::Width);
+        // Where one load reaches both ends, one of them is passed by rounding.
+        let rounding = match conditions.end() {
+            Some(_) => T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width(),
+            None => T::zero(),
+        };
+        for (side, outward) in [(Side::Left, -T::one()), (Side::Right, T::one())] {
+            let beyond = (self.hull()[side] - ends[side]) * outward;
+            if beyond > rounding {
+                cut = cut.or(Some(Cut::End(side)));
+                put(&mut self.on, side, T::of(0.5) * hull[side] + T::of(0.5) * ends[side]);
+            } else if beyond > T::zero() {
+                put(&mut self.on, side, ends[side]);
+            }
+        }
+        if let Some(i) = narrowed.filter(|i| i % 2 == 0).map(|i| i / 2)
+            && self.on[i].left >= self.on[i].right
+        {
+            // Nothing is left of a contact that was cut short time and again.
+            return Err(Stop::Lost(i));
+        }
+        // A contact may have left the bodies as a whole.
+        if !(self.on.iter().all(|on| on.left < on.right)
+            && self.on.windows(2).all(|pair| pair[0].right < pair[1].left))
+        {
+            return Err(Stop::Failed);
+        }
+        let Some(cut) = cut else {
+            self.cut = None;
+            return Ok(false);
+        };
+        let times = self.cut.filter(|&(last, _)| last == cut).map_or(0, |(_, times)| times) + 1;
+        self.cut = Some((cut, times));
+        self.progress.forget();
+        match cut {
+            _ if times <= MOST_CUT => Ok(true),
+            Cut::End(side) => Err(Stop::Beyond { side, reached: self.hull() }),
+            Cut::Width(i) if i % 2 == 0 => Err(Stop::Lost(i / 2)),
+            Cut::Width(i) => Err(Stop::Closed(i / 2)),
+        }
+    }
+
+    /// Tells whether the last step, of this size, was short enough, or as short as rounding lets it be.
+    fn accept(&mut self, size: T) -> bool {
+        let judged = self.progress.judge([size, T::zero()]);
+        let is_short = size <= T::epsilon().sqrt();
+        let is_stalled = judged.is_stalled && (is_short || self.is_small());
+        if judged.is_done || is_stalled {
+            self.estimate();
+        }
+        if judged.is_done || is_stalled && (is_short || self.is_all_doubt()) {
+            if judged.is_stalled {
+                let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
+                let left = self.moves.iter().zip(half_widths);
+                for (error, (step, half_width)) in self.errors.iter_mut().zip(left) {
+                    *error += step.abs() / half_width;
+                }
+            }
+            return true;
+        }
+        self.progress.note([size, T::zero()]);
+        false
+    }
+
+    /// Returns the first gap that is as narrow as rounding.
+    fn closed(&self) -> Option<usize> {
+        (0..self.on.len() - 1).find(|&i| self.is_nothing(i))
+    }
+
+    /// Returns the interval from the first of the contacts to the last.
+    fn hull(&self) -> Interval<T> {
+        Interval { left: self.on[0].left, right: self.on[self.on.len() - 1].right }
     }
 
     /// What was found.
@@ -247,8 +304,7 @@ impl<T: Real> NewtonSeveral<T> {
         several: &Several<T>,
         kappa: T,
         load: T,
-        corners: Ends<bool>,
-        ends: Ends<T>,
+        conditions: &Conditions<'_, '_, T>,
     ) -> ContactState<T> {
         let on = &self.on;
         // The load goes about with the square of a width.
@@ -259,37 +315,37 @@ impl<T: Real> NewtonSeveral<T> {
             all += square;
         }
         ContactState {
-            interval: Interval { left: on[0].left, right: on[on.len() - 1].right },
+            interval: self.hull(),
             load,
             strengths: Ends::from_fn(|side| kappa * several.strength(side)),
-            free: corners.map(|corner| !corner),
+            free: conditions.corners.map(|corner| !corner),
             adhesive: Ends::both(false),
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             error_by_load: Some(sum / all),
             force: None,
             trend: None,
             tilt: self.tilt,
-            ends,
+            ends: conditions.ends,
         }
     }
 
     /// The free limits, by the number of their contact and whether they are right ones.
-    fn free(&self, corners: Ends<bool>) -> impl Iterator<Item = (usize, bool)> + use<T> {
-        let last = self.on.len() - 1;
+    fn free(&self) -> impl Iterator<Item = (usize, bool)> + use<T> {
+        let (last, held) = (self.on.len() - 1, self.held);
         let both = (0..=last).flat_map(|i| [(i, false), (i, true)]);
         both.filter(move |&(i, right)| {
-            !(i == 0 && !right && corners.left || i == last && right && corners.right)
+            !(i == 0 && !right && held.left || i == last && right && held.right)
         })
     }
 
     /// The width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
     /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
     /// left open.
-    fn too_far(&mut self, corners: Ends<bool>, cut: Option<(CutWidth, i32)>) -> Option<CutWidth> {
-        let mut worst: Option<(T, CutWidth)> = None;
+    fn too_far(&mut self) -> Option<Width> {
+        let mut worst: Option<(T, Width)> = None;
         for i in 0..self.moves.len() - 1 {
             let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
-            let (square, least) = (T::one() + share + share, Self::least(i, cut));
+            let (square, least) = (T::one() + share + share, self.least(i));
             if square < least * least && worst.is_none_or(|(least, _)| square < least) {
                 worst = Some((square, i));
             }
@@ -301,7 +357,7 @@ impl<T: Real> NewtonSeveral<T> {
             self.unit.resize(self.step.len(), T::zero());
             self.unit[row] = T::one();
             self.linear.solve(&self.unit, &mut self.open);
-            let left = place - usize::from(corners.left);
+            let left = place - usize::from(self.held.left);
             let narrows = |step: &[T]| step[left + 1] - step[left];
             // To nothing, of which the least is left.
             let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
@@ -310,45 +366,39 @@ impl<T: Real> NewtonSeveral<T> {
                 for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
                     *step -= open * by_open;
                 }
-                self.set_moves(corners);
+                self.set_moves();
             }
         }
         Some(place)
     }
 
-    /// What a step leaves of a width at least, as a share of it. One may fall faster that was kept from it before:
-    /// `cut` is what was, and how often in a row.
-    fn least(i: CutWidth, cut: Option<(CutWidth, i32)>) -> T {
-        let times = match cut {
-            Some((place, times)) if place == i => times + 1,
+    /// Returns the least that a step leaves of a width, as a share of it. One that was kept from falling may fall faster.
+    fn least(&self, i: Width) -> T {
+        let times = match self.cut {
+            Some((cut, times)) if cut == Cut::Width(i) => times + 1,
             _ => 1,
         };
         T::of(LEAST_LEFT.powi(times))
     }
 
-    fn width(&self, i: CutWidth) -> T {
+    fn width(&self, i: Width) -> T {
         let on = &self.on[i / 2];
         if i.is_multiple_of(2) { on.right - on.left } else { self.on[i / 2 + 1].left - on.right }
     }
 
     /// What the step moves each limit by.
-    fn set_moves(&mut self, corners: Ends<bool>) {
+    fn set_moves(&mut self) {
         self.moves.clear();
         self.moves.resize(2 * self.on.len(), T::zero());
-        let free = self.free(corners).map(|(i, right)| 2 * i + usize::from(right));
+        let free = self.free().map(|(i, right)| 2 * i + usize::from(right));
         for (i, &step) in free.zip(&self.step) {
             self.moves[i] = -step;
         }
     }
 
-    fn limit(&mut self, i: usize) -> &mut T {
-        let on = &mut self.on[i / 2];
-        if i.is_multiple_of(2) { &mut on.left } else { &mut on.right }
-    }
-
     /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
     /// the load of a round body goes with it, and so does what is left of a gap that closes.
-    fn advance(&mut self, corners: Ends<bool>, cut: Option<(CutWidth, i32)>) {
+    fn advance(&mut self) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
         let count = self.moves.len();
         let mut order = std::mem::take(&mut self.order);
@@ -362,18 +412,18 @@ impl<T: Real> NewtonSeveral<T> {
         for &i in &order {
             let width = self.width(i);
             let change = self.moves[i + 1] - self.moves[i];
-            let least = Self::least(i, cut) * width;
+            let least = self.least(i) * width;
             let square = (width * (width + two * change)).max(least * least);
             let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
             let correction = next - (width + change);
             // On both sides, but a narrow neighbour has no room for it, and a corner stays.
-            let room = |beside: Option<CutWidth>, corner: bool| match beside {
+            let room = |beside: Option<Width>, corner: bool| match beside {
                 Some(beside) => width.min(self.width(beside)),
                 None if corner => zero,
                 None => width,
             };
-            let left = room(i.checked_sub(1), corners.left);
-            let right = room((i + 2 < count).then_some(i + 1), corners.right);
+            let left = room(i.checked_sub(1), self.held.left);
+            let right = room((i + 2 < count).then_some(i + 1), self.held.right);
             let share = right / (left + right);
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
@@ -388,9 +438,9 @@ impl<T: Real> NewtonSeveral<T> {
                 share = share.min(most / less);
             }
         }
-        for i in 0..count {
-            let step = share * self.moves[i];
-            *self.limit(i) += step;
+        for (on, moves) in self.on.iter_mut().zip(self.moves.chunks_exact(2)) {
+            on.left += share * moves[0];
+            on.right += share * moves[1];
         }
     }
 
@@ -407,14 +457,14 @@ impl<T: Real> NewtonSeveral<T> {
 
     /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
     /// the pressure tells how narrow the gap is.
-    fn size(&self, corners: Ends<bool>) -> T {
+    fn size(&self) -> T {
         let share = |((i, right), &step): ((usize, bool), &T)| {
             let gap = if right { Some(i) } else { i.checked_sub(1) };
             let gap =
                 gap.filter(|&gap| gap + 1 < self.on.len()).map(|gap| T::of(0.5) * self.gap(gap));
             step.abs() / gap.map_or(self.on[i].half_width(), |gap| gap.min(self.on[i].half_width()))
         };
-        self.free(corners).zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
+        self.free().zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
     }
 
     /// The width of the gap after a contact.
@@ -441,7 +491,7 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// What the equations leave open of the limits, and rounding.
-    fn estimate(&mut self, corners: Ends<bool>) {
+    fn estimate(&mut self) {
         let n = self.step.len();
         self.open.clear();
         self.open.resize(n, T::zero());
@@ -456,12 +506,27 @@ impl<T: Real> NewtonSeveral<T> {
         }
         self.errors.clear();
         self.errors.resize(2 * self.on.len(), T::zero());
-        for ((i, right), &open) in self.free(corners).zip(&self.open) {
+        for ((i, right), &open) in self.free().zip(&self.open) {
             let on = self.on[i];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
             self.errors[2 * i + usize::from(right)] =
                 T::of(4.0) * (open + rounding) / on.half_width();
         }
+    }
+}
+
+/// Returns the outermost contact at a side.
+pub(in super::super) fn outermost<T: Real>(on: &mut [Interval<T>], side: Side) -> &mut Interval<T> {
+    let last = on.len() - 1;
+    &mut on[if side == Side::Left { 0 } else { last }]
+}
+
+/// Puts an outermost limit at a place.
+pub(in super::super) fn put<T: Real>(on: &mut [Interval<T>], side: Side, x: T) {
+    let on = outermost(on, side);
+    match side {
+        Side::Left => on.left = x,
+        Side::Right => on.right = x,
     }
 }
 
@@ -484,9 +549,10 @@ mod tests {
         let mut several = Several::new(16.0 * f64::EPSILON);
         let mut newton = NewtonSeveral::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
-        let outcome =
-            newton.converge(&mut several, &gap, load, corners, gap.range().into(), None).unwrap();
-        assert_eq!(outcome, SeveralOutcome::Found, "{:?}", newton.on);
+        let ends = gap.range().into();
+        let conditions = Conditions { gap: &gap, load, corners, ends, besides: None };
+        let verdict = newton.converge(&mut several, &conditions).unwrap();
+        assert_eq!(verdict, Ok(()), "{:?}", newton.on);
         (newton.on, newton.errors, several)
     }
 

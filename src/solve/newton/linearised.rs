@@ -1,6 +1,6 @@
-//! Newton's method on both limits and the load at once.
+//! The equations of one contact, linearised, and the step by them.
 //!
-//! Three equations for `-b`, `a` and F, linear in what the quadrature says of a trial contact:
+//! There are three for `-b`, `a` and F, linear in the moments of a trial contact:
 //!
 //! ```text
 //! at -b:  F - κ L (m₁ - m₀) = π L K_b        or  b is given
@@ -34,270 +34,20 @@
 //! `m₀ = 0` has it, `dc/dL` by its derivatives: where one limit is a million times as stiff as the other, it
 //! stays where it is. The balance itself is linearised without the factor L that both rows have: that of a
 //! parabola is linear in c, and one step leads to its centre from however far.
-//!
-//! A step is halved where the next one by the same Jacobian would be longer (the natural monotonicity test: P.
-//! Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, §3.3), as across a jump of the slope, on whose two sides
-//! limits are unlike stiff; and where the limits do not act on the slope, as on a flat. Where a contact carries too
-//! little, and a wider one less, as under adhesion, it is widened until it grows with its load. A step that would
-//! leave the bodies goes half the way to their end.
 
-use super::edges::{Conditions, Given};
-use super::single_contact::MOST_DOUBT;
-use crate::quadrature::{Integrator, Moments};
-use crate::{ContactError, Ends, Gap, Interval, Real, Side};
+use super::super::edges::{Conditions, Given};
+use crate::quadrature::Moments;
+use crate::{Ends, Interval, Real, Side};
 use nalgebra::{Matrix2, Vector2};
-
-/// Trials before the search is given up, in an initial guess and in full. An initial guess that takes long has no contact.
-const MOST_TRIALS: [usize; 2] = [16, 200];
 
 /// A step longer than so many half-widths leads nowhere.
 const MOST_STEP: f64 = 1e9;
-
-/// Steps in full that may be longer than half of the half-width.
-const MOST_LONG: usize = 8;
-
-/// The least share of a step that is taken.
-const LEAST_SHARE: f64 = 1e-12;
-
-/// A contact that meets its conditions.
-#[derive(Clone, Copy)]
-pub(super) struct Converged<T> {
-    pub on: Interval<T>,
-    pub load: T,
-    /// Estimated error of the limits relative to the half-width.
-    pub error: T,
-    /// The load that such an error stands for.
-    pub force: T,
-}
-
-/// How well a contact has to meet them.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Effort {
-    /// To a few hundredths of its width, or until it is known to be much narrower than the start.
-    Guess,
-    /// To rounding.
-    Full,
-}
-
-/// How Newton's method ends.
-pub(super) enum Outcome<T> {
-    Converged(Converged<T>),
-    /// Step after step leads beyond an end of the bodies; how far they went.
-    AtEnd(Interval<T>),
-    LeftBracket,
-}
-
-impl<T> Outcome<T> {
-    pub fn converged(self) -> Option<Converged<T>> {
-        match self {
-            Self::Converged(converged) => Some(converged),
-            Self::AtEnd(_) | Self::LeftBracket => None,
-        }
-    }
-}
-
-/// Finds the limits from a start nearby. `most_at_end` steps may lead beyond an end of the bodies: each takes
-/// samples closer to that.
-pub(super) fn converge<T: Real>(
-    integrator: &mut dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    conditions: &Conditions<T>,
-    start: Interval<T>,
-    effort: Effort,
-    most_at_end: usize,
-) -> Result<Outcome<T>, ContactError<T>> {
-    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-    let range = gap.range();
-    let mut on = conditions.with_given(start, range);
-    let mut load = conditions.load();
-    let mut long = 0;
-    let (mut before, mut last, mut at_end) = (None::<[T; 2]>, None::<Step<T>>, 0);
-    // A step that was cut short tells nothing of the next.
-    let certain = |sizes: [T; 2]| Some(sizes).filter(|&[left, right]| left + right <= T::of(0.25));
-    for _ in 0..MOST_TRIALS[usize::from(effort == Effort::Full)] {
-        let half_width = on.half_width();
-        if !(half_width > zero && half_width.is_finite()) {
-            return Ok(Outcome::LeftBracket);
-        }
-        let m = integrator.moments(gap, on)?;
-        let Some(system) = Linearised::new(conditions, on, load, &m) else {
-            return Ok(Outcome::LeftBracket);
-        };
-        let step = system.step(on, load, conditions.kappa * half_width * m.m1);
-        let too_far = |last: &&mut Step<T>| {
-            last.share > T::of(LEAST_SHARE) && (step.is_none() || last.grew_to(&system, on))
-        };
-        if let Some(last) = last.as_mut().filter(too_far) {
-            last.share *= half;
-            (on, load) = last.end(conditions);
-            on = before_ends(conditions, last.from, on, range);
-            before = None;
-            continue;
-        }
-        let is_open = system.by_load && system.residual[0] + system.residual[1] > zero;
-        let leads = !is_open || system.is_stable(conditions);
-        let Some(step) = step.filter(|_| leads) else {
-            // Where less is carried than asked for, and less still by a wider contact, one that is wider yet grows
-            // with its load.
-            let wider = moved(conditions, on, system.lean(), [-one, one], one);
-            let next = before_ends(conditions, on, wider, range);
-            at_end += usize::from(next != wider);
-            if at_end > most_at_end {
-                return Ok(Outcome::AtEnd(next));
-            }
-            if !is_open || next.is_same(&on) {
-                return Ok(Outcome::LeftBracket);
-            }
-            (on, before, last) = (next, None, None);
-            continue;
-        };
-        let from = on;
-        (on, load) = step.end(conditions);
-        let ([left, right], size, inverse) = (step.limits, step.size(), step.inverse);
-        last = Some(step);
-        // What is much narrower than the span is to be seen in a closer one.
-        if effort == Effort::Guess && on.half_width() < T::of(1e-6) * start.half_width() {
-            return Ok(Outcome::Converged(Converged {
-                on,
-                load,
-                error: size.max(one),
-                force: size,
-            }));
-        }
-        if !(on.left >= range[0] && on.right <= range[1]) {
-            on = rounded_within(on, range);
-            let next = before_ends(conditions, from, on, range);
-            if next != on {
-                at_end += 1;
-                if at_end > most_at_end || next.is_same(&from) {
-                    return Ok(Outcome::AtEnd(next));
-                }
-                (on, before) = (next, None);
-                continue;
-            }
-        }
-        let sizes = [left.abs(), right.abs()];
-        if effort == Effort::Guess {
-            if size <= T::of(0.03) {
-                let sound =
-                    opens(integrator, conditions, on, system.tilt) && system.is_stable(conditions);
-                let converged = Converged { on, load, error: size, force: size };
-                return Ok(if sound {
-                    Outcome::Converged(converged)
-                } else {
-                    Outcome::LeftBracket
-                });
-            }
-            before = certain(sizes);
-            continue;
-        }
-        // What the next step leaves of each limit.
-        let next: [T; 2] = std::array::from_fn(|i| match before {
-            Some(before) if sizes[i] < before[i] => {
-                (sizes[i] / before[i]) * (sizes[i] / before[i]) * sizes[i]
-            }
-            _ => sizes[i],
-        });
-        let small = next[0] + next[1] <= half * T::epsilon() && size <= half * half;
-        // Across a kink a step is as much too long as the one before has been.
-        let crossed =
-            small && size > T::of(4.0) * T::epsilon() && crosses_breakpoint(gap, from, on);
-        let done = small && !crossed;
-        let slow = before.is_some_and(|[left, right]| size >= half * half * (left + right));
-        if done || slow {
-            let noise = system.error(&inverse, &m);
-            let rounding = [on.left, on.right].map(|x| T::epsilon() * x.abs() / on.half_width());
-            let least = noise[0].max(noise[1]) + rounding[0].max(rounding[1]);
-            let stalled = slow && size <= doubtful(least) && system.is_met(&m, rounding);
-            if done || stalled {
-                let sound =
-                    opens(integrator, conditions, on, system.tilt) && system.is_stable(conditions);
-                if !sound || least > T::of(MOST_DOUBT) {
-                    return Ok(Outcome::LeftBracket);
-                }
-                let left_over = if stalled { sizes } else { next };
-                // The noise is known from a few coefficients only.
-                let errors = std::array::from_fn(|i| {
-                    T::of(4.0) * (noise[i] + rounding[i]) + half * left_over[i]
-                });
-                let force = system.force(errors);
-                let error = errors[0].max(errors[1]);
-                let (on, load) = derivative_steps(integrator, gap, conditions, on, load)?;
-                return Ok(Outcome::Converged(Converged { on, load, error, force }));
-            }
-        }
-        before = certain(sizes).filter(|_| !crossed);
-        // Each of these takes samples: what is so far off was no guess.
-        long += usize::from(size > half);
-        if long > MOST_LONG {
-            break;
-        }
-    }
-    Ok(Outcome::LeftBracket)
-}
-
-/// Whether an edge of the contact passes a breakpoint from one step to the next, or comes as close to one as rounding.
-fn crosses_breakpoint<T: Real>(gap: &Gap<'_, T>, from: Interval<T>, to: Interval<T>) -> bool {
-    [[from.left, to.left], [from.right, to.right]].into_iter().any(|[one, other]| {
-        let rounding = T::of(4.0) * T::epsilon() * other.abs();
-        let passed = Interval { left: one.min(other) - rounding, right: one.max(other) + rounding };
-        gap.breakpoints(passed).next().is_some()
-    })
-}
-
-/// Steps beyond the convergence of the value: from one to the next, one more derivative is exact.
-fn derivative_steps<T: Real>(
-    integrator: &mut dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    conditions: &Conditions<T>,
-    mut on: Interval<T>,
-    mut load: T,
-) -> Result<(Interval<T>, T), ContactError<T>> {
-    for _ in 0..T::DERIVATIVE_ORDER {
-        let m = integrator.moments(gap, on)?;
-        let Some(system) = Linearised::new(conditions, on, load, &m) else { break };
-        let Some(inverse) = system.matrix.try_inverse() else { break };
-        let [left, right, force] = system.solve(&inverse, system.scale, system.residual);
-        load += force;
-        on = moved(conditions, on, system.lean(), [left, right], T::one());
-    }
-    Ok((on, load))
-}
-
-/// The load of a contact of given width that has converged. By one more step, since the last was linear
-/// only, and not from the moments alone: those of limits that are rounded close to a jump of the
-/// slope are not those of a contact.
-pub(super) fn load_of<T: Real>(
-    conditions: &Conditions<T>,
-    on: Interval<T>,
-    load: T,
-    m: &Moments<T>,
-) -> T {
-    let more = Linearised::new(conditions, on, load, m).and_then(|system| {
-        let inverse = system.matrix.try_inverse()?;
-        let [.., more] = system.solve(&inverse, system.scale, system.residual);
-        Some(load + more)
-    });
-    more.filter(|load| load.is_finite()).unwrap_or(load)
-}
-
-/// What fills the bodies may be rounded beyond them.
-fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
-    let rounded = |x: T, end: T, beyond: T| {
-        let rounding = T::of(8.0) * T::epsilon() * (end.abs() + on.half_width());
-        if beyond > T::zero() && beyond <= rounding { end } else { x }
-    };
-    Interval {
-        left: rounded(on.left, range[0], range[0] - on.left),
-        right: rounded(on.right, range[1], on.right - range[1]),
-    }
-}
 
 /// An interval with its limits moved by steps in units of the half-width, given the load as a share of
 /// what it would carry. The half-width moves as its square would, by no more than a factor of 33 down or 4
 /// up, and the centre with it, by `lean` for each unit, as the balance has it: one limit may be a million
 /// times as stiff as the other.
-fn moved<T: Real>(
+pub(super) fn moved<T: Real>(
     conditions: &Conditions<T>,
     on: Interval<T>,
     lean: T,
@@ -345,57 +95,15 @@ fn moved<T: Real>(
     }
 }
 
-/// A step that would leave the bodies is moved so that it goes half the way to their end, where the slope may
-/// be infinite. What is too wide for that is cut.
-fn before_ends<T: Real>(
-    conditions: &Conditions<T>,
-    from: Interval<T>,
-    to: Interval<T>,
-    range: [T; 2],
-) -> Interval<T> {
-    if to.left >= range[0] && to.right <= range[1] {
-        return to;
-    }
-    let half = T::of(0.5);
-    let ends = [half * (from.left + range[0]), half * (from.right + range[1])];
-    let Ends { left, right } = conditions.limits();
-    let back = (to.right - ends[1]).max(T::zero());
-    let on = (ends[0] - to.left).max(T::zero());
-    Interval {
-        left: left.unwrap_or((to.left - back).max(ends[0])),
-        right: right.unwrap_or((to.right + on).min(ends[1])),
-    }
-}
-
-/// Whether adhesion acts, under which the bodies need not open at the other edge either.
-fn is_pulled<T: Real>(conditions: &Conditions<T>) -> bool {
-    conditions.edges.are_adhesive()
-}
-
-/// Whether the bodies, turned by so much, open at those edges of a contact that are free.
-fn opens<T: Real>(
-    integrator: &dyn Integrator<T>,
-    conditions: &Conditions<T>,
-    on: Interval<T>,
-    tilt: T,
-) -> bool {
-    let opens =
-        |x: T, sign: T| integrator.slope(x).is_none_or(|slope| (slope + tilt) * sign >= T::zero());
-    let Ends { left, right } = conditions.edges;
-    is_pulled(conditions)
-        || (!left.is_free() || opens(on.left, -T::one()))
-            && (!right.is_free() || opens(on.right, T::one()))
-}
-
 /// How large noise may be that is said to be so large. It is known from a few coefficients only; but
 /// what a loose tolerance leaves open does not hide that a step is still too short.
-fn doubtful<T: Real>(noise: T) -> T {
+pub(super) fn doubtful<T: Real>(noise: T) -> T {
     (T::of(1e3) * noise).min(T::epsilon().sqrt()).max(T::of(4.0) * noise)
 }
 
 /// The equations, linearised: rows for -b and a. Limits are in units of the half-width, forces in
 /// those of `scale`.
-struct Linearised<T> {
+pub(super) struct Linearised<T> {
     /// By -b and by a.
     jacobian: [[T; 2]; 2],
     residual: [T; 2],
@@ -408,42 +116,43 @@ struct Linearised<T> {
     scale: T,
     stiffness: T,
     /// By how much the bodies turn.
-    tilt: T,
+    pub tilt: T,
 }
 
 /// A step.
-struct Step<T> {
-    from: Interval<T>,
+#[derive(Clone, Copy)]
+pub(super) struct Step<T> {
+    pub from: Interval<T>,
     load: T,
     /// The load that the contact it is taken from would carry.
     carried: T,
     /// By how much the centre goes with the half-width.
     lean: T,
-    inverse: Matrix2<T>,
+    pub inverse: Matrix2<T>,
     /// Of force.
     unit: T,
     /// Of -b and of a, in half-widths.
-    limits: [T; 2],
+    pub limits: [T; 2],
     force: T,
     /// How much of it is taken.
-    share: T,
+    pub share: T,
 }
 
 impl<T: Real> Step<T> {
     /// How long it is, in half-widths.
-    fn size(&self) -> T {
+    pub fn size(&self) -> T {
         self.limits[0].abs() + self.limits[1].abs()
     }
 
     /// Where it leads, and under which load.
-    fn end(&self, conditions: &Conditions<T>) -> (Interval<T>, T) {
+    pub fn end(&self, conditions: &Conditions<T>) -> (Interval<T>, T) {
         let load = self.load + self.share * self.force;
         let limits = self.limits.map(|step| self.share * step);
         (moved(conditions, self.from, self.lean, limits, load / self.carried), load)
     }
 
     /// Whether the next one would be longer by the same Jacobian.
-    fn grew_to(&self, next: &Linearised<T>, on: Interval<T>) -> bool {
+    pub fn grew_to(&self, next: &Linearised<T>, on: Interval<T>) -> bool {
         let ([left, right, _], size) = (next.steps_of(on, self), self.size());
         // As far as rounding allows.
         let rounding = T::epsilon() * (on.left.abs() + on.right.abs());
@@ -453,7 +162,12 @@ impl<T: Real> Step<T> {
 
 impl<T: Real> Linearised<T> {
     #[inline(always)]
-    fn new(conditions: &Conditions<T>, on: Interval<T>, load: T, m: &Moments<T>) -> Option<Self> {
+    pub fn new(
+        conditions: &Conditions<T>,
+        on: Interval<T>,
+        load: T,
+        m: &Moments<T>,
+    ) -> Option<Self> {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
         let trend = m.derivatives?;
         let half_width = on.half_width();
@@ -507,7 +221,7 @@ impl<T: Real> Linearised<T> {
     }
 
     /// The step from an interval; `None` where the limits do not act on the slope, as on a flat.
-    fn step(&self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
+    pub fn step(&self, from: Interval<T>, load: T, carried: T) -> Option<Step<T>> {
         let inverse = self.matrix.try_inverse()?;
         let [left, right, force] = self.solve(&inverse, self.scale, self.residual);
         let size = (right - left).abs() + (right + left).abs();
@@ -542,8 +256,19 @@ impl<T: Real> Linearised<T> {
         self.solve(&other.inverse, other.unit, [at_b, at_a])
     }
 
+    /// Returns the step as it is, however long; `None` where the limits do not act on the slope.
+    pub fn last_step(&self) -> Option<[T; 3]> {
+        let inverse = self.matrix.try_inverse()?;
+        Some(self.solve(&inverse, self.scale, self.residual))
+    }
+
+    /// Tells whether less is carried than the load that is asked for.
+    pub fn is_open(&self) -> bool {
+        self.by_load && self.residual[0] + self.residual[1] > T::zero()
+    }
+
     /// By how much the centre moves in balance for each unit of the half-width, `dc/dL`.
-    fn lean(&self) -> T {
+    pub fn lean(&self) -> T {
         let [[bb, ba], [ab, aa]] = self.jacobian;
         let [by_left, by_right] = [ab - bb, aa - ba];
         let lean = (by_left - by_right) / (by_left + by_right);
@@ -551,7 +276,7 @@ impl<T: Real> Linearised<T> {
     }
 
     /// Whether the contact grows with its load: where it does not, another does.
-    fn is_stable(&self, conditions: &Conditions<T>) -> bool {
+    pub fn is_stable(&self, conditions: &Conditions<T>) -> bool {
         let [[bb, ba], [ab, aa]] = self.jacobian;
         let Ends { left, right } = conditions.limits();
         match (conditions.given, left, right) {
@@ -564,19 +289,19 @@ impl<T: Real> Linearised<T> {
 
     /// Whether the conditions hold as well as the error of the moments and the rounding of the limits
     /// allow. (Small steps alone are no proof: a poor guess may creep.)
-    fn is_met(&self, m: &Moments<T>, rounding: [T; 2]) -> bool {
+    pub fn is_met(&self, m: &Moments<T>, rounding: [T; 2]) -> bool {
         let left_open = (self.stiffness * m.error + self.force(rounding)) / self.scale;
         self.residual.iter().all(|residual| residual.abs() <= doubtful(left_open))
     }
 
     /// The load that moves the limits by so much of the half-width.
-    fn force(&self, errors: [T; 2]) -> T {
+    pub fn force(&self, errors: [T; 2]) -> T {
         let row = |[b, a]: [T; 2]| b.abs() * errors[0] + a.abs() * errors[1];
         row(self.jacobian[0]).max(row(self.jacobian[1])) * self.scale
     }
 
     /// What the error of the moments leaves open of `-b` and of `a`, in half-widths.
-    fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
+    pub fn error(&self, inverse: &Matrix2<T>, m: &Moments<T>) -> [T; 2] {
         let error = self.stiffness * m.error / self.scale;
         let row = |i: usize| error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs());
         [row(0), row(usize::from(self.by_load))]
@@ -625,4 +350,20 @@ impl<T: Real> Turning<T> {
     fn row(&self, sign: T) -> [T; 3] {
         std::array::from_fn(|i| self.load[i] - sign * self.moment[i])
     }
+}
+
+/// The load of a contact of given width that has converged. By one more step, since the last was linear
+/// only, and not from the moments alone: those of limits that are rounded close to a jump of the
+/// slope are not those of a contact.
+pub(in super::super) fn load_of<T: Real>(
+    conditions: &Conditions<T>,
+    on: Interval<T>,
+    load: T,
+    m: &Moments<T>,
+) -> T {
+    let more = Linearised::new(conditions, on, load, m).and_then(|system| {
+        let [.., more] = system.last_step()?;
+        Some(load + more)
+    });
+    more.filter(|load| load.is_finite()).unwrap_or(load)
 }
