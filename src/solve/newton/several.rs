@@ -5,6 +5,8 @@
 //! of the bodies no longer tell where it is, is one that closes; a contact that does so is one that the bodies do not
 //! have: the caller starts again without it.
 
+mod widths;
+
 use super::super::single_contact::MOST_DOUBT;
 use super::{Progress, Stop};
 use crate::gap::Gap;
@@ -12,16 +14,10 @@ use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
-use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
-
-/// What a contact or a gap keeps of its width in one step.
-const LEAST_LEFT: f64 = 0.3;
-
-/// By how much a width may grow in one step.
-const MOST_GROWTH: f64 = 4.0;
 
 /// Steps in a row that are cut short by the same width, or end, before it is taken not to exist: a gap at a kink, or a
 /// contact where the bodies have just met, may be as narrow as rounding.
@@ -35,9 +31,6 @@ pub(in super::super) enum Besides<T> {
     /// The load under which the outermost limit is at an end of the bodies.
     Load(Side),
 }
-
-/// A gap of so many units of rounding of x is nothing.
-const NOTHING: f64 = 64.0;
 
 /// A contact (even) or a gap (odd), by twice its number.
 type Width = usize;
@@ -276,10 +269,8 @@ impl<T: Real> NewtonSeveral<T> {
         }
         if judged.is_done || is_stalled && (is_short || self.is_all_doubt()) {
             if judged.is_stalled {
-                let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
-                let left = self.moves.iter().zip(half_widths);
-                for (error, (step, half_width)) in self.errors.iter_mut().zip(left) {
-                    *error += step.abs() / half_width;
+                for (i, step) in self.moves.iter().enumerate() {
+                    self.errors[i] += step.abs() / self.on[i / 2].half_width();
                 }
             }
             return true;
@@ -288,17 +279,12 @@ impl<T: Real> NewtonSeveral<T> {
         false
     }
 
-    /// Returns the first gap that is as narrow as rounding.
-    fn closed(&self) -> Option<usize> {
-        (0..self.on.len() - 1).find(|&i| self.is_nothing(i))
-    }
-
     /// Returns the interval from the first of the contacts to the last.
     fn hull(&self) -> Interval<T> {
         Interval { left: self.on[0].left, right: self.on[self.on.len() - 1].right }
     }
 
-    /// What was found.
+    /// Returns the contacts found.
     pub fn found(
         &self,
         several: &Several<T>,
@@ -329,168 +315,51 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// The free limits, by the number of their contact and whether they are right ones.
-    fn free(&self) -> impl Iterator<Item = (usize, bool)> + use<T> {
-        let (last, held) = (self.on.len() - 1, self.held);
-        let both = (0..=last).flat_map(|i| [(i, false), (i, true)]);
-        both.filter(move |&(i, right)| {
-            !(i == 0 && !right && held.left || i == last && right && held.right)
-        })
+    /// Returns the limits that are sought, of all from left to right.
+    fn free(&self) -> Range<usize> {
+        usize::from(self.held.left)..2 * self.on.len() - usize::from(self.held.right)
     }
 
-    /// The width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
-    /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
-    /// left open.
-    fn too_far(&mut self) -> Option<Width> {
-        let mut worst: Option<(T, Width)> = None;
-        for i in 0..self.moves.len() - 1 {
-            let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
-            let (square, least) = (T::one() + share + share, self.least(i));
-            if square < least * least && worst.is_none_or(|(least, _)| square < least) {
-                worst = Some((square, i));
-            }
-        }
-        let (_, place) = worst?;
-        if place % 2 == 1 {
-            let row = self.system.row_of_gap(place / 2);
-            self.unit.clear();
-            self.unit.resize(self.step.len(), T::zero());
-            self.unit[row] = T::one();
-            self.linear.solve(&self.unit, &mut self.open);
-            let left = place - usize::from(self.held.left);
-            let narrows = |step: &[T]| step[left + 1] - step[left];
-            // To nothing, of which the least is left.
-            let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
-            let open = excess / narrows(&self.open);
-            if open.is_finite() {
-                for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
-                    *step -= open * by_open;
-                }
-                self.set_moves();
-            }
-        }
-        Some(place)
-    }
-
-    /// Returns the least that a step leaves of a width, as a share of it. One that was kept from falling may fall faster.
-    fn least(&self, i: Width) -> T {
-        let times = match self.cut {
-            Some((cut, times)) if cut == Cut::Width(i) => times + 1,
-            _ => 1,
-        };
-        T::of(LEAST_LEFT.powi(times))
-    }
-
-    fn width(&self, i: Width) -> T {
-        let on = &self.on[i / 2];
-        if i.is_multiple_of(2) { on.right - on.left } else { self.on[i / 2 + 1].left - on.right }
-    }
-
-    /// What the step moves each limit by.
+    /// Sets the moves of the limits to the step.
     fn set_moves(&mut self) {
         self.moves.clear();
         self.moves.resize(2 * self.on.len(), T::zero());
-        let free = self.free().map(|(i, right)| 2 * i + usize::from(right));
-        for (i, &step) in free.zip(&self.step) {
-            self.moves[i] = -step;
+        let free = self.free();
+        for (moves, &step) in self.moves[free].iter_mut().zip(&self.step) {
+            *moves = -step;
         }
     }
 
-    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
-    /// the load of a round body goes with it, and so does what is left of a gap that closes.
-    fn advance(&mut self) {
-        let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
-        let count = self.moves.len();
-        let mut order = std::mem::take(&mut self.order);
-        order.clear();
-        order.extend(0..count - 1);
-        // The narrowest first: their limits may move by more than they are wide.
-        let by_width = |&one: &usize, &other: &usize| {
-            self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
-        };
-        order.sort_unstable_by(by_width);
-        for &i in &order {
-            let width = self.width(i);
-            let change = self.moves[i + 1] - self.moves[i];
-            let least = self.least(i) * width;
-            let square = (width * (width + two * change)).max(least * least);
-            let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
-            let correction = next - (width + change);
-            // On both sides, but a narrow neighbour has no room for it, and a corner stays.
-            let room = |beside: Option<Width>, corner: bool| match beside {
-                Some(beside) => width.min(self.width(beside)),
-                None if corner => zero,
-                None => width,
-            };
-            let left = room(i.checked_sub(1), self.held.left);
-            let right = room((i + 2 < count).then_some(i + 1), self.held.right);
-            let share = right / (left + right);
-            self.moves[i] -= (one - share) * correction;
-            self.moves[i + 1] += share * correction;
-        }
-        self.order = order;
-        // What is good for one width may be too much for the next.
-        let mut share = one;
-        for i in 0..count - 1 {
-            let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
-            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MOST_CUT))) * width;
-            if less > most {
-                share = share.min(most / less);
-            }
-        }
-        for (on, moves) in self.on.iter_mut().zip(self.moves.chunks_exact(2)) {
-            on.left += share * moves[0];
-            on.right += share * moves[1];
-        }
-    }
-
-    /// Whether the gap after a contact is as narrow as rounding.
-    pub fn is_nothing(&self, i: usize) -> bool {
-        self.gap(i) <= self.rounding(i)
-    }
-
-    /// The rounding of the limits of a contact and of the next.
-    fn rounding(&self, i: usize) -> T {
-        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
-        T::of(NOTHING) * T::epsilon() * size
-    }
-
-    /// The largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
+    /// Returns the largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
     /// the pressure tells how narrow the gap is.
     fn size(&self) -> T {
-        let share = |((i, right), &step): ((usize, bool), &T)| {
-            let gap = if right { Some(i) } else { i.checked_sub(1) };
-            let gap =
-                gap.filter(|&gap| gap + 1 < self.on.len()).map(|gap| T::of(0.5) * self.gap(gap));
-            step.abs() / gap.map_or(self.on[i].half_width(), |gap| gap.min(self.on[i].half_width()))
-        };
-        self.free().zip(&self.step).map(share).fold(T::zero(), |max, share| max.max(share))
+        let (half, last) = (T::of(0.5), self.moves.len() - 1);
+        let half_width = |i: Width| half * self.width(i);
+        let shares = self.free().zip(&self.step).map(|(i, step)| {
+            let beside = [i.checked_sub(1), (i < last).then_some(i)].into_iter().flatten();
+            step.abs() / beside.map(half_width).reduce(T::min).unwrap_or(T::one())
+        });
+        shares.fold(T::zero(), T::max)
     }
 
-    /// The width of the gap after a contact.
-    fn gap(&self, i: usize) -> T {
-        self.on[i + 1].left - self.on[i].right
+    /// Returns the half-width of the contact of each limit.
+    fn half_widths(&self) -> impl Iterator<Item = T> + '_ {
+        self.on.iter().flat_map(|on| [on.half_width(); 2])
     }
 
-    /// A gap that is nothing, as far as its place is in doubt: by the rounding of both contacts.
-    pub fn closed_gap(&self, i: usize) -> Interval<T> {
-        let rounding = self.rounding(i);
-        Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
-    }
-
-    /// Whether no limit has moved by more than it may be in doubt.
+    /// Tells whether no limit has moved by more than it may be in doubt.
     fn is_small(&self) -> bool {
-        let half_widths = self.on.iter().flat_map(|on| [on.half_width(); 2]);
-        half_widths.zip(&self.moves).all(|(half, step)| step.abs() <= T::of(MOST_DOUBT) * half)
+        let mut moves = self.moves.iter().zip(self.half_widths());
+        moves.all(|(step, half_width)| step.abs() <= T::of(MOST_DOUBT) * half_width)
     }
 
-    /// Whether no limit has moved by more than it is in doubt.
+    /// Tells whether no limit has moved by more than it is in doubt.
     fn is_all_doubt(&self) -> bool {
-        let errors = self.errors.iter().zip(self.on.iter().flat_map(|on| [on.half_width(); 2]));
-        errors.zip(&self.moves).all(|((&error, half_width), step)| step.abs() <= error * half_width)
+        let mut moves = self.moves.iter().zip(self.half_widths()).zip(&self.errors);
+        moves.all(|((step, half_width), &error)| step.abs() <= error * half_width)
     }
 
-    /// What the equations leave open of the limits, and rounding.
+    /// Estimates the errors of the limits: what the equations leave open, and rounding.
     fn estimate(&mut self) {
         let n = self.step.len();
         self.open.clear();
@@ -506,11 +375,10 @@ impl<T: Real> NewtonSeveral<T> {
         }
         self.errors.clear();
         self.errors.resize(2 * self.on.len(), T::zero());
-        for ((i, right), &open) in self.free().zip(&self.open) {
-            let on = self.on[i];
+        for (i, &open) in self.free().zip(&self.open) {
+            let on = self.on[i / 2];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
-            self.errors[2 * i + usize::from(right)] =
-                T::of(4.0) * (open + rounding) / on.half_width();
+            self.errors[i] = T::of(4.0) * (open + rounding) / on.half_width();
         }
     }
 }

@@ -1,0 +1,139 @@
+//! The widths of contacts and of the gaps between them, and how far a step may change them.
+
+use super::{Cut, MOST_CUT, NewtonSeveral, Width};
+use crate::{Interval, Real};
+use std::cmp::Ordering;
+
+/// What a contact or a gap keeps of its width in one step.
+const LEAST_LEFT: f64 = 0.3;
+
+/// By how much a width may grow in one step.
+const MOST_GROWTH: f64 = 4.0;
+
+/// A gap of so many units of rounding of x is nothing.
+const NOTHING: f64 = 64.0;
+
+impl<T: Real> NewtonSeveral<T> {
+    /// Returns the width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
+    /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
+    /// left open.
+    pub(super) fn too_far(&mut self) -> Option<Width> {
+        let mut worst: Option<(T, Width)> = None;
+        for i in 0..self.moves.len() - 1 {
+            let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
+            let (square, least) = (T::one() + share + share, self.least(i));
+            if square < least * least && worst.is_none_or(|(least, _)| square < least) {
+                worst = Some((square, i));
+            }
+        }
+        let (_, place) = worst?;
+        if place % 2 == 1 {
+            let row = self.system.row_of_gap(place / 2);
+            self.unit.clear();
+            self.unit.resize(self.step.len(), T::zero());
+            self.unit[row] = T::one();
+            self.linear.solve(&self.unit, &mut self.open);
+            let left = place - usize::from(self.held.left);
+            let narrows = |step: &[T]| step[left + 1] - step[left];
+            // To nothing, of which the least is left.
+            let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
+            let open = excess / narrows(&self.open);
+            if open.is_finite() {
+                for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
+                    *step -= open * by_open;
+                }
+                self.set_moves();
+            }
+        }
+        Some(place)
+    }
+
+    /// Returns the least that a step leaves of a width, as a share of it. One that was kept from falling may fall faster.
+    fn least(&self, i: Width) -> T {
+        let times = match self.cut {
+            Some((cut, times)) if cut == Cut::Width(i) => times + 1,
+            _ => 1,
+        };
+        T::of(LEAST_LEFT.powi(times))
+    }
+
+    pub(super) fn width(&self, i: Width) -> T {
+        let on = &self.on[i / 2];
+        if i.is_multiple_of(2) { on.right - on.left } else { self.on[i / 2 + 1].left - on.right }
+    }
+
+    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
+    /// the load of a round body goes with it, and so does what is left of a gap that closes.
+    pub(super) fn advance(&mut self) {
+        let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
+        let count = self.moves.len();
+        let mut order = std::mem::take(&mut self.order);
+        order.clear();
+        order.extend(0..count - 1);
+        // The narrowest first: their limits may move by more than they are wide.
+        let by_width = |&one: &usize, &other: &usize| {
+            self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
+        };
+        order.sort_unstable_by(by_width);
+        for &i in &order {
+            let width = self.width(i);
+            let change = self.moves[i + 1] - self.moves[i];
+            let least = self.least(i) * width;
+            let square = (width * (width + two * change)).max(least * least);
+            let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
+            let correction = next - (width + change);
+            // On both sides, but a narrow neighbour has no room for it, and a corner stays.
+            let room = |beside: Option<Width>, corner: bool| match beside {
+                Some(beside) => width.min(self.width(beside)),
+                None if corner => zero,
+                None => width,
+            };
+            let left = room(i.checked_sub(1), self.held.left);
+            let right = room((i + 2 < count).then_some(i + 1), self.held.right);
+            let share = right / (left + right);
+            self.moves[i] -= (one - share) * correction;
+            self.moves[i + 1] += share * correction;
+        }
+        self.order = order;
+        // What is good for one width may be too much for the next.
+        let mut share = one;
+        for i in 0..count - 1 {
+            let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
+            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MOST_CUT))) * width;
+            if less > most {
+                share = share.min(most / less);
+            }
+        }
+        for (on, moves) in self.on.iter_mut().zip(self.moves.chunks_exact(2)) {
+            on.left += share * moves[0];
+            on.right += share * moves[1];
+        }
+    }
+
+    /// Returns the first gap that is as narrow as rounding.
+    pub(super) fn closed(&self) -> Option<usize> {
+        (0..self.on.len() - 1).find(|&i| self.is_nothing(i))
+    }
+
+    /// Tells whether the gap after a contact is as narrow as rounding.
+    pub(in super::super::super) fn is_nothing(&self, i: usize) -> bool {
+        self.gap(i) <= self.rounding(i)
+    }
+
+    /// Returns the rounding of the limits of a contact and of the next.
+    fn rounding(&self, i: usize) -> T {
+        let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
+        T::of(NOTHING) * T::epsilon() * size
+    }
+
+    /// Returns the width of the gap after a contact.
+    fn gap(&self, i: usize) -> T {
+        self.on[i + 1].left - self.on[i].right
+    }
+
+    /// Returns a gap that is nothing, as far as its place is in doubt: by the rounding of both contacts.
+    pub(in super::super::super) fn closed_gap(&self, i: usize) -> Interval<T> {
+        let rounding = self.rounding(i);
+        Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
+    }
+}

@@ -1,0 +1,112 @@
+//! The first estimate of one contact, on few samples.
+
+use super::super::newton::Stop;
+use super::super::newton::single::{Converged, Effort};
+use super::{MOST_GUESSES, Single};
+use crate::{ContactError, Interval, Real};
+
+/// Initial guesses that may reach for an end before it is asked what the bodies bear.
+const MOST_GUESSES_AT_END: usize = 2;
+
+/// A contact much narrower than this share of its span is to be seen in a closer one.
+const COMPARABLE: f64 = 0.4;
+
+/// An estimate of the contact.
+struct Guess<T> {
+    on: Interval<T>,
+    /// The error of the search on the samples, as a share of the half-width.
+    error: T,
+    /// The error of the samples, as a share of the span.
+    doubt: T,
+}
+
+impl<T: Real> Single<'_, '_, T> {
+    /// Returns a first estimate of the contact, and how far it is in doubt as a share of its half-width; `None` where
+    /// guesses lead nowhere.
+    pub(super) fn initial_guess(&mut self) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
+        let gap = &self.contact.gap;
+        let [left, right] = gap.range();
+        let (mut span, mut on, mut at_end) = (self.start(), None, 0);
+        for _ in 0..MOST_GUESSES {
+            if !(span.left >= left && span.right <= right && span.left < span.right) {
+                return Ok(None);
+            }
+            let Some(doubt) = self.integrator.sample_over(gap, span, true)? else {
+                return Ok(None);
+            };
+            let (next, reaches_end) = match self.converge(on.unwrap_or(span), Effort::Guess)? {
+                Ok(Converged { on: guess, error, .. }) => {
+                    let guess = Guess { on: guess.plain(), error, doubt };
+                    if let Some(share) = self.share_in_doubt(span, &guess) {
+                        return Ok(Some((guess.on, share)));
+                    }
+                    on = Some(guess.on);
+                    self.closer(span, &guess)
+                }
+                Err(Stop::Beyond { reached, .. }) => {
+                    on = None;
+                    (self.up_to_corners(reached.plain()), true)
+                }
+                Err(_) => return Ok(None),
+            };
+            at_end += usize::from(reaches_end);
+            let is_spent = reaches_end && at_end == MOST_GUESSES_AT_END && !self.may_bear()?;
+            if is_spent || on.is_none() && next.is_same(&span) {
+                return Ok(None);
+            }
+            span = next;
+        }
+        Ok(None)
+    }
+
+    /// Tells whether a breakpoint lies inside. It is where it is, and only the width is in doubt.
+    fn is_broken(&self, on: Interval<T>) -> bool {
+        let breakpoint = self.contact.gap.breakpoint_after(on.left);
+        breakpoint.is_some_and(|breakpoint| breakpoint < on.right)
+    }
+
+    /// Returns how far a guess is in doubt, as a share of its half-width, if it is sure enough.
+    fn share_in_doubt(&self, span: Interval<T>, guess: &Guess<T>) -> Option<T> {
+        let Guess { on, error, doubt } = *guess;
+        let share = on.half_width() / span.half_width();
+        let (broken, comparable) = (self.is_broken(on), share >= T::of(COMPARABLE));
+        let doubt = if broken && !comparable { doubt.sqrt() } else { doubt };
+        let relative = if broken { doubt } else { doubt / share };
+        let sure = T::of(if broken { 0.1 } else { 0.02 });
+        if on.left >= span.left && on.right <= span.right {
+            let is_sure = error <= T::of(0.1) && (comparable || relative <= sure);
+            return is_sure.then(|| relative.min(T::of(0.1)));
+        }
+        // Outside, the doubt grows with the powers that the guess has left out.
+        let apart = (on.centre() - span.centre()).abs() / span.half_width();
+        let reached = share.max(apart).max(T::one());
+        let is_sure = relative * reached.powi(5) <= T::of(1e-3) && error <= sure;
+        is_sure.then(|| sure * T::of(0.5))
+    }
+
+    /// Returns a span around a guess, as close as its place is known, and whether it reached for an end of the bodies:
+    /// it goes half the way there, where the slope may be infinite.
+    fn closer(&self, span: Interval<T>, guess: &Guess<T>) -> (Interval<T>, bool) {
+        let Guess { on, doubt, .. } = *guess;
+        let rounding = T::of(64.0) * T::epsilon() * span.left.abs().max(span.right.abs());
+        let doubt = if self.is_broken(on) { T::zero() } else { (doubt + doubt).min(T::of(0.3)) };
+        let reach = (doubt * span.half_width()).max(rounding);
+        let [left, right] = self.beyond(on, T::of(0.125));
+        // What lies outside was guessed from the outermost panel, which may be a short one.
+        let guessed = |by: T| T::of(1.0 / 64.0) * by.max(T::zero());
+        let next = Interval {
+            left: left.min(on.left - reach - guessed(span.left - on.left)),
+            right: right.max(on.right + reach + guessed(on.right - span.right)),
+        };
+        let range = self.contact.gap.range();
+        let half_way = |x: T, from: T, end: T, is_beyond: bool| {
+            if is_beyond { T::of(0.5) * from + T::of(0.5) * end } else { x }
+        };
+        let is_beyond = [next.left <= range[0], next.right >= range[1]];
+        let next = Interval {
+            left: half_way(next.left, on.left, range[0], is_beyond[0]),
+            right: half_way(next.right, on.right, range[1], is_beyond[1]),
+        };
+        (self.up_to_corners(next), is_beyond[0] || is_beyond[1])
+    }
+}
