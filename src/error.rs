@@ -114,10 +114,7 @@ pub enum ContactError<T: Real> {
         kappa: T,
     },
     /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
-    #[error(
-        "E* = {modulus}: the contact modulus must be positive, and π E*/2 finite",
-        modulus = six(*modulus)
-    )]
+    #[error("E* = {}: the contact modulus must be positive, and π E*/2 finite", six(*modulus))]
     InvalidModulus {
         /// E* as given.
         modulus: T,
@@ -134,9 +131,8 @@ pub enum ContactError<T: Real> {
     },
     /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
     #[error(
-        "{name} = {value}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
-         finite, distances shorter than the bodies and longer than the rounding of x",
-        value = six(*value)
+        "{name} = {}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
+         finite, distances shorter than the bodies and longer than the rounding of x", six(*value)
     )]
     InvalidEdgePressure {
         /// Which of them.
@@ -242,8 +238,7 @@ pub enum ContactError<T: Real> {
     #[error(
         "{evaluations} evaluations of the curves, the last from x = {}, and not done: the budget is \
          {budget}; give a start nearer to the contact, declare breakpoints, or set a looser tolerance or a coarser \
-         resolution",
-        span(last.left, last.right)
+         resolution", span(last.left, last.right)
     )]
     BudgetSpent {
         /// Evaluations of the curves, or values of the slope of the gap, by then.
@@ -294,8 +289,7 @@ pub enum ContactError<T: Real> {
     /// The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq. (6) has
     /// left a singularity, or where the slope of a body jumps.
     #[error(
-        "the pressure at x = {x} is infinite; ask beside it, or for edge_singularities()",
-        x = six(*x)
+        "the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x)
     )]
     Singular {
         /// Where.
@@ -320,8 +314,7 @@ pub enum ContactError<T: Real> {
     /// The bodies [declare](crate::Convexity) that they bulge towards each other, but the slope of the gap falls.
     #[error(
         "the slope of the gap falls from {} {}, but the bodies declare that they bulge towards each other: declare \
-         Convexity::Unknown, or correct the curve",
-        span(slopes[0], slopes[1]), along(*between)
+         Convexity::Unknown, or correct the curve", span(slopes[0], slopes[1]), along(*between)
     )]
     NotConvex {
         /// Two places, the left one first; the same one twice where the slope jumps.
@@ -332,9 +325,8 @@ pub enum ContactError<T: Real> {
     /// The bodies would have to pull at each other inside the contact: they part there.
     #[error(
         "the pressure at x = {x} would be {pressure} in the contact found under the load {load}, from {}: the bodies \
-         part there; {}",
-        span(interval.left, interval.right), how_to_press(*pressure), x = six(*x), pressure = six(*pressure),
-        load = six(*load)
+         part there; {}", span(interval.left, interval.right), how_to_press(*pressure), x = six(*x),
+        pressure = six(*pressure), load = six(*load)
     )]
     Tension {
         /// Where the pressure is negative.
@@ -446,10 +438,7 @@ pub enum ContactError<T: Real> {
         least: T,
     },
     /// A work of adhesion is negative or not finite.
-    #[error(
-        "the work of adhesion is {work}: it must be finite and not negative",
-        work = six(*work)
-    )]
+    #[error("the work of adhesion is {}: it must be finite and not negative", six(*work))]
     InvalidAdhesion {
         /// The work of adhesion as given.
         work: T,
@@ -587,9 +576,7 @@ pub enum ContactError<T: Real> {
         depth: T,
     },
     /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
-    #[error(
-        "Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel", ratio = six(*ratio)
-    )]
+    #[error("Poisson's ratio is {}: it must be from 0 to 1/2, as 0.3 of steel", six(*ratio))]
     InvalidPoissonRatio {
         /// As given.
         ratio: T,
@@ -659,10 +646,7 @@ pub enum ContactError<T: Real> {
         rate: T,
     },
     /// The coefficient of friction is not finite.
-    #[error(
-        "the coefficient of friction is {coefficient}: it must be finite",
-        coefficient = six(*coefficient)
-    )]
+    #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]
     InvalidFriction {
         /// As given.
         coefficient: T,
@@ -677,10 +661,7 @@ pub enum ContactError<T: Real> {
         friction: T,
     },
     /// The force or the tension of partial slip is not finite.
-    #[error(
-        "{quantity} = {value}: what acts along the contact must be finite",
-        value = six(*value)
-    )]
+    #[error("{quantity} = {}: what acts along the contact must be finite", six(*value))]
     InvalidShear {
         /// `force` or `tension`.
         quantity: &'static str,
@@ -701,9 +682,8 @@ pub enum ContactError<T: Real> {
     /// The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
     /// rounding. Without slip the traction is Q ∂P/∂F, of [`Solution::load_rates`](crate::Solution::load_rates).
     #[error(
-        "the tangential force {force} is so much less than friction carries, μF = {limit}, that nothing is seen to \
-         slip: take Q times the rate of the pressure in load_rates",
-        force = six(*force), limit = six(*limit)
+        "the tangential force {} is so much less than friction carries, μF = {}, that nothing is seen to \
+         slip: take Q times the rate of the pressure in load_rates", six(*force), six(*limit)
     )]
     SticksEverywhere {
         /// Q.
@@ -815,54 +795,36 @@ pub enum ErrorKind {
     Evaluation,
 }
 
-impl<T: Real> ContactError<T> {
-    /// What this error is about.
-    #[must_use]
-    pub fn kind(&self) -> ErrorKind {
-        match self {
-            Self::Shape(_)
-            | Self::Pieces(_)
-            | Self::Points(_)
-            | Self::Profile { .. }
-            | Self::NoCommonRange { .. }
-            | Self::InvalidLoad { .. }
-            | Self::InvalidKappa { .. }
-            | Self::InvalidModulus { .. }
-            | Self::InvalidLimits { .. }
-            | Self::InvalidEdgePressure { .. }
-            | Self::InvalidSegments { .. }
-            | Self::InvalidTolerance { .. }
-            | Self::InvalidResolution { .. }
-            | Self::InvalidAdhesion { .. }
-            | Self::InvalidMoment { .. }
-            | Self::InvalidPoissonRatio { .. }
-            | Self::InvalidFriction { .. }
-            | Self::InvalidSlipFriction { .. }
-            | Self::InvalidShear { .. }
-            | Self::UnlikeBodies { .. }
-            | Self::SlipNotSupported { .. }
-            | Self::InvalidYoungsModulus { .. }
-            | Self::BothRigid
-            | Self::NoMaterials
-            | Self::InvalidReference { .. }
-            | Self::InconsistentHeights { .. }
-            | Self::NotConvex { .. }
-            | Self::BothLimitsGiven { .. }
-            | Self::TiltNotSupported { .. }
-            | Self::PeakEdge { .. }
-            | Self::EdgePressureLoad => ErrorKind::Input,
-            Self::Singular { .. }
-            | Self::AboveSurface { .. }
-            | Self::InvalidPosition { .. }
-            | Self::NoLoadDerivative { .. }
-            | Self::LengthMismatch { .. }
-            | Self::OutsideTable { .. }
-            | Self::Integral { .. }
-            | Self::Unresolved { .. } => ErrorKind::Evaluation,
-            _ => ErrorKind::Solve,
+/// Says of each error what it is about.
+macro_rules! kinds {
+    ($($kind:ident: $($error:ident)*;)*) => {
+        impl<T: Real> ContactError<T> {
+            /// What this error is about.
+            #[must_use]
+            pub fn kind(&self) -> ErrorKind {
+                match self {
+                    $($(Self::$error { .. })|* => ErrorKind::$kind,)*
+                }
+            }
         }
-    }
+    };
+}
+kinds! {
+    Input: Shape Pieces Points Profile NoCommonRange InvalidLoad InvalidKappa InvalidModulus
+        InvalidLimits InvalidEdgePressure InvalidSegments InconsistentHeights NotConvex
+        InvalidTolerance InvalidResolution InvalidAdhesion BothLimitsGiven InvalidMoment
+        TiltNotSupported PeakEdge InvalidPoissonRatio InvalidYoungsModulus BothRigid NoMaterials
+        InvalidReference InvalidFriction InvalidSlipFriction InvalidShear UnlikeBodies
+        SlipNotSupported EdgePressureLoad;
+    Solve: Cancelled OutsideBodies Inversion NoFirstContact DomainTooShort HalfWidthTooLarge
+        EndReached NoEquilibrium Overflow BudgetSpent LimitSearch EdgePressureNotMet Tension
+        LiftsOff Overlap FeatureMissed Unbalanced Undecided TiltNotFound PullOff PeakTooHigh NoPeak
+        InJump ApproachTooLarge ApproachFalls SlipsEverywhere SticksEverywhere ReversedSlip;
+    Evaluation: Singular AboveSurface OutsideTable InvalidPosition NoLoadDerivative LengthMismatch
+        Integral Unresolved;
+}
 
+impl<T: Real> ContactError<T> {
     /// The same error, with what is known of the stiffness.
     pub(crate) fn with_stiffness(mut self, is_default: bool) -> Self {
         if let Self::DomainTooShort { kappa_is_default, .. }

@@ -51,6 +51,12 @@ impl<T: Real> Interval<T> {
         x > self.left && x < self.right
     }
 
+    /// Finds, of intervals from left to right, the number of the first that ends beyond `x`, and the one that holds `x`.
+    pub(crate) fn find(all: &[Self], x: T) -> (usize, Option<Self>) {
+        let first = all.partition_point(|on| on.right <= x);
+        (first, all.get(first).copied().filter(|on| on.contains(x)))
+    }
+
     /// `sqrt((x + b)(a - x))`, from the distances to the two ends so that it keeps its
     /// relative accuracy next to either.
     pub fn chebyshev_weight(&self, x: T) -> T {
@@ -88,23 +94,18 @@ impl<T> Index<Side> for Interval<T> {
     }
 }
 
-/// `[left, right]`; a precision is that of both ends.
-impl<T: Display> Display for Interval<T> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        f.write_str("[")?;
-        self.left.fmt(f)?;
-        f.write_str(", ")?;
-        self.right.fmt(f)?;
-        f.write_str("]")
-    }
+macro_rules! shown {
+    ($($format:ident)*) => {$(
+        /// `[left, right]`; a precision is that of both ends.
+        impl<T: $format> $format for Interval<T> {
+            fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+                f.write_str("[")?;
+                self.left.fmt(f)?;
+                f.write_str(", ")?;
+                self.right.fmt(f)?;
+                f.write_str("]")
+            }
+        }
+    )*};
 }
-
-impl<T: LowerExp> LowerExp for Interval<T> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        f.write_str("[")?;
-        self.left.fmt(f)?;
-        f.write_str(", ")?;
-        self.right.fmt(f)?;
-        f.write_str("]")
-    }
-}
+shown! { Display LowerExp }

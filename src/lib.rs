@@ -108,18 +108,14 @@ pub use ends::{Ends, Side};
 pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
-pub use material::{Material, PlaneState};
+pub use material::{Material, PlaneState, Reference, References};
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};
 pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
-pub use solution::stress;
-pub use solution::{Approach, Reference, References};
-pub use solution::{
-    Attempt, ContactRegion, Outcome, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary,
-};
-pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure};
-pub use solution::{PartialSlip, Shear, SlipStress, Traction};
+pub use solution::{Approach, ContactRegion, PartialSlip, Shear, SlipStress, Traction};
+pub use solution::{Attempt, Outcome, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary};
+pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure, stress};
 pub use solver::Solver;
 pub use spring::{SpringPoint, SpringTable};
 #[cfg(feature = "rayon")]

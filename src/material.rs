@@ -1,4 +1,4 @@
-//! What the bodies are made of.
+//! What the bodies are made of, and between which of their points an approach is measured.
 //!
 //! ```text
 //! 1/E* = 1/M₁ + 1/M₂      M = E/(1 - ν²) in plane strain, M = E in plane stress
@@ -26,11 +26,8 @@ use crate::{Body, ContactError, Real};
 /// # Ok::<(), linecontact::ContactError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub enum Material<T> {
     /// Elastic and the same in all directions.
     Elastic {
@@ -49,6 +46,37 @@ impl<T: Real> Material<T> {
     pub fn elastic(youngs_modulus: T, poisson_ratio: T) -> Self {
         Self::Elastic { youngs_modulus, poisson_ratio }
     }
+}
+
+/// The point of a body that its surface comes nearer to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum Reference<T> {
+    /// The point at this depth below the surface, a length: the half-plane as it is.
+    Depth(T),
+    /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
+    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact that is small beside the disc, and
+    /// off by the order of `(L/R)²`. Of a roller between two blocks each side is a contact of its own: the approaches
+    /// add.
+    Disc(T),
+    /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: approach and stiffness are negative for a short one. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
+    Length(T),
+}
+
+/// The references of both bodies. That of a [rigid](crate::Material::Rigid) body is not looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct References<T> {
+    /// The x below and above which they are, on the bodies. It matters for depths of a few half-widths, not for those
+    /// far larger, nor for discs and lengths.
+    pub x: T,
+    /// Of body 1.
+    pub lower: Reference<T>,
+    /// Of body 2.
+    pub upper: Reference<T>,
 }
 
 /// How thick the bodies are, across the plane of the contact.
@@ -123,9 +151,7 @@ impl<T: Real> Elasticity<T> {
         if !(modulus.is_finite() && modulus > zero && compliance.is_finite()) {
             return Err(ContactError::InvalidYoungsModulus { body, modulus });
         }
-        if !(ratio >= zero && ratio <= T::of(0.5)) {
-            return Err(ContactError::InvalidPoissonRatio { ratio });
-        }
+        checked_ratio(ratio)?;
         Ok(match state {
             PlaneState::Strain => {
                 Self { compliance: (one - ratio) * (one + ratio) * compliance, ratio }
@@ -133,4 +159,10 @@ impl<T: Real> Elasticity<T> {
             PlaneState::Stress => Self { compliance, ratio: ratio / (one + ratio) },
         })
     }
+}
+
+/// Refuses what is no Poisson's ratio.
+pub(crate) fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
+    let is_valid = ratio >= T::zero() && ratio <= T::of(0.5);
+    if is_valid { Ok(ratio) } else { Err(ContactError::InvalidPoissonRatio { ratio }) }
 }

@@ -202,45 +202,25 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
 
 /// A pointer to a profile is one.
 macro_rules! forward {
-    ($($pointer:ty),*) => {$(
+    ($($name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
+        forward!(&P: $($name($($argument: $type),*) $(-> $result)?;)*);
+        forward!(Box<P>: $($name($($argument: $type),*) $(-> $result)?;)*);
+        forward!(Arc<P>: $($name($($argument: $type),*) $(-> $result)?;)*);
+    };
+    ($pointer:ty: $($name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
         impl<T: Real, P: ParametricProfile<T> + ?Sized> ParametricProfile<T> for $pointer {
-            fn domain(&self) -> [T; 2] {
-                (**self).domain()
-            }
-            fn at(&self, k: T) -> CurvePoint<T> {
-                (**self).at(k)
-            }
-            fn slope_at(&self, x: T) -> Option<T> {
-                (**self).slope_at(x)
-            }
-            fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
-                (**self).at_many(k, points)
-            }
-            fn convexity(&self) -> Convexity {
-                (**self).convexity()
-            }
-            fn pieces(&self) -> usize {
-                (**self).pieces()
-            }
-            fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
-                (**self).piece(index)
-            }
-            fn x(&self, k: T) -> T {
-                (**self).x(k)
-            }
-            fn y(&self, k: T) -> T {
-                (**self).y(k)
-            }
-            fn dx(&self, k: T) -> T {
-                (**self).dx(k)
-            }
-            fn dy(&self, k: T) -> T {
-                (**self).dy(k)
-            }
+            $(fn $name(&self, $($argument: $type),*) $(-> $result)? {
+                (**self).$name($($argument),*)
+            })*
         }
-    )*};
+    };
 }
-forward!(&P, Box<P>, Arc<P>);
+forward! {
+    domain() -> [T; 2]; at(k: T) -> CurvePoint<T>; slope_at(x: T) -> Option<T>;
+    at_many(k: &[T], points: &mut [CurvePoint<T>]); convexity() -> Convexity;
+    pieces() -> usize; piece(index: usize) -> Option<Piece<'_, T>>;
+    x(k: T) -> T; y(k: T) -> T; dx(k: T) -> T; dy(k: T) -> T;
+}
 
 /// Refuses a parameter of a shape that `holds` does not hold for, or that is not finite.
 fn finite<T: Real>(
@@ -254,6 +234,11 @@ fn finite<T: Real>(
     } else {
         Err(ProfileError::Parameter { name, value, must })
     }
+}
+
+/// Refuses a value of a curve that is not finite.
+fn finite_at<T: Real>(quantity: &'static str, k: T, value: T) -> Result<T, ProfileError<T>> {
+    if value.is_finite() { Ok(value) } else { Err(ProfileError::NotFinite { quantity, k, value }) }
 }
 
 /// A range of `k`, checked.

@@ -162,10 +162,7 @@ pub enum ReferenceError<T: Real> {
         must: &'static str,
     },
     /// The pull is more than adhesion can bear.
-    #[error(
-        "no contact under the load {load}: the bodies come apart at {least}",
-        load = six(*load), least = six(*least)
-    )]
+    #[error("no contact under the load {}: the bodies come apart at {}", six(*load), six(*least))]
     PullOff {
         /// Load per unit length.
         load: T,
@@ -180,16 +177,21 @@ fn check<T: Real>(
     value: T,
     holds: bool,
     must: &'static str,
-) -> Result<T, ReferenceError<T>> {
+) -> Result<(), ReferenceError<T>> {
     if holds && value.is_finite() {
-        Ok(value)
+        Ok(())
     } else {
         Err(ReferenceError::Parameter { name, value, must })
     }
 }
 
-fn positive<T: Real>(name: &'static str, value: T) -> Result<T, ReferenceError<T>> {
-    check(name, value, value > T::zero(), "positive and finite")
+/// Refuses the first parameter that is not positive and finite.
+fn positive<T: Real, const N: usize>(
+    parameters: [(&'static str, T); N],
+) -> Result<(), ReferenceError<T>> {
+    let mut parameters = parameters.into_iter();
+    parameters
+        .try_for_each(|(name, value)| check(name, value, value > T::zero(), "positive and finite"))
 }
 
 /// The contact `[-L, L]`.
@@ -200,4 +202,9 @@ fn centred<T: Real>(half_width: T) -> Interval<T> {
 /// False for NaN, which goes through the formulas.
 fn outside<T: Real>(limits: Interval<T>, x: T) -> bool {
     x < limits.left || x > limits.right
+}
+
+/// Returns `sqrt((a - x)(x + b))`, as which a pressure falls towards free edges; `None` outside.
+fn root_inside<T: Real>(limits: Interval<T>, x: T) -> Option<T> {
+    (!outside(limits, x)).then(|| limits.chebyshev_weight(x))
 }

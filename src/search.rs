@@ -18,19 +18,35 @@
 //! bracket. None compares with an absolute number unless told to: multiplying `x` and `f`
 //! by powers of two gives the same iterates, bit for bit, and the same counts.
 
+/// A strategy that is told no more than when to stop.
+macro_rules! strategy {
+    ($(#[$documentation:meta])* $name:ident) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+        pub struct $name {
+            /// When to stop.
+            pub tolerance: StoppingCriteria,
+        }
+
+        impl $name {
+            /// All digits.
+            pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
+        }
+    };
+}
+
 mod bisection;
 mod bracket_state;
-mod brent;
 mod fallible;
 mod newton;
 mod roots_adapter;
-mod secant;
 
 pub use bisection::Bisection;
-pub use brent::Brent;
 pub use fallible::{TryFindError, try_find, try_find_with_slope};
 pub use newton::Newton;
-pub use secant::Secant;
+pub use roots_adapter::{Brent, Secant};
 
 use crate::Real;
 use crate::rounded::{apart, six};
@@ -150,11 +166,8 @@ pub struct Root<T> {
 /// # Ok::<(), linecontact::search::SearchError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct StoppingCriteria {
     /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
     pub absolute: f64,
@@ -207,10 +220,7 @@ impl Default for StoppingCriteria {
 #[non_exhaustive]
 pub enum SearchError<T: Real> {
     /// The bracket has a NaN or infinite end, or its ends are the wrong way round.
-    #[error(
-        "[{lo}, {hi}] is no bracket: give two finite ends in rising order",
-        lo = six(*lo), hi = six(*hi)
-    )]
+    #[error("[{}, {}] is no bracket: give two finite ends in rising order", six(*lo), six(*hi))]
     Bracket {
         /// Lower end as given.
         lo: T,
@@ -234,8 +244,7 @@ pub enum SearchError<T: Real> {
     },
     /// The function returned NaN or an infinity.
     #[error(
-        "the function is {value} at {x}; it must be finite on the whole bracket",
-        value = six(*value), x = six(*x)
+        "the function is {} at {}; it must be finite on the whole bracket", six(*value), six(*x)
     )]
     NotFinite {
         /// Where.
@@ -270,8 +279,7 @@ pub enum SearchError<T: Real> {
     /// A strategy has stopped where the function is still far from zero.
     #[error(
         "the search stopped at {x}, where the function is still {residual}: tighten the tolerance, if one was set, or \
-         write the function so that no large terms cancel",
-        x = six(*x), residual = six(*residual)
+         write the function so that no large terms cancel", x = six(*x), residual = six(*residual)
     )]
     NotConverged {
         /// What it returned.
@@ -280,10 +288,7 @@ pub enum SearchError<T: Real> {
         residual: T,
     },
     /// A tolerance is negative, NaN or infinite.
-    #[error(
-        "{value} is no tolerance: give a finite number that is not negative",
-        value = six(*value)
-    )]
+    #[error("{} is no tolerance: give a finite number that is not negative", six(*value))]
     Tolerance {
         /// The tolerance as given.
         value: f64,

@@ -1,10 +1,9 @@
 //! What comes back, and what can be asked of it: one question a file.
 
+use crate::Real;
 use crate::gap::{Cost, Gap};
 use crate::material::Elasticity;
 use crate::quadrature::Integrator;
-use crate::quadrature::panels::{self, Several};
-use crate::{Interval, Real};
 use std::sync::Arc;
 
 // In the order in which the questions show in the documentation.
@@ -44,8 +43,8 @@ mod report;
 mod solved;
 mod undeformed_gap;
 
+pub use approach::Approach;
 pub(crate) use approach::Approaching;
-pub use approach::{Approach, Reference, References};
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
 pub(crate) use contact_state::ContactState;
@@ -84,61 +83,21 @@ pub use summary::Summary;
 /// ```
 #[derive(Clone)]
 pub struct Solution<'b, T: Real> {
-    gap: Gap<'b, T>,
+    pub(crate) gap: Gap<'b, T>,
     /// That has solved the contact.
-    integrator: Arc<Box<dyn Integrator<T>>>,
-    kappa: T,
-    elasticity: Option<[Elasticity<T>; 2]>,
-    found: ContactState<T>,
-    cost: Cost,
-    report: Report,
+    pub(crate) integrator: Arc<Box<dyn Integrator<T>>>,
+    pub(crate) kappa: T,
+    /// Of the bodies, where it is known.
+    pub(crate) elasticity: Option<[Elasticity<T>; 2]>,
+    pub(crate) found: ContactState<T>,
+    pub(crate) cost: Cost,
+    pub(crate) report: Report,
 }
 
-impl<'b, T: Real> Solution<'b, T> {
-    pub(crate) fn new(
-        gap: Gap<'b, T>,
-        integrator: Arc<Box<dyn Integrator<T>>>,
-        kappa: T,
-        elasticity: Option<[Elasticity<T>; 2]>,
-        found: ContactState<T>,
-        cost: Cost,
-        report: Report,
-    ) -> Self {
-        Self { gap, integrator, kappa, elasticity, found, cost, report }
-    }
-
-    /// The contact in which a place lies.
-    pub(crate) fn contact_with(&self, x: T) -> Option<Interval<T>> {
-        let contacts = self.intervals();
-        let first = contacts.partition_point(|on| on.right <= x);
-        contacts.get(first).copied().filter(|on| on.contains(x))
-    }
-
-    /// The contacts on their panels, if they are several.
-    pub(crate) fn several(&self) -> Option<&Several<T>> {
-        panels::several(&**self.integrator)
-    }
-
-    pub(crate) fn gap(&self) -> &Gap<'b, T> {
-        &self.gap
-    }
-
-    pub(crate) fn scale(&self) -> T {
-        self.kappa
-    }
-
-    /// Of the bodies, where it is known.
-    fn elasticity(&self) -> Option<[Elasticity<T>; 2]> {
-        self.elasticity
-    }
-
+impl<T: Real> Solution<'_, T> {
     pub(crate) fn solved(&self) -> Solved<'_, T> {
         let Self { gap, integrator, kappa, found, .. } = self;
         Solved { gap, integrator: &***integrator, kappa: *kappa, found }
-    }
-
-    pub(crate) fn found(&self) -> &ContactState<T> {
-        &self.found
     }
 }
 

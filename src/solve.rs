@@ -23,7 +23,7 @@ use crate::contact::{Contact, Control, EdgePressure, check, check_positive, chec
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, panels};
 use crate::solution::{
-    ContactState, Outcome, PartialSlip, Report, Shear, Solution, Start, certify,
+    ContactState, Outcome, PartialSlip, Report, Shear, Solution, Solved, Start, certify,
 };
 use crate::{ContactError, Edge, Ends, Real, Solver};
 use by_load::{ByLoad, Quantity};
@@ -94,16 +94,9 @@ impl<'b, T: Real> Contact<'b, T> {
         cost: Cost,
         report: Report,
     ) -> Solution<'b, T> {
-        let gap = self.gap.tilted(found.tilt);
-        Solution::new(
-            gap,
-            integrator,
-            self.kappa,
-            self.elasticity().ok().flatten(),
-            found,
-            cost,
-            report,
-        )
+        let (gap, kappa) = (self.gap.tilted(found.tilt), self.kappa);
+        let elasticity = self.elasticity().ok().flatten();
+        Solution { gap, integrator, kappa, elasticity, found, cost, report }
     }
 }
 
@@ -145,7 +138,7 @@ fn find_checked<T: Real>(
         work.workspace.report.doubt();
     }
     if contact.certified {
-        certify(&gap, contact.kappa, &found, integrator)?;
+        certify(Solved { gap: &gap, integrator, kappa: contact.kappa, found: &found })?;
     }
     Ok(found)
 }

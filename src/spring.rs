@@ -58,12 +58,13 @@ pub struct SpringPoint<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Stored<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+    serde(deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
 pub struct SpringTable<T> {
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "checked"))]
     points: Vec<Node<T>>,
     error: T,
     stiffness_error: T,
@@ -78,39 +79,29 @@ struct Node<T> {
     exponents: [T; 3],
 }
 
-/// A table as it is read from a file.
+/// Reads the points of a table.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stored<T> {
-    points: Vec<Node<T>>,
-    error: T,
-    stiffness_error: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real> TryFrom<Stored<T>> for SpringTable<T> {
-    type Error = &'static str;
-
-    fn try_from(Stored { points, error, stiffness_error }: Stored<T>) -> Result<Self, Self::Error> {
-        let positive = |value: T| value > T::zero() && value.is_finite();
-        let is_state = |Node { point, exponents }: &Node<T>| {
-            let SpringPoint { approach, load, stiffness, half_width, peak } = *point;
-            [approach, load, stiffness, half_width].into_iter().all(positive)
-                && peak.is_none_or(positive)
-                && exponents.iter().all(|exponent| exponent.is_finite())
-        };
-        let rises = |pair: &[Node<T>]| {
-            let [from, to] = [pair[0].point, pair[1].point];
-            from.approach < to.approach && from.load < to.load
-        };
-        if points.len() < 2 || !points.iter().all(is_state) || !points.windows(2).all(rises) {
-            return Err(
-                "a table of springs has two points or more, of positive numbers, with rising approach and load",
-            );
-        }
-        Ok(Self { points, error, stiffness_error })
+fn checked<'de, T: Real + serde::Deserialize<'de>, D: serde::Deserializer<'de>>(
+    file: D,
+) -> Result<Vec<Node<T>>, D::Error> {
+    let points = <Vec<Node<T>> as serde::Deserialize>::deserialize(file)?;
+    let positive = |value: T| value > T::zero() && value.is_finite();
+    let is_state = |Node { point, exponents }: &Node<T>| {
+        let SpringPoint { approach, load, stiffness, half_width, peak } = *point;
+        [approach, load, stiffness, half_width].into_iter().all(positive)
+            && peak.is_none_or(positive)
+            && exponents.iter().all(|exponent| exponent.is_finite())
+    };
+    let rises = |pair: &[Node<T>]| {
+        let [from, to] = [pair[0].point, pair[1].point];
+        from.approach < to.approach && from.load < to.load
+    };
+    if points.len() > 1 && points.iter().all(is_state) && points.windows(2).all(rises) {
+        return Ok(points);
     }
+    Err(serde::de::Error::custom(
+        "a table of springs has two points or more, of positive numbers, with rising approach and load",
+    ))
 }
 
 impl<T: Real> SpringTable<T> {
@@ -134,11 +125,9 @@ impl<T: Real> SpringTable<T> {
         let [least, largest] = loads;
         if !(least > T::zero() && least < largest && largest.is_finite()) {
             let is_least = !(least > T::zero() && least.is_finite());
-            let (quantity, value) = if is_least {
-                ("least load", least)
-            } else {
-                ("largest load, which must be more than the least,", largest)
-            };
+            let largest_load = "largest load, which must be more than the least,";
+            let (quantity, value) =
+                if is_least { ("least load", least) } else { (largest_load, largest) };
             return Err(ContactError::InvalidLoad { quantity, value });
         }
         if !(tolerance > T::zero() && tolerance < T::one()) {
@@ -209,17 +198,16 @@ fn node<T: Real>(
     solution: &Solution<'_, T>,
     references: &References<T>,
 ) -> Result<Node<T>, ContactError<T>> {
-    let [approach, rate] = solution.approach_with_rate(references)?;
+    let [approach, rate] = solution.approaching(references)?.with_rate()?;
     let load = solution.load();
     if !(rate > T::zero() && rate.is_finite()) {
         return Err(ContactError::ApproachFalls { load, rate });
     }
     let rates = solution.load_rates()?;
-    let half = T::of(0.5);
-    let half_width =
-        solution.intervals().iter().fold(T::zero(), |sum, on: &Interval<T>| sum + on.half_width());
-    let widening =
-        rates.limits.iter().fold(T::zero(), |sum, rates| sum + half * (rates.right - rates.left));
+    let half_widths = solution.intervals().iter().map(Interval::half_width);
+    let half_width = half_widths.fold(T::zero(), |sum, half_width| sum + half_width);
+    let widening = rates.limits.iter().map(|rates| T::of(0.5) * (rates.right - rates.left));
+    let widening = widening.fold(T::zero(), |sum, rate| sum + rate);
     let (peak, growth) = match solution.peak() {
         Ok(peak) => (Some(peak.pressure), rates.pressure(peak.x)? / peak.pressure),
         Err(ContactError::Singular { .. }) => (None, T::zero()),

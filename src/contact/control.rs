@@ -1,6 +1,6 @@
 //! The quantity that is prescribed.
 
-use crate::solution::References;
+use crate::References;
 
 /// What is prescribed of the contact: the load, or another number for which the load comes out
 /// ([`Solution::load`](crate::Solution::load)).
@@ -18,11 +18,8 @@ use crate::solution::References;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Control<T> {
     /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)

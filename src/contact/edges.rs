@@ -18,11 +18,8 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 /// # Ok::<(), linecontact::ContactError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub enum Edge<T> {
     /// A smooth body: the limit is where the pressure ends at zero.
     Free,

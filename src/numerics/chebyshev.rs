@@ -40,6 +40,7 @@ pub(crate) use by_size;
 pub(crate) type Row<T> = [T; MOST];
 
 /// The zeros of `T_n`, and the transform from values there to coefficients.
+#[derive(Default)]
 pub(crate) struct Table {
     /// The nodes, rising, and `sin θ` there.
     pub z: [f64; MOST],
@@ -64,19 +65,8 @@ pub(crate) fn middle(n: usize) -> usize {
 }
 
 impl Table {
-    fn empty() -> Self {
-        Self {
-            z: [0.0; MOST],
-            sine: [0.0; MOST],
-            spacing: [0.0; MOST],
-            transform: [[0.0; MOST]; MOST],
-            at_end: [0.0; MOST],
-            in_rises: [[0.0; MOST]; 2],
-        }
-    }
-
     fn new(n: usize) -> Self {
-        let mut table = Self::empty();
+        let mut table = Self::default();
         let angle = |eighths: usize| PI * eighths as f64 / (2 * n) as f64;
         for j in 0..n {
             // sin of a small angle of either sign, so that the nodes are symmetric.
@@ -116,7 +106,7 @@ impl Table {
 
     /// Four nodes, two of them at the ends.
     fn with_ends() -> Self {
-        let mut table = Self::empty();
+        let mut table = Self::default();
         table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
         table.set_spacing(4);
         for j in 0..4 {

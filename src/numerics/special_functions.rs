@@ -36,39 +36,34 @@ pub(crate) fn convex_root<T: Real>(start: T, function: impl Fn(T) -> [T; 2]) -> 
 
 /// `u - atan u` for u ≥ 0.
 pub(crate) fn minus_atan<T: Real>(u: T) -> T {
-    if u > T::of(0.75) {
-        return u - u.atan();
-    }
-    let two = T::of(2.0);
-    let term = |k: T| -u * u * (two * k + T::one()) / (two * k + T::of(3.0));
-    series(u * u * u / T::of(3.0), term)
+    if u > T::of(0.75) { u - u.atan() } else { beyond_first(u, -u * u) }
 }
 
 /// `artanh z - z` for 0 ≤ z ≤ 1/2.
 pub(crate) fn artanh_minus<T: Real>(z: T) -> T {
+    beyond_first(z, z * z)
+}
+
+/// Sums `z³/3 + z³ s/5 + z³ s²/7 + ...`
+fn beyond_first<T: Real>(z: T, s: T) -> T {
     let two = T::of(2.0);
-    let term = |k: T| z * z * (two * k + T::one()) / (two * k + T::of(3.0));
-    series(z * z * z / T::of(3.0), term)
+    series(z * z * z / T::of(3.0), |k| s * (two * k + T::one()) / (two * k + T::of(3.0)))
 }
 
 /// `y - sin y` for y ≥ 0.
 pub(crate) fn minus_sin<T: Real>(y: T) -> T {
-    if y > T::one() {
-        return y - y.sin();
-    }
-    let two = T::of(2.0);
-    let term = |k: T| -y * y / ((two * k + two) * (two * k + T::of(3.0)));
-    series(y * y * y / T::of(6.0), term)
+    if y > T::one() { y - y.sin() } else { beyond_first_by_factorials(y, -y * y) }
 }
 
 /// `sinh y - y` for y ≥ 0.
 pub(crate) fn sinh_minus<T: Real>(y: T) -> T {
-    if y > T::of(2.0) {
-        return y.sinh() - y;
-    }
+    if y > T::of(2.0) { y.sinh() - y } else { beyond_first_by_factorials(y, y * y) }
+}
+
+/// Sums `y³/3! + y³ s/5! + y³ s²/7! + ...`
+fn beyond_first_by_factorials<T: Real>(y: T, s: T) -> T {
     let two = T::of(2.0);
-    let term = |k: T| y * y / ((two * k + two) * (two * k + T::of(3.0)));
-    series(y * y * y / T::of(6.0), term)
+    series(y * y * y / T::of(6.0), |k| s / ((two * k + two) * (two * k + T::of(3.0))))
 }
 
 /// `sin φ - φ cos φ` for 0 ≤ φ ≤ π.

@@ -42,12 +42,10 @@ pub enum Convexity {
 impl Convexity {
     /// That of a body whose slope rises with a quantity of this sign.
     pub(super) fn of_sign<T: Real>(sign: T) -> Self {
-        if sign > T::zero() {
-            Self::Convex
-        } else if sign < T::zero() {
-            Self::Concave
-        } else {
-            Self::Straight
+        match sign {
+            _ if sign > T::zero() => Self::Convex,
+            _ if sign < T::zero() => Self::Concave,
+            _ => Self::Straight,
         }
     }
 

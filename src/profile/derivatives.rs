@@ -11,8 +11,7 @@
 //! - an undeclared kink, or an end like a square root, stays in one or two of the sixteen;
 //! - what rounding makes of a formula changes its sign, and its sum does not grow with their number.
 
-use super::interval;
-use super::{ParametricProfile, Piece, ProfileError};
+use super::{ParametricProfile, Piece, ProfileError, finite_at, interval};
 use crate::Real;
 use crate::numerics::gauss_legendre::GaussLegendre;
 
@@ -69,20 +68,15 @@ fn check<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<(), ProfileError<T
     for (i, quantity) in ["X'", "Y'"].into_iter().enumerate() {
         let mut worst: Option<Fault<T>> = None;
         for range in &ranges {
-            if let Some(fault) = range.fault(curve, i, LEVELS)? {
-                let worse = worst.is_none_or(|worst| fault.share > worst.share);
-                worst = if worse { Some(fault) } else { worst };
-            }
+            let fault = range.fault(curve, i, LEVELS)?;
+            let is_worse = |fault: &Fault<T>| worst.is_none_or(|worst| fault.share > worst.share);
+            worst = fault.filter(is_worse).or(worst);
         }
         if let Some(Fault { k, missed, .. }) = worst {
             let at = curve.at(k);
             let given = if i == 0 { at.dx } else { at.dy };
-            return Err(ProfileError::Derivative {
-                quantity,
-                k,
-                given,
-                difference: given - missed,
-            });
+            let difference = given - missed;
+            return Err(ProfileError::Derivative { quantity, k, given, difference });
         }
     }
     check_slope_at(curve, &ranges)
@@ -93,10 +87,9 @@ fn check_slope_at<T: Real>(
     curve: &dyn ParametricProfile<T>,
     ranges: &[Range<T>],
 ) -> Result<(), ProfileError<T>> {
-    let mut worst: Option<(T, [T; 3])> = None;
-    let mut largest = T::zero();
+    let (mut worst, mut largest): (Option<(T, [T; 3])>, _) = (None, T::zero());
     for range in ranges {
-        let k = T::of(0.5) * range.k[0] + T::of(0.5) * range.k[1];
+        let k = range.middle();
         let at = curve.at(k);
         let slope = at.dy / at.dx;
         let Some(given) = curve.slope_at(at.x).filter(|given| (*given - slope).is_finite()) else {
@@ -151,7 +144,7 @@ fn ranges<T: Real>(
     };
     let ends = |k: T| -> Result<[T; 2], ProfileError<T>> {
         let point = curve.at(k);
-        Ok([finite("X", k, point.x)?, finite("Y", k, point.y)?])
+        Ok([finite_at("X", k, point.x)?, finite_at("Y", k, point.y)?])
     };
     let mut ranges = Vec::with_capacity(count);
     let mut left = ends(from)?;
@@ -176,7 +169,7 @@ impl<T: Real> Range<T> {
         for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
             let k = centre + reach * T::of(node);
             let point = curve.at(k);
-            let slopes = [finite("X'", k, point.dx)?, finite("Y'", k, point.dy)?];
+            let slopes = [finite_at("X'", k, point.dx)?, finite_at("Y'", k, point.dy)?];
             for i in 0..2 {
                 let term = reach * T::of(weight) * slopes[i];
                 sum[i] += term;
@@ -209,9 +202,6 @@ impl<T: Real> Range<T> {
             return Ok(None);
         }
         let parts = ranges(curve, self.k, COMPONENTS)?;
-        let worse = |a: &Self, b: &Self| a.missed[i].abs() > b.missed[i].abs();
-        let worst =
-            parts.iter().fold(parts[0], |max, part| if worse(part, &max) { *part } else { max });
         if is_wrong(&parts, i) {
             // A typical one: that at the end of a body may have troubles of its own.
             let typical = typical(&parts, i);
@@ -219,7 +209,10 @@ impl<T: Real> Range<T> {
                 return Ok(Some(typical.as_fault(i)));
             }
         }
-        worst.fault(curve, i, levels - 1)
+        let worse = |max: Self, part: Self| {
+            if part.missed[i].abs() > max.missed[i].abs() { part } else { max }
+        };
+        parts.iter().copied().fold(parts[0], worse).fault(curve, i, levels - 1)
     }
 
     /// By how much the derivative is off, as a share of its size.
@@ -227,13 +220,13 @@ impl<T: Real> Range<T> {
         self.missed[i].abs() / self.size[i]
     }
 
+    fn middle(&self) -> T {
+        T::of(0.5) * self.k[0] + T::of(0.5) * self.k[1]
+    }
+
     fn as_fault(&self, i: usize) -> Fault<T> {
-        let half = T::of(0.5);
-        Fault {
-            k: half * self.k[0] + half * self.k[1],
-            missed: self.missed[i] / (self.k[1] - self.k[0]),
-            share: self.share(i),
-        }
+        let missed = self.missed[i] / (self.k[1] - self.k[0]);
+        Fault { k: self.middle(), missed, share: self.share(i) }
     }
 }
 
@@ -252,8 +245,4 @@ fn is_wrong<T: Real>(parts: &[Range<T>], i: usize) -> bool {
     let agrees =
         |part: &&Range<T>| part.is_off(i) && (part.missed[i] > T::zero()) == (sum > T::zero());
     parts.iter().filter(agrees).count() >= MOST_PARTS && sum.abs() >= T::of(0.5) * total
-}
-
-fn finite<T: Real>(quantity: &'static str, k: T, value: T) -> Result<T, ProfileError<T>> {
-    if value.is_finite() { Ok(value) } else { Err(ProfileError::NotFinite { quantity, k, value }) }
 }

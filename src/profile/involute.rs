@@ -34,14 +34,7 @@ use crate::numerics::special_functions::sin_minus_cos;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "super::stored::Involute<T>",
-        bound(deserialize = "T: Real + serde::Deserialize<'de>")
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Involute<T> {
     base_radius: T,
     origin: T,

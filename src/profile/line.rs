@@ -16,14 +16,7 @@ use crate::Real;
 /// # Ok::<(), linecontact::ProfileError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "super::stored::Line<T>",
-        bound(deserialize = "T: Real + serde::Deserialize<'de>")
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Line<T> {
     slope: T,
     domain: [T; 2],
@@ -81,8 +74,6 @@ pub fn wedge<T: Real>(
     slopes: [T; 2],
     reach: T,
 ) -> Result<Piecewise<T, Line<T>>, PiecewiseError<T>> {
-    let part = |piece: usize, domain| {
-        Line::new(slopes[piece], domain).map_err(|source| PiecewiseError::InPiece { piece, source })
-    };
+    let part = |i: usize, domain| Line::new(slopes[i], domain).map_err(PiecewiseError::in_piece(i));
     Piecewise::new(vec![part(0, [-reach, T::zero()])?, part(1, [T::zero(), reach])?])
 }

@@ -19,14 +19,7 @@ use crate::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "super::stored::Parabola<T>",
-        bound(deserialize = "T: Real + serde::Deserialize<'de>")
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Parabola<T> {
     /// R; `None` where the curvature is zero.
     radius: Option<T>,

@@ -1,6 +1,6 @@
 //! One smooth piece of a profile, checked.
 
-use super::{CurvePoint, Noise, ParametricProfile, ProfileError, interval};
+use super::{CurvePoint, Noise, ParametricProfile, ProfileError, finite_at, interval};
 use crate::Real;
 use std::fmt;
 
@@ -60,9 +60,7 @@ impl<'a, T: Real> Piece<'a, T> {
         let k = interval(curve.domain())?;
         let ends = k.map(|k| curve.at(k));
         for (k, end) in k.into_iter().zip(ends) {
-            if !end.x.is_finite() {
-                return Err(ProfileError::NotFinite { quantity: "X", k, value: end.x });
-            }
+            finite_at("X", k, end.x)?;
         }
         Self::between(curve, k, ends)
     }
@@ -149,11 +147,9 @@ impl<'a, T: Real> Piece<'a, T> {
         let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; STEPS + 1];
         curve.at_many(&std::array::from_fn::<T, { STEPS + 1 }, _>(k), &mut points);
         for (i, point) in points.iter().enumerate() {
-            let inside = i > 0 && i < STEPS;
-            for (quantity, value, asked) in [("X", point.x, true), ("X'", point.dx, inside)] {
-                if asked && !value.is_finite() {
-                    return Err(ProfileError::NotFinite { quantity, k: k(i), value });
-                }
+            finite_at("X", k(i), point.x)?;
+            if i > 0 && i < STEPS {
+                finite_at("X'", k(i), point.dx)?;
             }
         }
         let rising = points[STEPS].x > points[0].x;
@@ -237,28 +233,19 @@ pub(crate) fn first_turn<T: Real>(
     turns_back(curve, [from, to], rising(met))
 }
 
+/// Names the place where `X'` changes its sign between two others; the middle where it does not.
 fn turns_back<T: Real>(
     curve: &dyn ParametricProfile<T>,
     domain: [T; 2],
-    between: [T; 2],
+    [mut lo, mut hi]: [T; 2],
 ) -> ProfileError<T> {
-    let (k, x) = turning_point(curve, between);
-    ProfileError::TurnsBack { k, x, domain }
-}
-
-/// Where `X'` changes its sign between `lo` and `hi`; the middle where it does not.
-fn turning_point<T: Real>(curve: &dyn ParametricProfile<T>, [mut lo, mut hi]: [T; 2]) -> (T, T) {
-    let half = T::of(0.5);
-    let side = curve.dx(lo) < T::zero();
-    if (curve.dx(hi) < T::zero()) == side {
-        let k = half * lo + half * hi;
-        return (k, curve.x(k));
-    }
-    loop {
-        let k = half * lo + half * hi;
-        if !(k > lo && k < hi) {
-            return (k, curve.x(k));
+    let (half, falls) = (T::of(0.5), |k: T| curve.dx(k) < T::zero());
+    let (mut k, side) = (half * lo + half * hi, falls(lo));
+    if falls(hi) != side {
+        while k > lo && k < hi {
+            *(if falls(k) == side { &mut lo } else { &mut hi }) = k;
+            k = half * lo + half * hi;
         }
-        if (curve.dx(k) < T::zero()) == side { lo = k } else { hi = k }
     }
+    ProfileError::TurnsBack { k, x: curve.x(k), domain }
 }

@@ -1,7 +1,9 @@
 //! The combinator that joins smooth pieces.
 
 use super::piece::Scanned;
-use super::{Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError};
+use super::{
+    Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError, finite_at,
+};
 use crate::Real;
 use crate::rounded::{apart, six};
 use thiserror::Error;
@@ -35,26 +37,17 @@ use thiserror::Error;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "super::stored::Piecewise<T, P>",
-        bound(
-            deserialize = "T: Real + serde::Deserialize<'de>, P: ParametricProfile<T> + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
     tolerance: T,
-    #[cfg_attr(feature = "serde", serde(skip_serializing))]
+    #[cfg_attr(feature = "serde", serde(skip))]
     /// `k` and the curve at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
-    #[cfg_attr(feature = "serde", serde(skip_serializing))]
+    #[cfg_attr(feature = "serde", serde(skip))]
     /// The smooth pieces: part, and piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
-    #[cfg_attr(feature = "serde", serde(skip_serializing))]
+    #[cfg_attr(feature = "serde", serde(skip))]
     convexity: Convexity,
 }
 
@@ -94,7 +87,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         let mut scans = Vec::with_capacity(parts.len());
         let mut smooth = Vec::with_capacity(parts.len());
         for (piece, part) in parts.iter().enumerate() {
-            let fault = |source| PiecewiseError::InPiece { piece, source };
+            let fault = PiecewiseError::in_piece(piece);
             scans.push(Scan::new(check(part).map_err(fault)?));
             let inner = Piece::first_of(part).map_err(fault)?.map_or(1, |(count, _)| count);
             smooth.extend((0..inner).map(|inner| (piece, inner)));
@@ -111,12 +104,10 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
             // Slopes that are the same but for rounding make no corner; 0/0 says nothing.
             let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
-            let change = if (after - before).abs() <= size {
-                Convexity::Straight
-            } else if (after - before).abs() > size {
-                Convexity::of_sign(after - before)
-            } else {
-                Convexity::Unknown
+            let change = match after - before {
+                change if change.abs() <= size => Convexity::Straight,
+                change if change.abs() > size => Convexity::of_sign(change),
+                _ => Convexity::Unknown,
             };
             convexity = convexity.joined(parts[breakpoint + 1].convexity(), change);
         }
@@ -135,11 +126,9 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         placement: Placement<T>,
     ) -> Result<Piecewise<T, Placed<T, P>>, PiecewiseError<T>> {
         let tolerance = self.tolerance;
-        let place = |(piece, part)| {
-            Placed::new(part, placement).map_err(|source| PiecewiseError::InPiece { piece, source })
-        };
-        let mut parts =
-            self.parts.into_iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let place = |(i, part)| Placed::new(part, placement).map_err(PiecewiseError::in_piece(i));
+        let parts = self.parts.into_iter().enumerate().map(place);
+        let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
         let middle = |part: &Placed<T, P>| {
             let [from, to] = part.domain();
             part.x(T::of(0.5) * from + T::of(0.5) * to)
@@ -215,10 +204,7 @@ impl<'p, T: Real> Scan<'p, T> {
     /// Refuses a part whose `Y` is not finite at one of its ends.
     fn check_heights(&self, piece: usize) -> Result<(), PiecewiseError<T>> {
         for (&k, &CurvePoint { y: value, .. }) in self.piece.k.iter().zip(&self.piece.ends) {
-            if !value.is_finite() {
-                let source = ProfileError::NotFinite { quantity: "Y", k, value };
-                return Err(PiecewiseError::InPiece { piece, source });
-            }
+            finite_at("Y", k, value).map_err(|source| PiecewiseError::InPiece { piece, source })?;
         }
         Ok(())
     }
@@ -270,10 +256,7 @@ pub enum PiecewiseError<T: Real> {
         source: ProfileError<T>,
     },
     /// The tolerance is negative, NaN or infinite.
-    #[error(
-        "{tolerance} is no tolerance: give a finite number that is not negative",
-        tolerance = six(*tolerance)
-    )]
+    #[error("{} is no tolerance: give a finite number that is not negative", six(*tolerance))]
     Tolerance {
         /// The tolerance as given.
         tolerance: T,
@@ -327,4 +310,10 @@ pub enum PiecewiseError<T: Real> {
         /// `Y` at the start of the right piece.
         right: T,
     },
+}
+
+impl<T: Real> PiecewiseError<T> {
+    pub(super) fn in_piece(piece: usize) -> impl Fn(ProfileError<T>) -> Self + Copy {
+        move |source| Self::InPiece { piece, source }
+    }
 }

@@ -3,6 +3,10 @@
 use super::{Convexity, CurvePoint, ParametricProfile, Piece, ProfileError, finite};
 use crate::Real;
 
+/// Names of quantities in errors.
+const SHIFT: &str = "a shift of a placement";
+const FACTORS: &str = "the product of all factors of a placement";
+
 /// Where a body is put: a map of the plane that keeps angles, made step by step.
 ///
 /// Each step is done after those before it, and about the origin:
@@ -24,16 +28,10 @@ use crate::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Placement<T> {
     /// `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::matrix"))]
     matrix: [[T; 2]; 2],
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::stored::shift"))]
     shift: [T; 2],
     /// The first step that cannot be done, and its value.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -48,6 +46,25 @@ impl<T: Real> Default for Placement<T> {
 }
 
 impl<T: Real> Placement<T> {
+    /// Builds a placement of a matrix that turns, mirrors and scales, but does not bend out of shape, and a shift.
+    #[cfg(feature = "serde")]
+    pub(super) fn read(matrix: [[T; 2]; 2], shift: [T; 2]) -> Result<Self, ProfileError<T>> {
+        let [[a, b], [c, d]] = matrix;
+        let [size, other] = [a.hypot(b), c.hypot(d)];
+        finite(FACTORS, size, size > T::zero(), "finite and not zero")?;
+        let allowed = T::epsilon().sqrt();
+        // In shares of the size, whose products neither overflow nor vanish.
+        let square = (a / size) * (c / size) + (b / size) * (d / size);
+        let differ = (other - size) / size;
+        let angle = "the angle between the rows of a placement, by its cosine,";
+        let difference = "the difference of the two factors of a placement, as a share,";
+        for (name, value) in [(angle, square), (difference, differ)] {
+            finite(name, value, value.abs() <= allowed, "zero")?;
+        }
+        shift.into_iter().try_for_each(|by| finite(SHIFT, by, true, "finite"))?;
+        Ok(Self { matrix, shift, fault: None })
+    }
+
     fn asked(mut self, what: &'static str, value: T, possible: bool) -> Self {
         if !(possible && value.is_finite()) {
             self.fault = self.fault.or(Some((what, value)));
@@ -58,13 +75,10 @@ impl<T: Real> Placement<T> {
     /// Moved by `along` in the direction of `X` and by `across` in that of `Y`.
     #[must_use]
     pub fn shifted(mut self, along: T, across: T) -> Self {
-        self = self.asked("a shift of a placement", along, true).asked(
-            "a shift of a placement",
-            across,
-            true,
-        );
-        self.shift[0] += along;
-        self.shift[1] += across;
+        for (shift, by) in [along, across].into_iter().enumerate() {
+            self = self.asked(SHIFT, by, true);
+            self.shift[shift] += by;
+        }
         self
     }
 
@@ -137,16 +151,7 @@ impl<T: Real> Placement<T> {
 /// # Ok::<(), linecontact::ProfileError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "super::stored::Placed<T, P>",
-        bound(
-            deserialize = "T: Real + serde::Deserialize<'de>, P: ParametricProfile<T> + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Placed<T, P> {
     curve: P,
     placement: Placement<T>,
@@ -165,12 +170,7 @@ impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
         }
         let [[a, b], [c, d]] = placement.matrix;
         let size = a.hypot(b);
-        finite(
-            "the product of all factors of a placement",
-            size,
-            size > T::zero(),
-            "finite and not zero",
-        )?;
+        finite(FACTORS, size, size > T::zero(), "finite and not zero")?;
         for value in [c, d, placement.shift[0], placement.shift[1]] {
             finite("the sum of the shifts of a placement", value, true, "finite")?;
         }

@@ -35,9 +35,8 @@ pub fn rounded_punch<T: Real>(flat: T, radius: T, reach: T) -> Result<Parts<T>, 
     let (zero, edge) = (T::zero(), reach - flat);
     let part = |piece, curve: Result<Parabola<T>, _>, shift| {
         let placement = Placement::default().shifted(shift, zero);
-        curve
-            .and_then(|curve| Placed::new(curve, placement))
-            .map_err(|source| PiecewiseError::InPiece { piece, source })
+        let placed = curve.and_then(|curve| Placed::new(curve, placement));
+        placed.map_err(PiecewiseError::in_piece(piece))
     };
     Piecewise::new(vec![
         part(0, Parabola::new(radius, [-edge, zero]), -flat)?,

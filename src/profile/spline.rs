@@ -29,9 +29,9 @@ use crate::Real;
 /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
 pub struct Fit<T> {
@@ -83,14 +83,7 @@ impl<T: Real> Default for Fit<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "stored::Spline<T>",
-        bound(deserialize = "T: Real + serde::Deserialize<'de>")
-    )
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
 }
@@ -98,7 +91,7 @@ pub struct Spline<T> {
 /// The spline between two knots.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Cubic<T> {
+pub(super) struct Cubic<T> {
     x: [T; 2],
     /// Of `Y` by the distance from the left knot, the constant first.
     coefficients: [T; 4],
@@ -159,19 +152,29 @@ impl<T: Real> Spline<T> {
             let third = (from[1] + to[1] - two * chord) / h / h;
             Cubic { x, coefficients: [from[0], from[1], second, third] }
         };
-        let cubics: Vec<_> = points.windows(2).zip(knots.windows(2)).map(cubic).collect();
+        let cubics = points.windows(2).zip(knots.windows(2)).map(cubic).collect();
+        let spline = Self { cubics };
         // Coefficients that have overflowed or vanished do not lead to the next knot.
+        match spline.first_gap(knots) {
+            Some((i, _)) => {
+                let [before, x] = spline.cubics[i].x;
+                Err(SplineError::Overflow { row: i + 2, x, before })
+            }
+            None => Ok(spline),
+        }
+    }
+
+    /// Finds the first cubic that does not end with the height and the slope of the next knot, and whether the numbers
+    /// are finite there.
+    fn first_gap(&self, knots: &[[T; 2]]) -> Option<(usize, bool)> {
         let size = |i: usize| knots.iter().fold(T::zero(), |size, knot| size.max(knot[i].abs()));
         let allowed = [0, 1].map(|i| T::epsilon().sqrt() * size(i));
-        for (i, (cubic, to)) in cubics.iter().zip(&knots[1..]).enumerate() {
-            let [before, x] = cubic.x;
-            let end = cubic.at(x);
-            let meets = (end.y - to[0]).abs() <= allowed[0] && (end.dy - to[1]).abs() <= allowed[1];
-            if !(meets && allowed[0].is_finite() && allowed[1].is_finite()) {
-                return Err(SplineError::Overflow { row: i + 2, x, before });
-            }
-        }
-        Ok(Self { cubics })
+        self.cubics.iter().zip(&knots[1..]).enumerate().find_map(|(i, (cubic, to))| {
+            let CurvePoint { y, dy, .. } = cubic.at(cubic.x[1]);
+            let is_finite = allowed[0].is_finite() && allowed[1].is_finite() && dy.is_finite();
+            let meets = (y - to[0]).abs() <= allowed[0] && (dy - to[1]).abs() <= allowed[1];
+            (!(meets && is_finite)).then_some((i, is_finite))
+        })
     }
 
     /// The body, put in another place: moved, mirrored, flipped, turned or scaled.

@@ -137,11 +137,8 @@ pub(crate) fn spans<T: Real>(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Panels {
     /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in
     /// the contact. Never taken below sixteen units in the last place, which is what the

@@ -3,6 +3,7 @@
 //! For κ = π² and L = 1, at the place θ, of what happens at φ: see the two representations in the
 //! documentation of the module above.
 
+use super::outside;
 use crate::numerics::special_functions::{artanh_minus, minus_atan};
 use crate::{Interval, Real};
 
@@ -19,6 +20,11 @@ impl<T: Real> Angle<T> {
         let width = limits.right - limits.left;
         let root = |distance: T| (distance / width).sqrt();
         Self { sin: root(limits.right - x), cos: root(x - limits.left) }
+    }
+
+    /// Returns the same inside the limits, `None` outside.
+    pub fn inside(limits: Interval<T>, x: T) -> Option<Self> {
+        (!outside(limits, x)).then(|| Self::of(limits, x))
     }
 
     /// π - θ.

@@ -1,6 +1,6 @@
 //! A parabola with a term of fourth degree.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::{Interval, Real};
 
 /// The body `x²/(2R) + B x⁴`, from `F'(l) = κ (l/R + 6 B l³)` (Johnson, §5.3, for each of the two
@@ -27,9 +27,9 @@ impl<T: Real> Biquadratic<T> {
     /// [`ReferenceError::Parameter`] if R or L is not positive and finite, B is not finite, or L is
     /// too large for a negative B.
     pub fn new(radius: T, quartic: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
+        positive([("the radius", radius)])?;
         check("the coefficient of x⁴", quartic, true, "finite")?;
-        positive("the half-width", half_width)?;
+        positive([("the half-width", half_width)])?;
         let grows = T::one() + T::of(6.0) * quartic * radius * half_width * half_width > T::zero();
         check("the half-width", half_width, grows, "so small that 1/R + 6 B L² > 0")?;
         Ok(Self { radius, quartic, half_width })
@@ -41,10 +41,9 @@ impl<T: Real> Biquadratic<T> {
     /// [`ReferenceError::Parameter`] if R or F is not positive and finite, B is not finite, or the
     /// body cannot carry so much.
     pub fn under_load(radius: T, quartic: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
+        positive([("the radius", radius)])?;
         check("the coefficient of x⁴", quartic, true, "finite")?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the load", load), ("κ", kappa)])?;
         // v + v² 6 B R · (F R/κ) = 1 for v = κ L²/(2 F R).
         let (one, two, pressed) = (T::one(), T::of(2.0), load / kappa);
         let root = one + T::of(24.0) * quartic * radius * pressed * radius;
@@ -64,11 +63,8 @@ impl<T: Real> ClosedForm<T> for Biquadratic<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, l, two) = (self.limits(), self.half_width, T::of(2.0));
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let root = limits.chebyshev_weight(x);
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        let (l, two) = (self.half_width, T::of(2.0));
         let quartic = self.quartic * root * l * l + two * self.quartic * root * x * x;
         kappa / T::pi() * (root / self.radius + two * quartic)
     }

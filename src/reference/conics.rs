@@ -1,6 +1,6 @@
 //! Ellipse, circle and hyperbola.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::elliptic;
 use crate::{Interval, Real};
 
@@ -30,9 +30,8 @@ impl<T: Real> Ellipse<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less
     /// than A.
     pub fn new(along: T, across: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the semi-axis along the contact", along)?;
-        positive("the semi-axis across it", across)?;
-        positive("the half-width", half_width)?;
+        positive([("the semi-axis along the contact", along)])?;
+        positive([("the semi-axis across it", across), ("the half-width", half_width)])?;
         check("the half-width", half_width, half_width < along, "less than the semi-axis")?;
         Ok(Self { along, across, half_width })
     }
@@ -64,13 +63,11 @@ impl<T: Real> ClosedForm<T> for Ellipse<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, one) = (self.limits(), T::one());
-        if outside(limits, x) {
-            return T::zero();
-        }
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        let one = T::one();
         let integral = elliptic(self.cosine(self.half_width), self.cosine(x).powi(2), one, one);
-        let root = limits.chebyshev_weight(x) / self.along;
-        T::of(2.0) * kappa * (self.across / self.along) * root * integral / T::pi().powi(2)
+        let [root, steep] = [root, self.across].map(|length| length / self.along);
+        T::of(2.0) * kappa * steep * root * integral / T::pi().powi(2)
     }
 
     fn height(&self, x: T) -> T {
@@ -108,9 +105,8 @@ impl<T: Real> Hyperbola<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn new(slope: T, tip: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the slope", slope)?;
-        positive("the length of the tip", tip)?;
-        positive("the half-width", half_width)?;
+        positive([("the slope", slope), ("the length of the tip", tip)])?;
+        positive([("the half-width", half_width)])?;
         Ok(Self { slope, tip, half_width })
     }
 }
@@ -128,16 +124,12 @@ impl<T: Real> ClosedForm<T> for Hyperbola<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let limits = self.limits();
-        if outside(limits, x) {
-            return T::zero();
-        }
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
         let scale = self.tip.hypot(self.half_width);
         let complement = self.tip / scale;
         let p = (self.tip.hypot(x) / scale).powi(2);
         let integral = elliptic(complement, p, T::one(), complement * complement);
-        let root = limits.chebyshev_weight(x) / scale;
-        T::of(2.0) * kappa * self.slope * root * integral / T::pi().powi(2)
+        T::of(2.0) * kappa * self.slope * (root / scale) * integral / T::pi().powi(2)
     }
 
     fn height(&self, x: T) -> T {

@@ -1,6 +1,6 @@
 //! One crest of a cosine.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::series;
 use crate::{Interval, Real};
 
@@ -33,9 +33,8 @@ impl<T: Real> Cosine<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is more than
     /// 0.3827 λ.
     pub fn new(amplitude: T, wavelength: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the amplitude", amplitude)?;
-        positive("the wavelength", wavelength)?;
-        positive("the half-width", half_width)?;
+        positive([("the amplitude", amplitude), ("the wavelength", wavelength)])?;
+        positive([("the half-width", half_width)])?;
         let form = Self { amplitude, wavelength, half_width };
         let carries = form.wavenumber() * half_width <= T::of(2.404825557695773);
         check("the half-width", half_width, carries, "at most 0.3827 wavelengths")?;
@@ -60,11 +59,8 @@ impl<T: Real> ClosedForm<T> for Cosine<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, one, two) = (self.limits(), T::one(), T::of(2.0));
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let q = self.wavenumber();
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        let (q, one, two) = (self.wavenumber(), T::one(), T::of(2.0));
         let square = (q * self.half_width).powi(2);
         let cosine = x / self.half_width;
         // The terms of J₀(z) and of u(z)/z.
@@ -79,7 +75,7 @@ impl<T: Real> ClosedForm<T> for Cosine<T> {
                 break;
             }
         }
-        kappa / T::pi() * (q * self.amplitude) * (q * limits.chebyshev_weight(x)) * sum
+        kappa / T::pi() * (q * self.amplitude) * (q * root) * sum
     }
 
     fn height(&self, x: T) -> T {

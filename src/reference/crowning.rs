@@ -1,6 +1,6 @@
 //! Logarithmic relief.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::profile::relief;
 use crate::{Interval, Real};
 
@@ -27,9 +27,8 @@ impl<T: Real> Crowning<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less than
     /// l.
     pub fn new(depth: T, half_length: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the depth", depth)?;
-        positive("the half-length", half_length)?;
-        positive("the half-width", half_width)?;
+        positive([("the depth", depth), ("the half-length", half_length)])?;
+        positive([("the half-width", half_width)])?;
         check("the half-width", half_width, half_width < half_length, "less than the half-length")?;
         Ok(Self { depth, half_length, half_width })
     }
@@ -45,10 +44,8 @@ impl<T: Real> Crowning<T> {
         load: T,
         kappa: T,
     ) -> Result<Self, ReferenceError<T>> {
-        positive("the depth", depth)?;
-        positive("the half-length", half_length)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the depth", depth), ("the half-length", half_length), ("the load", load)])?;
+        positive([("κ", kappa)])?;
         // l/S - 1
         let (one, two) = (T::one(), T::of(2.0));
         let share = load / kappa / depth / two;
@@ -77,13 +74,10 @@ impl<T: Real> ClosedForm<T> for Crowning<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let limits = self.limits();
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let shares = (limits.chebyshev_weight(x) / self.root(self.half_width))
-            * (self.half_length / (self.half_length - x));
-        T::of(2.0) * kappa / T::pi() * (self.depth / (self.half_length + x)) * shares
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        let [root, length] =
+            [root / self.root(self.half_width), self.half_length / (self.half_length - x)];
+        T::of(2.0) * kappa / T::pi() * (self.depth / (self.half_length + x)) * (root * length)
     }
 
     fn height(&self, x: T) -> T {

@@ -1,6 +1,6 @@
 //! An exponential less its tangent.
 
-use super::{ClosedForm, ReferenceError, outside, positive};
+use super::{ClosedForm, ReferenceError, check, positive, root_inside};
 use crate::numerics::special_functions::{exp_minus, series};
 use crate::{Interval, Real};
 
@@ -32,14 +32,11 @@ impl<T: Real> Exponential<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L/ℓ is so large
     /// that exp(2L/ℓ) overflows.
     pub fn new(length: T, radius: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the length", length)?;
-        positive("the radius", radius)?;
-        positive("the half-width", half_width)?;
+        positive([("the length", length), ("the radius", radius)])?;
+        positive([("the half-width", half_width)])?;
         let z = half_width / length;
-        if !(z + z).exp().is_finite() {
-            let (name, must) = ("the half-width", "so small that exp(2L/ℓ) is finite");
-            return Err(ReferenceError::Parameter { name, value: half_width, must });
-        }
+        let fits = (z + z).exp().is_finite();
+        check("the half-width", half_width, fits, "so small that exp(2L/ℓ) is finite")?;
         let square = T::of(0.25) * z * z;
         let less_one = square * series(T::one(), |k| square / ((k + T::one()) * (k + T::one())));
         let centre = -length * less_one.ln_1p();
@@ -62,13 +59,10 @@ impl<T: Real> ClosedForm<T> for Exponential<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (one, two, limits) = (T::one(), T::of(2.0), self.limits);
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let z = self.half_width / self.length;
+        let Some(root) = root_inside(self.limits, x) else { return T::zero() };
+        let (one, two, z) = (T::one(), T::of(2.0), self.half_width / self.length);
         // 1 + cos θ
-        let rate = (x - limits.left) / self.half_width;
+        let rate = (x - self.limits.left) / self.half_width;
         // The terms of e^z I₀(z), and of ∫ e^((z - s) rate) e^s I₀(s) ds divided by z.
         let (mut bessel, mut bessel_sum) = (one, one);
         let (mut integral, mut integral_sum) = (one, one);
@@ -83,7 +77,7 @@ impl<T: Real> ClosedForm<T> for Exponential<T> {
             }
         }
         let share = integral_sum / bessel_sum;
-        kappa / T::pi() * (limits.chebyshev_weight(x) / self.radius) * share
+        kappa / T::pi() * (root / self.radius) * share
     }
 
     fn height(&self, x: T) -> T {

@@ -33,29 +33,19 @@ impl<T: Real> FlatPunch<T> {
         load: T,
         kappa: T,
     ) -> Result<Self, ReferenceError<T>> {
-        positive("the half-width", half_width)?;
+        positive([("the half-width", half_width)])?;
         check("the slope", slope, true, "finite")?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the load", load), ("κ", kappa)])?;
         let excess = load - kappa * slope.abs() * half_width;
-        let mut limits = centred(half_width);
-        if excess > T::zero() {
-            return Ok(Self {
-                half_width,
-                slope,
-                limits,
-                contact: half_width,
-                excess: Some(excess),
-            });
-        }
-        let contact = load / kappa / slope.abs();
-        let width = contact + contact;
-        if slope > T::zero() {
+        let excess = Some(excess).filter(|&excess| excess > T::zero());
+        let contact = excess.map_or(load / kappa / slope.abs(), |_| half_width);
+        let (mut limits, width) = (centred(half_width), contact + contact);
+        if excess.is_none() && slope > T::zero() {
             limits.right = half_width.min(limits.left + width);
-        } else {
+        } else if excess.is_none() {
             limits.left = (-half_width).max(limits.right - width);
         }
-        Ok(Self { half_width, slope, limits, contact, excess: None })
+        Ok(Self { half_width, slope, limits, contact, excess })
     }
 }
 

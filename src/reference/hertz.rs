@@ -1,6 +1,6 @@
 //! The parabola of Hertz.
 
-use super::{ClosedForm, ReferenceError, centred, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, positive, root_inside};
 use crate::numerics::special_functions::sinh_minus;
 use crate::{Interval, Real};
 
@@ -21,8 +21,7 @@ impl<T: Real> Hertz<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if either is not positive and finite.
     pub fn new(radius: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
-        positive("the half-width", half_width)?;
+        positive([("the radius", radius), ("the half-width", half_width)])?;
         Ok(Self { radius, half_width })
     }
 
@@ -31,9 +30,7 @@ impl<T: Real> Hertz<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn under_load(radius: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the radius", radius), ("the load", load), ("κ", kappa)])?;
         Self::new(radius, (T::of(2.0) * (load / kappa)).sqrt() * radius.sqrt())
     }
 
@@ -71,10 +68,8 @@ impl<T: Real> ClosedForm<T> for Hertz<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        if outside(self.limits(), x) {
-            return T::zero();
-        }
-        kappa / T::pi() * (self.limits().chebyshev_weight(x) / self.radius)
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        kappa / T::pi() * (root / self.radius)
     }
 
     fn height(&self, x: T) -> T {

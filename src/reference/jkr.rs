@@ -1,6 +1,6 @@
 //! The parabola with adhesion.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::convex_root;
 use crate::{Edge, Interval, Real};
 
@@ -26,9 +26,8 @@ impl<T: Real> Jkr<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn new(radius: T, work: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
-        positive("the work of adhesion", work)?;
-        positive("the half-width", half_width)?;
+        positive([("the radius", radius), ("the work of adhesion", work)])?;
+        positive([("the half-width", half_width)])?;
         Ok(Self { radius, work, half_width })
     }
 
@@ -40,9 +39,7 @@ impl<T: Real> Jkr<T> {
     /// [`ReferenceError::PullOff`] where there is none; [`ReferenceError::Parameter`] if the load is
     /// not finite, or one of the others not positive and finite.
     pub fn under_load(radius: T, work: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius", radius)?;
-        positive("the work of adhesion", work)?;
-        positive("κ", kappa)?;
+        positive([("the radius", radius), ("the work of adhesion", work), ("κ", kappa)])?;
         check("the load", load, true, "finite")?;
         let [three, four, six] = [3.0, 4.0, 6.0].map(T::of);
         let narrowest = radius * (work / kappa / radius).cbrt();
@@ -77,10 +74,7 @@ impl<T: Real> ClosedForm<T> for Jkr<T> {
 
     /// Negative next to the edges, and minus infinity there.
     fn pressure(&self, x: T, kappa: T) -> T {
-        if outside(self.limits(), x) {
-            return T::zero();
-        }
-        let root = self.limits().chebyshev_weight(x);
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
         (kappa * (root / self.radius) - self.pull(kappa) / root) / T::pi()
     }
 

@@ -53,8 +53,7 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
     /// a and b, or H has adhesive edges.
     pub fn new(form: F, count: usize, amplitude: T, radius: T) -> Result<Self, ReferenceError<T>> {
         check("the number of contacts", T::count(count), count > 0, "at least 1")?;
-        positive("the amplitude", amplitude)?;
-        positive("the radius", radius)?;
+        positive([("the amplitude", amplitude), ("the radius", radius)])?;
         let limits = form.limits();
         let apart = limits.right < amplitude && -limits.left < amplitude;
         check("the amplitude", amplitude, apart, "larger than the limits of the one contact")?;
@@ -63,14 +62,8 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
                 check("the work of adhesion", work, false, "none at all")?;
             }
         }
-        let mut map = Self {
-            form,
-            amplitude,
-            radius,
-            zeros: Vec::new(),
-            contacts: Vec::new(),
-            breakpoints: Vec::new(),
-        };
+        let (zeros, contacts, breakpoints) = (Vec::new(), Vec::new(), Vec::new());
+        let mut map = Self { form, amplitude, radius, zeros, contacts, breakpoints };
         map.zeros = (0..count).map(|branch| map.place(count, branch, T::zero())).collect();
         for branch in 0..count {
             let ends = [limits.left, limits.right].map(|v| map.place(count, branch, v));
@@ -187,12 +180,10 @@ impl<T: Real, F: ClosedForm<T>> ClosedForm<T> for PolynomialMap<T, F> {
             }
             // What is inside is inside, whatever is rounded, and a limit is a limit.
             let [left, right] = if self.rises(branch) { [low, high] } else { [high, low] };
-            v = if x == on.left {
-                left
-            } else if x == on.right {
-                right
-            } else {
-                v.clamp(low, high)
+            v = match x {
+                _ if x == on.left => left,
+                _ if x == on.right => right,
+                _ => v.clamp(low, high),
             };
         } else if x > self.limits().right {
             return T::zero();

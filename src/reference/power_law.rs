@@ -1,6 +1,6 @@
 //! A power of the distance.
 
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::{series, wallis};
 use crate::{Interval, Real};
 
@@ -28,10 +28,10 @@ impl<T: Real> PowerLaw<T> {
     /// [`ReferenceError::Parameter`] if A or L is not positive and finite, or n is not from 1 to
     /// 1000.
     pub fn new(coefficient: T, exponent: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the coefficient", coefficient)?;
+        positive([("the coefficient", coefficient)])?;
         let holds = exponent >= T::one() && exponent <= T::of(1000.0);
         check("the exponent", exponent, holds, "from 1 to 1000")?;
-        positive("the half-width", half_width)?;
+        positive([("the half-width", half_width)])?;
         Ok(Self { coefficient, exponent, half_width })
     }
 
@@ -46,8 +46,7 @@ impl<T: Real> PowerLaw<T> {
         kappa: T,
     ) -> Result<Self, ReferenceError<T>> {
         Self::new(coefficient, exponent, T::one())?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the load", load), ("κ", kappa)])?;
         // Lⁿ itself may be beyond the numbers.
         let root = |value: T| value.powf(exponent.recip());
         let constant = T::frac_pi_2() / (exponent * wallis(exponent));
@@ -76,11 +75,9 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, n, l) = (self.limits(), self.exponent, self.half_width);
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let integral = integral(n, x.abs() / l, limits.chebyshev_weight(x) / l);
+        let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
+        let (n, l) = (self.exponent, self.half_width);
+        let integral = integral(n, x.abs() / l, root / l);
         n * self.load(kappa) / (T::pi() * l) * integral
     }
 
@@ -141,13 +138,8 @@ fn lowest<T: Real>(n: T, xi: T, s: T) -> T {
     let mut binomial = one;
     for k in 0..60 {
         let rate = p - two * T::count(k);
-        let integral = if rate == T::zero() {
-            ahead
-        } else if rate > T::zero() {
-            -(-rate * ahead).exp_m1() / rate
-        } else {
-            (rate * ahead).exp_m1() / rate
-        };
+        let fall = -rate.abs();
+        let integral = if rate == T::zero() { ahead } else { (fall * ahead).exp_m1() / fall };
         // ξᵖ e^(p v) at the end where the integrand is larger.
         let scale = if k == 0 { (one + s).powf(p) } else { xi.powf(p) * (rate * v1).exp() };
         let term = binomial * scale * integral;

@@ -1,6 +1,6 @@
 //! Two bumps that merge.
 
-use super::{ClosedForm, ReferenceError, centred, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, positive, root_inside};
 use crate::{Interval, Real};
 
 /// The body `D ((x/r)² - 1)²`: bumps at ±r, and between them a hollow of the depth D. Up to the load
@@ -36,10 +36,8 @@ impl<T: Real> Quartic<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn under_load(depth: T, radius: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
-        positive("the depth", depth)?;
-        positive("the radius", radius)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the depth", depth), ("the radius", radius), ("the load", load)])?;
+        positive([("κ", kappa)])?;
         let (one, two, six) = (T::one(), T::of(2.0), T::of(6.0));
         let force = load / kappa / depth;
         let on = if force <= two {
@@ -91,18 +89,14 @@ impl<T: Real> ClosedForm<T> for Quartic<T> {
         let shape = match self.on {
             On::Two { inner, outer, .. } => {
                 let on = Interval { left: r * inner, right: r * outer };
-                if outside(on, x) {
-                    return T::zero();
-                }
+                let Some(root) = root_inside(on, x) else { return T::zero() };
                 let others = ((x / r + inner) * (x / r + outer)).sqrt();
-                two * (x / r) * (on.chebyshev_weight(x) / r) * others
+                two * (x / r) * (root / r) * others
             }
             On::One { half_width, beyond } => {
                 let on = centred(r * half_width);
-                if outside(on, x) {
-                    return T::zero();
-                }
-                on.chebyshev_weight(x) / r * (beyond + two * (x / r).powi(2))
+                let Some(root) = root_inside(on, x) else { return T::zero() };
+                root / r * (beyond + two * (x / r).powi(2))
             }
         };
         two * kappa / T::pi() * (self.depth / r) * shape

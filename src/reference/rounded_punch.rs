@@ -1,7 +1,7 @@
 //! A flat with rounded edges.
 
 use super::angles::{Angle, bend};
-use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
+use super::{ClosedForm, ReferenceError, centred, check, positive};
 use crate::numerics::special_functions::{convex_root, minus_atan, minus_sin};
 use crate::{Interval, Real};
 
@@ -28,8 +28,7 @@ impl<T: Real> RoundedPunch<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not more
     /// than d.
     pub fn new(flat: T, radius: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the half-width of the flat part", flat)?;
-        positive("the radius", radius)?;
+        positive([("the half-width of the flat part", flat), ("the radius", radius)])?;
         check("the half-width", half_width, half_width > flat, "more than that of the flat part")?;
         let end = Angle::of(centred(half_width), flat);
         Ok(Self { flat, radius, half_width, end })
@@ -42,10 +41,8 @@ impl<T: Real> RoundedPunch<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or the load is so
     /// small that the contact does not differ from the flat part.
     pub fn under_load(flat: T, radius: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
-        positive("the half-width of the flat part", flat)?;
-        positive("the radius", radius)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the half-width of the flat part", flat), ("the radius", radius)])?;
+        positive([("the load", load), ("κ", kappa)])?;
         let (one, two) = (T::one(), T::of(2.0));
         let wanted = T::pi() * (radius / flat) * (load / kappa / flat);
         // Like 2/3 τ³, then π/2 τ².
@@ -76,11 +73,8 @@ impl<T: Real> ClosedForm<T> for RoundedPunch<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, l, phi) = (self.limits(), self.half_width, self.end.angle());
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let theta = Angle::of(limits, x);
+        let (l, phi) = (self.half_width, self.end.angle());
+        let Some(theta) = Angle::inside(self.limits(), x) else { return T::zero() };
         let right = bend(theta, self.end, phi, (x - self.flat) / l);
         let left = bend(theta.mirrored(), self.end, phi, (-x - self.flat) / l);
         kappa / T::pi().powi(2) * (l / self.radius) * (right + left)

@@ -1,7 +1,7 @@
 //! A parabola with another radius on either side.
 
 use super::angles::{Angle, bend};
-use super::{ClosedForm, ReferenceError, outside, positive};
+use super::{ClosedForm, ReferenceError, positive};
 use crate::numerics::special_functions::{convex_root, minus_sin, sin_minus_cos};
 use crate::{Interval, Real};
 
@@ -30,9 +30,8 @@ impl<T: Real> UnequalRadii<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn new(left: T, right: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the radius on the left", left)?;
-        positive("the radius on the right", right)?;
-        positive("the half-width", half_width)?;
+        positive([("the radius on the left", left), ("the radius on the right", right)])?;
+        positive([("the half-width", half_width)])?;
         let smaller = smaller_angle(left.min(right) / left.max(right));
         let larger = T::pi() - smaller;
         let (sin, cos) = (T::of(0.5) * smaller).sin_cos();
@@ -51,8 +50,7 @@ impl<T: Real> UnequalRadii<T> {
     pub fn under_load(left: T, right: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
         let scale = left.min(right);
         let unit = Self::new(left, right, scale)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the load", load), ("κ", kappa)])?;
         Self::new(left, right, scale * (load / unit.load(kappa)).sqrt())
     }
 }
@@ -81,11 +79,8 @@ impl<T: Real> ClosedForm<T> for UnequalRadii<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let (limits, l) = (self.limits(), self.half_width);
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let theta = Angle::of(limits, x);
+        let l = self.half_width;
+        let Some(theta) = Angle::inside(self.limits(), x) else { return T::zero() };
         let right = bend(theta, self.tip, self.angles[1], x / l);
         let left = bend(theta.mirrored(), self.tip.mirrored(), self.angles[0], -x / l);
         kappa / T::pi().powi(2) * (right * (l / self.right) + left * (l / self.left))

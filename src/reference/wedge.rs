@@ -1,7 +1,7 @@
 //! Two straight flanks.
 
 use super::angles::{Angle, jump};
-use super::{ClosedForm, ReferenceError, outside, positive};
+use super::{ClosedForm, ReferenceError, positive};
 use crate::{Interval, Real};
 
 /// A wedge that touches at its tip, x = 0: the slopes -m₁ on the left and m₂ on the right. The
@@ -37,9 +37,8 @@ impl<T: Real> Wedge<T> {
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn unequal(left: T, right: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the slope on the left", left)?;
-        positive("the slope on the right", right)?;
-        positive("the half-width", half_width)?;
+        positive([("the slope on the left", left), ("the slope on the right", right)])?;
+        positive([("the half-width", half_width)])?;
         let share = |slope: T| (T::frac_pi_2() * (slope / (left + right))).sin();
         let tip = Angle { sin: share(left), cos: share(right) };
         Ok(Self { left, right, half_width, tip })
@@ -51,8 +50,7 @@ impl<T: Real> Wedge<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
     pub fn under_load(left: T, right: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
         let unit = Self::unequal(left, right, T::one())?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the load", load), ("κ", kappa)])?;
         Self::unequal(left, right, load / unit.load(kappa))
     }
 }
@@ -68,11 +66,8 @@ impl<T: Real> ClosedForm<T> for Wedge<T> {
     }
 
     fn pressure(&self, x: T, kappa: T) -> T {
-        let limits = self.limits();
-        if outside(limits, x) {
-            return T::zero();
-        }
-        let log = jump(Angle::of(limits, x), self.tip, x / self.half_width);
+        let Some(theta) = Angle::inside(self.limits(), x) else { return T::zero() };
+        let log = jump(theta, self.tip, x / self.half_width);
         kappa * (self.left + self.right) / T::pi().powi(2) * log
     }
 

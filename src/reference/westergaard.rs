@@ -34,9 +34,8 @@ impl<T: Real> Westergaard<T> {
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less
     /// than λ/2.
     pub fn new(amplitude: T, wavelength: T, half_width: T) -> Result<Self, ReferenceError<T>> {
-        positive("the amplitude", amplitude)?;
-        positive("the wavelength", wavelength)?;
-        positive("the half-width", half_width)?;
+        positive([("the amplitude", amplitude), ("the wavelength", wavelength)])?;
+        positive([("the half-width", half_width)])?;
         let apart = half_width < T::of(0.5) * wavelength;
         check("the half-width", half_width, apart, "less than half the wavelength")?;
         Ok(Self { amplitude, wavelength, half_width })
@@ -53,17 +52,11 @@ impl<T: Real> Westergaard<T> {
         load: T,
         kappa: T,
     ) -> Result<Self, ReferenceError<T>> {
-        positive("the amplitude", amplitude)?;
-        positive("the wavelength", wavelength)?;
-        positive("the load", load)?;
-        positive("κ", kappa)?;
+        positive([("the amplitude", amplitude), ("the wavelength", wavelength)])?;
+        positive([("the load", load), ("κ", kappa)])?;
         let complete = T::of(2.0) * kappa * amplitude;
-        check(
-            "the load",
-            load,
-            load < complete,
-            "less than 2 κ A, at which the contact is complete",
-        )?;
+        let must = "less than 2 κ A, at which the contact is complete";
+        check("the load", load, load < complete, must)?;
         // From tan² ψ_a, as sin² ψ_a is next to 1 where the contact is nearly complete.
         let angle = (load / (complete - load)).sqrt().atan();
         Self::new(amplitude, wavelength, wavelength * (angle / T::pi()))

@@ -4,21 +4,9 @@ use super::bracket_state::BracketState;
 use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
-/// Halves the bracket: one bit of `x` for each evaluation, whatever the function.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
-pub struct Bisection {
-    /// When to stop.
-    pub tolerance: StoppingCriteria,
-}
-
-impl Bisection {
-    /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
+strategy! {
+    /// Halves the bracket: one bit of `x` for each evaluation, whatever the function.
+    Bisection
 }
 
 impl<T: Real> LimitSearch<T> for Bisection {

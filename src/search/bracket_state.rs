@@ -38,17 +38,10 @@ impl<'f, T: Real> BracketState<'f, T> {
         if !(lo.is_finite() && hi.is_finite() && lo <= hi) {
             return Err(SearchError::Bracket { lo, hi });
         }
-        let end = |x| Evaluated { x, f: T::zero(), slope: None };
-        let (lo_end, hi_end) = (end(lo), end(hi));
-        let mut it = Self {
-            function,
-            tolerance,
-            lo: lo_end,
-            hi: hi_end,
-            last: lo_end,
-            rounding: T::zero(),
-            evaluations: 0,
-        };
+        let [lo_end, hi_end] = [lo, hi].map(|x| Evaluated { x, f: T::zero(), slope: None });
+        let (last, rounding, evaluations) = (lo_end, T::zero(), 0);
+        let mut it =
+            Self { function, tolerance, lo: lo_end, hi: hi_end, last, rounding, evaluations };
         match values {
             Some([f_lo, f_hi]) => {
                 it.lo.f = finite(lo, f_lo)?;
@@ -56,11 +49,9 @@ impl<'f, T: Real> BracketState<'f, T> {
             }
             None => {
                 it.lo = it.call(lo)?;
-                if it.small(it.lo.f) {
-                    it.hi = it.lo;
-                    return Ok(it);
+                if !it.small(it.lo.f) {
+                    it.hi = it.call(hi)?;
                 }
-                it.hi = it.call(hi)?;
             }
         }
         for end in [it.lo, it.hi] {
@@ -103,6 +94,17 @@ impl<'f, T: Real> BracketState<'f, T> {
     pub fn halve(&mut self) -> Result<bool, SearchError<T>> {
         let half = T::of(0.5);
         Ok(self.visit(half * self.lo.x + half * self.hi.x)?.is_some())
+    }
+
+    /// Halves the sign change unless it has about been since it was twice `before` long. `false` when no number lies
+    /// between its ends.
+    pub fn halve_since(&mut self, before: T) -> Result<bool, SearchError<T>> {
+        Ok(self.done() || self.half_width() < T::of(0.6) * before || self.halve()?)
+    }
+
+    /// Returns the slope of the chord over the sign change.
+    pub fn chord(&self) -> T {
+        (self.hi.f - self.lo.f) / (self.hi.x - self.lo.x)
     }
 
     /// Whether the sign change is as tight as was asked for.

@@ -44,12 +44,10 @@ impl<T: Real, E> TryFindError<T, E> {
 /// [`TryFindError`].
 pub fn try_find<T: Real, E>(
     strategy: &(impl LimitSearch<T> + ?Sized),
-    mut function: impl FnMut(T) -> Result<T, E>,
+    function: impl FnMut(T) -> Result<T, E>,
     bracket: &Bracket<T>,
 ) -> Result<Root<T>, TryFindError<T, E>> {
-    guarded(bracket, |guard| {
-        strategy.find(&mut |x| guard.call(x, &mut function).unwrap_or(T::of(f64::NAN)), bracket)
-    })
+    guarded(bracket, function, T::of(f64::NAN), |function| strategy.find(function, bracket))
 }
 
 /// The same for a function that returns its value and its slope together.
@@ -58,51 +56,36 @@ pub fn try_find<T: Real, E>(
 /// As [`try_find`].
 pub fn try_find_with_slope<T: Real, E>(
     strategy: &(impl LimitSearch<T> + ?Sized),
-    mut function: impl FnMut(T) -> Result<(T, T), E>,
+    function: impl FnMut(T) -> Result<(T, T), E>,
     bracket: &Bracket<T>,
 ) -> Result<Root<T>, TryFindError<T, E>> {
-    let nothing = (T::of(f64::NAN), T::zero());
-    guarded(bracket, |guard| {
-        strategy.find_with_slope(&mut |x| guard.call(x, &mut function).unwrap_or(nothing), bracket)
-    })
+    let failed = (T::of(f64::NAN), T::zero());
+    guarded(bracket, function, failed, |function| strategy.find_with_slope(function, bracket))
 }
 
-/// What stands between a strategy and the function.
-struct Guard<T: Real, E> {
-    ends: [T; 2],
-    failed: Option<TryFindError<T, E>>,
-}
-
-impl<T: Real, E> Guard<T, E> {
-    fn check(&self, x: T) -> Result<(), TryFindError<T, E>> {
-        let [lo, hi] = self.ends;
-        if x >= lo && x <= hi {
-            Ok(())
-        } else {
-            Err(TryFindError::Search(SearchError::LeftBracket { x, lo, hi }))
-        }
-    }
-
-    /// `None`, which becomes NaN, ends any search.
-    fn call<R>(&mut self, x: T, function: &mut impl FnMut(T) -> Result<R, E>) -> Option<R> {
-        if self.failed.is_some() {
-            return None;
-        }
-        let value = self.check(x).and_then(|()| function(x).map_err(TryFindError::Function));
-        value.map_err(|error| self.failed = Some(error)).ok()
-    }
-}
-
-fn guarded<T: Real, E>(
+/// Stands between a strategy and the function: a value for `failed`, which is not finite, ends any search.
+fn guarded<T: Real, E, R: Copy>(
     bracket: &Bracket<T>,
-    run: impl FnOnce(&mut Guard<T, E>) -> Result<Root<T>, SearchError<T>>,
+    mut function: impl FnMut(T) -> Result<R, E>,
+    failed: R,
+    find: impl FnOnce(&mut dyn FnMut(T) -> R) -> Result<Root<T>, SearchError<T>>,
 ) -> Result<Root<T>, TryFindError<T, E>> {
-    let mut guard = Guard { ends: [bracket.lo, bracket.hi], failed: None };
-    let root = run(&mut guard);
-    if let Some(error) = guard.failed {
-        return Err(error);
+    let Bracket { lo, hi, .. } = *bracket;
+    let check = |x: T| {
+        let is_inside = x >= lo && x <= hi;
+        let left = || TryFindError::Search(SearchError::LeftBracket { x, lo, hi });
+        if is_inside { Ok(()) } else { Err(left()) }
+    };
+    let mut first_error = None;
+    let root = find(&mut |x| {
+        if first_error.is_some() {
+            return failed;
+        }
+        let value = check(x).and_then(|()| function(x).map_err(TryFindError::Function));
+        value.map_err(|error| first_error = Some(error)).unwrap_or(failed)
+    });
+    match first_error {
+        Some(error) => Err(error),
+        None => root.map_err(TryFindError::Search).and_then(|root| check(root.x).map(|()| root)),
     }
-    let root = root.map_err(TryFindError::Search)?;
-    guard.check(root.x)?;
-    Ok(root)
 }

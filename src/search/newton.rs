@@ -4,28 +4,21 @@ use super::bracket_state::BracketState;
 use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
-/// Newton's method with the slope that comes with the value, kept inside the sign change.
-///
-/// Where the function gives no slope, the chord through the last two points stands in for
-/// it (a safeguarded secant). A step that would leave the sign change, or that did not
-/// halve the step before last, is replaced by a halving of the bracket.
-///
-/// The value of a function that cancels large terms has noise (looked for only where the slope is
-/// known, for a chord shows no such regularity), and near the root the steps
-/// then stop shrinking long before they reach the tolerance. The search ends there. It is
-/// taken for noise if the steps have shrunk a hundredfold at once, as they do close to a simple
-/// root, and then one fails to shrink though it is tiny: below the square root of the rounding
-/// unit compared with `x`, or with a value at the rounding of both at the ends of the bracket.
-/// So is a value of that size that stays the same where the slope says that it should change.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
-pub struct Newton {
-    /// When to stop.
-    pub tolerance: StoppingCriteria,
+strategy! {
+    /// Newton's method with the slope that comes with the value, kept inside the sign change.
+    ///
+    /// Where the function gives no slope, the chord through the last two points stands in for
+    /// it (a safeguarded secant). A step that would leave the sign change, or that did not
+    /// halve the step before last, is replaced by a halving of the bracket.
+    ///
+    /// The value of a function that cancels large terms has noise (looked for only where the slope is
+    /// known, for a chord shows no such regularity), and near the root the steps
+    /// then stop shrinking long before they reach the tolerance. The search ends there. It is
+    /// taken for noise if the steps have shrunk a hundredfold at once, as they do close to a simple
+    /// root, and then one fails to shrink though it is tiny: below the square root of the rounding
+    /// unit compared with `x`, or with a value at the rounding of both at the ends of the bracket.
+    /// So is a value of that size that stays the same where the slope says that it should change.
+    Newton
 }
 
 impl<T: Real> LimitSearch<T> for Newton {
@@ -42,20 +35,12 @@ impl<T: Real> LimitSearch<T> for Newton {
         f: &mut dyn FnMut(T) -> (T, T),
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>> {
-        self.run(
-            &mut |x| {
-                let (value, slope) = f(x);
-                (value, Some(slope))
-            },
-            bracket,
-        )
+        let with_slope = |(value, slope)| (value, Some(slope));
+        self.run(&mut |x| with_slope(f(x)), bracket)
     }
 }
 
 impl Newton {
-    /// All digits.
-    pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
-
     fn run<T: Real>(
         &self,
         f: &mut dyn FnMut(T) -> (T, Option<T>),
@@ -65,28 +50,24 @@ impl Newton {
         // The last two steps since the last halving, and whether they shrank as they should.
         let (mut last, mut before_last, mut converging) = (None, None, false);
         let mut at = state.last;
-        let mut chord = (state.hi.f - state.lo.f) / (state.hi.x - state.lo.x);
+        let mut chord = state.chord();
         while !state.done() {
             let step = -at.f / at.slope.unwrap_or(chord);
             let next = at.x + step;
             // A slope that is zero or infinite says nothing about where the root is.
             let usable = step.is_finite() && !step.is_zero();
             if usable && state.negligible(step, at.x) {
-                let confirmed = last.is_some() || at.f.abs() <= state.rounding;
-                if at.slope.is_some() && confirmed {
+                if at.slope.is_some() && (last.is_some() || at.f.abs() <= state.rounding) {
                     break;
                 }
                 // A chord over a steep end makes any step small, and so does a slope that is
                 // steep only here, or wrong: then only a closed bracket is proof.
                 let before = state.half_width();
                 state.close_in()?;
-                if state.done() {
+                if !state.halve_since(before)? {
                     break;
                 }
-                if state.half_width() >= T::of(0.6) * before && !state.halve()? {
-                    break;
-                }
-                chord = (state.hi.f - state.lo.f) / (state.hi.x - state.lo.x);
+                chord = state.chord();
                 (before_last, last, at) = (None, None, state.best());
                 continue;
             }
@@ -107,12 +88,9 @@ impl Newton {
             }
             let good = usable && before_last.is_none_or(halves);
             let seen = if good { state.visit(next)? } else { None };
-            (before_last, last) = match seen {
-                Some(seen) => (last, Some(seen.x - at.x)),
-                None if state.halve()? => {
-                    converging = false;
-                    (None, None)
-                }
+            (before_last, last, converging) = match seen {
+                Some(seen) => (last, Some(seen.x - at.x), converging),
+                None if state.halve()? => (None, None, false),
                 None => break,
             };
             let next = state.last;

@@ -1,4 +1,5 @@
-//! The `roots` crate behind our own bookkeeping; nothing of it shows outside this file.
+//! Brent's method and the secant method: the `roots` crate behind our own bookkeeping; nothing of it shows outside
+//! this file.
 //!
 //! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for
 //! `x` and `f`, tests signs by a product that can underflow, cannot report NaN, returns
@@ -9,29 +10,51 @@
 //! comes within the tolerance of a known point, steps outward from it supply the least step.
 
 use super::bracket_state::BracketState;
-use super::{Bracket, Root, SearchError, StoppingCriteria};
+use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+strategy! {
+    /// Brent's method: inverse quadratic interpolation where it converges, halving where not.
+    ///
+    /// Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4, as
+    /// implemented by the `roots` crate.
+    Brent
+}
+
+strategy! {
+    /// The secant method of the `roots` crate, kept inside the bracket: where it would step
+    /// out, meets two equal values or crawls, the bracket is halved and it starts again.
+    Secant
+}
+
+macro_rules! proposed_by_roots {
+    ($($strategy:ident)*) => {$(
+        impl<T: Real> LimitSearch<T> for $strategy {
+            fn find(
+                &self,
+                f: &mut dyn FnMut(T) -> T,
+                bracket: &Bracket<T>,
+            ) -> Result<Root<T>, SearchError<T>> {
+                run(Method::$strategy, f, bracket, self.tolerance)
+            }
+        }
+    )*};
+}
+proposed_by_roots! { Brent Secant }
+
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Method {
+enum Method {
     Brent,
     Secant,
 }
 
-impl Method {
-    /// Iterations after which a run has to make way for a halving. A secant that converges
-    /// needs fewer; Brent's method halves by itself.
-    fn patience(self) -> usize {
-        match self {
-            Self::Brent => usize::MAX,
-            Self::Secant => 12,
-        }
-    }
-}
+/// Iterations after which a run of the secant method has to make way for a halving: one that converges needs fewer.
+/// (Brent's method halves by itself.)
+const PATIENCE: usize = 12;
 
-pub(super) fn run<T: Real>(
+fn run<T: Real>(
     method: Method,
     f: &mut dyn FnMut(T) -> T,
     bracket: &Bracket<T>,
@@ -45,8 +68,7 @@ pub(super) fn run<T: Real>(
             state.close_in()?;
         }
         // Whatever a run did, the bracket is about halved before the next.
-        let halved = state.half_width() < T::of(0.6) * width;
-        if !state.done() && !halved && !state.halve()? {
+        if !state.halve_since(width)? {
             break;
         }
     }
@@ -77,40 +99,33 @@ fn propose<T: Real>(
     let run = RefCell::new(Run { state, ended: None, fresh: false });
     let f = |Number(x)| {
         let mut run = run.borrow_mut();
-        if run.ended.is_some() {
+        let Run { state, ended, fresh } = &mut *run;
+        let seen = [state.lo, state.hi, state.last];
+        if let Some(known) = seen.into_iter().find(|known| x == known.x && ended.is_none()) {
+            return scaled(known.f);
+        }
+        if ended.is_none() && (state.close(x, state.lo.x) || state.close(x, state.hi.x)) {
+            *ended = Some(Ok(Ended::Close));
+        }
+        if ended.is_some() {
             return scaled(T::zero());
         }
-        for known in [run.state.lo, run.state.hi, run.state.last] {
-            if x == known.x {
-                return scaled(known.f);
-            }
-        }
-        if run.state.close(x, run.state.lo.x) || run.state.close(x, run.state.hi.x) {
-            run.ended = Some(Ok(Ended::Close));
-            return scaled(T::zero());
-        }
-        let best = run.state.best().x;
-        match run.state.visit(x) {
+        let best = state.best().x;
+        let (end, value) = match state.visit(x) {
             Ok(Some(seen)) => {
-                run.fresh = true;
+                *fresh = true;
                 // A step this short leaves nothing for interpolation to do but follow noise.
                 let short = T::of(1e-3) * (x - best).abs() <= StoppingCriteria::FULL.width(x);
-                if short || run.state.done() {
-                    run.ended = Some(Ok(Ended::Close));
-                }
-                scaled(seen.f)
+                ((short || state.done()).then_some(Ok(Ended::Close)), seen.f)
             }
-            Ok(None) => {
-                run.ended = Some(Ok(Ended::Stuck));
-                scaled(T::zero())
-            }
-            Err(error) => {
-                run.ended = Some(Err(error));
-                scaled(T::zero())
-            }
-        }
+            Ok(None) => (Some(Ok(Ended::Stuck)), T::zero()),
+            Err(error) => (Some(Err(error)), T::zero()),
+        };
+        *ended = end;
+        scaled(value)
     };
-    let mut rule = Rule { run: &run, patience: method.patience() };
+    let patience = if method == Method::Secant { PATIENCE } else { usize::MAX };
+    let mut rule = Rule { run: &run, patience };
     // What it returns is left aside: the state knows more.
     let _ = match method {
         Method::Brent => roots::find_root_brent(lo, hi, f, &mut rule),
@@ -173,68 +188,41 @@ impl<T: Real> Neg for Number<T> {
     }
 }
 
-impl<T: Real> Add for Number<T> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
+macro_rules! operators {
+    ($($operator:ident $name:ident $sign:tt;)*) => {$(
+        impl<T: Real> $operator for Number<T> {
+            type Output = Self;
+            fn $name(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
+            }
+        }
+    )*};
+}
+operators! { Add add +; Sub sub -; Mul mul *; Div div /; }
+
+macro_rules! constants {
+    ($($name:ident: $value:expr;)*) => {$(
+        fn $name() -> Self {
+            Self($value)
+        }
+    )*};
 }
 
-impl<T: Real> Sub for Number<T> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-}
-
-impl<T: Real> Mul for Number<T> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-}
-
-impl<T: Real> Div for Number<T> {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        Self(self.0 / other.0)
-    }
+macro_rules! functions {
+    ($($name:ident)*) => {$(
+        fn $name(self) -> Self {
+            Self(self.0.$name())
+        }
+    )*};
 }
 
 impl<T: Real> roots::FloatType for Number<T> {
-    fn zero() -> Self {
-        Self(T::zero())
+    constants! {
+        zero: T::zero(); one: T::one(); one_third: T::of(1.0 / 3.0);
+        pi: T::pi(); two_third_pi: T::of(2.0) * T::frac_pi_3();
     }
-    fn one() -> Self {
-        Self(T::one())
-    }
-    fn one_third() -> Self {
-        Self(T::of(1.0 / 3.0))
-    }
-    fn pi() -> Self {
-        Self(T::pi())
-    }
-    fn two_third_pi() -> Self {
-        Self(T::of(2.0) * T::frac_pi_3())
-    }
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-    fn atan(self) -> Self {
-        Self(self.0.atan())
-    }
-    fn acos(self) -> Self {
-        Self(self.0.acos())
-    }
-    fn sin(self) -> Self {
-        Self(self.0.sin())
-    }
-    fn cos(self) -> Self {
-        Self(self.0.cos())
-    }
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
+    functions! { sqrt atan acos sin cos abs }
+
     fn powf(self, n: Self) -> Self {
         Self(self.0.powf(n.0))
     }

@@ -39,44 +39,7 @@ use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::material::Elasticity;
-use crate::{ContactError, Interval, Real, Side, Solution};
-
-/// The point of a body that its surface comes nearer to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-#[non_exhaustive]
-pub enum Reference<T> {
-    /// The point at this depth below the surface, a length: the half-plane as it is.
-    Depth(T),
-    /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
-    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact that is small beside the disc, and
-    /// off by the order of `(L/R)²`. Of a roller between two blocks each side is a contact of its own: the approaches
-    /// add.
-    Disc(T),
-    /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: approach and stiffness are negative for a short one. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
-    Length(T),
-}
-
-/// The references of both bodies. That of a [rigid](crate::Material::Rigid) body is not looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-pub struct References<T> {
-    /// The x below and above which they are, on the bodies. It matters for depths of a few half-widths, not for those
-    /// far larger, nor for discs and lengths.
-    pub x: T,
-    /// Of body 1.
-    pub lower: Reference<T>,
-    /// Of body 2.
-    pub upper: Reference<T>,
-}
+use crate::{ContactError, Interval, Real, Reference, References, Side, Solution};
 
 /// How far two bodies come together under load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,7 +85,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`ContactError::InvalidReference`]; [`ContactError::OutsideBodies`]; those of [`pressure`](Self::pressure);
     /// [`ContactError::Integral`].
     pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
-        Approaching::new(self.solved(), self.elasticity(), references)?.of_all()
+        self.approaching(references)?.of_all()
     }
 
     /// The stiffness dF/dδ of the bodies against each other, a pressure: by how much the load per unit length
@@ -151,18 +114,16 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// As [`approach`](Self::approach), and those of [`load_rates`](Self::load_rates).
     pub fn stiffness(&self, references: &References<T>) -> Result<T, ContactError<T>> {
-        let rate = Approaching::new(self.solved(), self.elasticity(), references)?.rate()?;
-        Ok(T::one() / rate)
+        Ok(T::one() / self.approaching(references)?.rate()?)
     }
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// δ and dδ/dF.
-    pub(crate) fn approach_with_rate(
+    pub(crate) fn approaching(
         &self,
         references: &References<T>,
-    ) -> Result<[T; 2], ContactError<T>> {
-        Approaching::new(self.solved(), self.elasticity(), references)?.with_rate()
+    ) -> Result<Approaching<'_, T>, ContactError<T>> {
+        Approaching::new(self.solved(), self.elasticity, references)
     }
 }
 
@@ -206,16 +167,13 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     fn first(&self) -> Result<First<T>, ContactError<T>> {
-        let (solved, x) = (self.solved, Some(self.references.x));
-        let mut first = First { contact: 0, heights: UndeformedGap::new(solved, 0, x)? };
-        if let Some(several) = solved.several() {
-            let mut least = several.height(0, Side::Left) + first.heights.least;
-            for contact in 1..solved.contacts().len() {
-                let heights = UndeformedGap::new(solved, contact, x)?;
-                let lowest = several.height(contact, Side::Left) + heights.least;
-                if lowest < least {
-                    (least, first) = (lowest, First { contact, heights });
-                }
+        let heights = |contact| UndeformedGap::new(self.solved, contact, self.references.x);
+        let mut first = First { contact: 0, heights: heights(0)? };
+        if let Some(several) = self.solved.several() {
+            let lowest = |at: &First<T>| several.height(at.contact, Side::Left) + at.heights.least;
+            for contact in 1..self.solved.contacts().len() {
+                let other = First { contact, heights: heights(contact)? };
+                first = if lowest(&other) < lowest(&first) { other } else { first };
             }
         }
         Ok(first)
@@ -226,18 +184,15 @@ impl<'s, T: Real> Approaching<'s, T> {
         self.solved.contacts()[0].half_width()
     }
 
-    /// `Σ 1/(π M_i)` times what is given for each body.
-    fn both(&self, [lower, upper]: [T; 2]) -> T {
+    /// Sums `1/(π M_i)` times the integral of each body, less twice the logarithm.
+    fn both(&self, smooth: [T; 2], logarithm: T) -> T {
+        let [lower, upper] = smooth.map(|smooth| smooth - logarithm - logarithm);
         let shares = self.bodies.map(|body| body.compliance);
         (shares[0] * lower + shares[1] * upper) * T::frac_1_pi()
     }
 
     /// `∫ p (k_i + 2 ln|ξ|) ds` of each body.
-    fn smooth(
-        &self,
-        integrals: &Integrals<T, impl Density<T>>,
-        load: T,
-    ) -> Result<[T; 2], ContactError<T>> {
+    fn smooth(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<[T; 2], ContactError<T>> {
         let scale = self.scale();
         let References { x, lower, upper } = self.references;
         let (two, one) = (T::of(2.0), T::one());
@@ -261,7 +216,7 @@ impl<'s, T: Real> Approaching<'s, T> {
                 [lower, upper].map(|body| strength * kernel(body, distance))
             })
         } else {
-            Ok([lower, upper].map(|body| load * kernel(body, T::zero())))
+            Ok([lower, upper].map(|body| integrals.load * kernel(body, T::zero())))
         }
     }
 
@@ -269,14 +224,13 @@ impl<'s, T: Real> Approaching<'s, T> {
     fn mean_logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
-        load: T,
         on: Interval<T>,
     ) -> Result<T, ContactError<T>> {
         let (contacts, half) = (self.solved.contacts(), T::of(0.5));
         let (scale, half_width) = (self.scale(), on.half_width());
         let inside = (half * half_width / scale).ln();
         if contacts.len() == 1 {
-            return Ok(load * inside);
+            return Ok(integrals.load * inside);
         }
         let [mean] = integrals.over_as_of(T::zero(), on.centre(), |own, distance, strength| {
             let from = distance.abs();
@@ -288,38 +242,35 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// The approach of the bodies alone, and its rate dδ/dF.
     pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
-        let (integrals, load) = (Integrals::new(self.solved)?, self.solved.found.load);
-        let approach = self.of_bodies(self.smooth(&integrals, load)?, &self.first()?, |on| {
-            self.mean_logarithm(&integrals, load, on)
-        })?;
-        Ok([approach, self.rate()?])
+        let integrals = Integrals::new(self.solved)?;
+        let smooth = self.smooth(&integrals)?;
+        Ok([self.of_bodies(&integrals, smooth, &self.first()?)?, self.rate()?])
     }
 
-    /// From the integrals of the kernels, and the mean of the logarithm over a contact.
+    /// From the integrals of the kernels.
     fn of_bodies(
         &self,
+        integrals: &Integrals<T, impl Density<T>>,
         smooth: [T; 2],
         first: &First<T>,
-        mean_logarithm: impl Fn(Interval<T>) -> Result<T, ContactError<T>>,
     ) -> Result<T, ContactError<T>> {
         let UndeformedGap { mean, least, .. } = first.heights;
-        let logarithm = mean_logarithm(self.solved.contacts()[first.contact])?;
-        Ok(mean - least + self.both(smooth.map(|smooth| smooth - logarithm - logarithm)))
+        let logarithm = self.mean_logarithm(integrals, self.solved.contacts()[first.contact])?;
+        Ok(mean - least + self.both(smooth, logarithm))
     }
 
     /// dδ/dF: with ∂P/∂F any contact may be the first.
     fn rate(&self) -> Result<T, ContactError<T>> {
-        let rates = LoadRates::new(self.solved)?;
-        if let [on] = *self.solved.contacts() {
+        let (rates, contacts) = (LoadRates::new(self.solved)?, self.solved.contacts());
+        if let [on] = *contacts {
             let References { lower, upper, .. } = self.references;
             let [one, other] = self.bodies;
-            return Ok(self.both([self.of_punch(on, lower, one), self.of_punch(on, upper, other)]));
+            let punches = [self.of_punch(on, lower, one), self.of_punch(on, upper, other)];
+            return Ok(self.both(punches, T::zero()));
         }
-        let contacts = self.solved.contacts();
-        let integrals = Integrals::of_smooth(&rates, contacts);
-        let smooth = self.smooth(&integrals, T::one())?;
-        let logarithm = self.mean_logarithm(&integrals, T::one(), contacts[0])?;
-        Ok(self.both(smooth.map(|smooth| smooth - logarithm - logarithm)))
+        let integrals = Integrals::of_unit_load(&rates, contacts);
+        let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
+        Ok(self.both(self.smooth(&integrals)?, logarithm))
     }
 
     /// `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact, under a unit load. With the
@@ -358,38 +309,32 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
-        let (integrals, load) = (Integrals::new(self.solved)?, self.solved.found.load);
-        let smooth = self.smooth(&integrals, load)?;
-        let first = self.first()?;
-        let logarithm = self.logarithm(&integrals, load, &first)?;
+        let integrals = Integrals::new(self.solved)?;
+        let (smooth, first) = (self.smooth(&integrals)?, self.first()?);
+        let logarithm = self.logarithm(&integrals, &first)?;
         let of = |i: usize| {
             self.bodies[i].compliance * T::frac_1_pi() * (smooth[i] - T::of(2.0) * logarithm)
         };
-        let mean = |on| self.mean_logarithm(&integrals, load, on);
-        Ok(Approach { bodies: self.of_bodies(smooth, &first, mean)?, lower: of(0), upper: of(1) })
+        let bodies = self.of_bodies(&integrals, smooth, &first)?;
+        Ok(Approach { bodies, lower: of(0), upper: of(1) })
     }
 
     /// `∫ P ln|ξ| ds`.
     fn logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
-        load: T,
         first: &First<T>,
     ) -> Result<T, ContactError<T>> {
-        let (Solved { kappa, .. }, x) = (self.solved, self.references.x);
-        let contacts = self.solved.contacts();
+        let (x, contacts) = (self.references.x, self.solved.contacts());
         let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
             let scale = self.scale();
             let logarithm = |distance: T, strength: T| [strength * (distance.abs() / scale).ln()];
             return integrals.over(x, logarithm).map(|[sum]| sum);
         };
         // In a contact it changes as the heights do.
-        let heights = if i == first.contact {
-            first.heights
-        } else {
-            UndeformedGap::new(self.solved, i, Some(x))?
-        };
+        let heights =
+            if i == first.contact { first.heights } else { UndeformedGap::new(self.solved, i, x)? };
         let rise = heights.at.unwrap_or(heights.mean) - heights.mean;
-        Ok(self.mean_logarithm(integrals, load, contacts[i])? + kappa * rise)
+        Ok(self.mean_logarithm(integrals, contacts[i])? + self.solved.kappa * rise)
     }
 }

@@ -12,15 +12,14 @@ mod inside;
 mod outside;
 mod series_bounds;
 
-use super::ContactState;
+use super::{ContactState, Solved};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::Integrator;
-use crate::quadrature::panels::{self, Several, System, rises_over};
+use crate::quadrature::panels::{Several, System, rises_over};
 use crate::{ContactError, Ends, Interval, Real, Side};
 use balance::balanced;
-use cells::{Cells, compare, places};
+use cells::Cells;
 use inside::Inside;
-use outside::{Beside, OutsideOf};
+use outside::{Loaded, OutsideOf};
 use series_bounds::extremes;
 
 /// Evaluations, and samples, after which the certificate is given up.
@@ -86,41 +85,34 @@ fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactE
 }
 
 /// Looks at contacts, whatever quadrature they were found with.
-pub(crate) fn certify<T: Real>(
-    gap: &Gap<'_, T>,
-    kappa: T,
-    found: &ContactState<T>,
-    solver: &dyn Integrator<T>,
-) -> Result<Certificate<T>, ContactError<T>> {
+pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, ContactError<T>> {
+    let Solved { gap, kappa, found, .. } = solved;
     let ContactState { interval: hull, free, adhesive, .. } = *found;
     // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
     let at_end = Ends { left: hull.left <= found.ends.left, right: hull.right >= found.ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
     presses_at(found, at_corner)?;
     let ends = followed(found.ends, hull);
-    let spacing = (ends.right - ends.left) * T::of(SHARE);
     let [from, to] = gap.range();
-    let one = std::slice::from_ref(&found.interval);
-    let contacts = panels::several(solver).map_or(one, Several::contacts).iter();
-    let contacts: Vec<_> =
-        contacts.map(|on| Interval { left: on.left.max(from), right: on.right.min(to) }).collect();
+    let within = |on: &Interval<T>| Interval { left: on.left.max(from), right: on.right.min(to) };
+    let contacts: Vec<_> = solved.contacts().iter().map(within).collect();
 
-    let mut cells = Cells::new(gap);
+    let mut cells = Cells::new(gap, (ends.right - ends.left) * T::of(SHARE));
     let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());
     for (i, on) in contacts.iter().enumerate() {
-        let row = cells.over(&places(on.left, on.right, on.half_width(), spacing))?;
+        let row = cells.over(&cells.places(on.left, on.right, on.half_width()))?;
         slopes.push(extremes(&row.panels));
         let steepest = slopes[i].into_iter().fold(T::zero(), |most, slope| most.max(slope.abs()));
-        doubt = doubt.max(compare(gap, &row.panels, |x| assumed(solver, i, x), spacing, steepest)?);
+        doubt = doubt.max(cells.compare(&row.panels, |x| assumed(solved, i, x), steepest)?);
         rows.push(row);
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
     let (load, share) = (found.load / kappa, found.nothing());
     several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
     several.system(load, &mut system);
-    let mut cost = several.cost;
+    let cost = several.cost;
     for (i, on) in contacts.iter().enumerate() {
-        several.panel_set(i).heights(gap, [on.left, on.centre(), on.right], &mut cost)?;
+        cells.heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
     }
     balanced(kappa, found, &several, &system, doubt)?;
     let steepest = slopes.iter().flatten().fold(T::zero(), |most: T, slope| most.max(slope.abs()));
@@ -142,19 +134,9 @@ pub(crate) fn certify<T: Real>(
     }
     several.bear(load);
     let allowed = share * steepest * hull.half_width();
-    let state = Loaded { gap, found, several: &several, system: &system, slopes: &slopes, allowed };
-    let closest = state.outside([is_held, at_corner], spacing, &mut cells, &mut cost)?;
-    Ok(Certificate { pressure, gap: closest, spacing, cost: cost + cells.cost() })
-}
-
-/// Contacts, and how steep the bodies are in each.
-struct Loaded<'c, T: Real> {
-    gap: &'c Gap<'c, T>,
-    found: &'c ContactState<T>,
-    several: &'c Several<T>,
-    system: &'c System<T>,
-    slopes: &'c [[T; 2]],
-    allowed: T,
+    let state = Loaded { found, several: &several, system: &system, slopes: &slopes, allowed };
+    let gap = state.outside([is_held, at_corner], &mut cells)?;
+    Ok(Certificate { pressure, gap, spacing: cells.spacing, cost: cost + cells.cost() })
 }
 
 impl<T: Real> Loaded<'_, T> {
@@ -162,19 +144,15 @@ impl<T: Real> Loaded<'_, T> {
     fn outside(
         &self,
         [is_held, at_corner]: [Ends<bool>; 2],
-        spacing: T,
         cells: &mut Cells<'_, T>,
-        cost: &mut Cost,
     ) -> Result<Option<Extremum<T>>, ContactError<T>> {
-        let Self { gap, found, several, system, slopes, allowed } = *self;
-        let (contacts, ends) = (several.contacts(), followed(found.ends, found.interval));
+        let (found, contacts) = (self.found, self.several.contacts());
+        let ends = followed(found.ends, found.interval);
         let strengths = found.strengths.zip(is_held);
         let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
-        let (mut worst, mut closest): (Option<Extremum<T>>, Option<Extremum<T>>) = (None, None);
+        let (mut worst, mut closest, last, half) = (None, None, contacts.len() - 1, T::of(0.5));
         // Where the bodies come closer up to the middle of a gap, from its left.
         let mut falling: Option<Extremum<T>> = None;
-        let last = contacts.len() - 1;
-        let half = T::of(0.5);
         for (contact, &on) in contacts.iter().enumerate() {
             for side in Side::BOTH {
                 let is_outer = contact == if side == Side::Right { last } else { 0 };
@@ -186,17 +164,9 @@ impl<T: Real> Loaded<'_, T> {
                     Side::Right => half * on.right + half * contacts[contact + 1].left,
                     Side::Left => half * contacts[contact - 1].right + half * on.left,
                 };
-                let mut outside = OutsideOf::new(Beside {
-                    several,
-                    system,
-                    contact,
-                    side,
-                    on,
-                    slopes: slopes[contact],
-                    falls: last > 0 || strengths[side] <= T::zero().min(strengths[side.other()]),
-                    allowed,
-                });
-                outside.follow(gap, end, spacing, cells, cost)?;
+                let falls = last > 0 || strengths[side] <= T::zero().min(strengths[side.other()]);
+                let mut outside = OutsideOf::new(self, contact, side, falls);
+                outside.follow(end, cells)?;
                 if is_outer {
                     outside.part_again();
                 } else if side == Side::Right {
@@ -216,13 +186,12 @@ impl<T: Real> Loaded<'_, T> {
 }
 
 /// Returns what a solver assumes of the slope of the gap in one of its contacts, and how far that may be off.
-fn assumed<T: Real>(solver: &dyn Integrator<T>, contact: usize, x: T) -> Option<(T, T)> {
-    let Some(several) = panels::several(solver) else {
-        return solver.slope(x).zip(solver.doubt(x));
+fn assumed<T: Real>(solved: Solved<'_, T>, contact: usize, x: T) -> Option<(T, T)> {
+    let doubt = match solved.several().map(|several| several.panel_set(contact)) {
+        Some(panels) => panels.truncation_error(x)? + panels.tolerance * panels.size,
+        None => solved.integrator.doubt(x)?,
     };
-    let panel_set = several.panel_set(contact);
-    let doubt = panel_set.truncation_error(x)? + panel_set.tolerance * panel_set.size;
-    Some((panel_set.slope(x)?, doubt))
+    Some((solved.sampled_slope(contact, x)?, doubt))
 }
 
 /// Refuses corners that pull.
@@ -303,6 +272,7 @@ mod tests {
     use crate::gap::Shape;
     use crate::numerics::LinearSystem;
     use crate::profile::{Curve, CurvePoint, Flat};
+    use crate::quadrature::panels;
     use crate::search::Newton as Inversion;
     use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -350,7 +320,7 @@ mod tests {
             tilt: 0.0,
             ends,
         };
-        certify(&gap, kappa, &found, &*solver)
+        certify(Solved { gap: &gap, integrator: &*solver, kappa, found: &found })
     }
 
     /// Solutions of the equations that the bodies do not have.

@@ -53,14 +53,11 @@ impl<T: Real> Display for Solution<'_, T> {
         f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })?;
         for side in Side::BOTH {
             let (x, strength) = (self.hull()[side], self.edge_singularities()[side]);
-            if !self.found().adhesive[side]
+            if !self.found.adhesive[side]
                 && strength < -T::epsilon().sqrt() * self.mean_pressure().abs()
             {
-                write!(
-                    f,
-                    "\nthe bodies would have to pull at each other at x = {}",
-                    rounded(x, f)
-                )?;
+                let x = rounded(x, f);
+                write!(f, "\nthe bodies would have to pull at each other at x = {x}")?;
             }
         }
         if self.is_steep() {
@@ -96,17 +93,15 @@ impl<T: Real> Display for Estimate<T> {
 /// What is proved, and by what, in a line.
 impl<T: Real> Display for Certificate<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        f.write_str("no tension")?;
-        if let Some(pressure) = &self.pressure {
-            f.write_str(" (least ratio ")?;
-            pressure.fmt(f)?;
-            f.write_str(")")?;
-        }
-        f.write_str(", no overlap")?;
-        if let Some(gap) = &self.gap {
-            f.write_str(" (least gap ")?;
-            gap.fmt(f)?;
-            f.write_str(")")?;
+        for (proved, by, least) in
+            [("no tension", "ratio", &self.pressure), (", no overlap", "gap", &self.gap)]
+        {
+            f.write_str(proved)?;
+            if let Some(least) = least {
+                write!(f, " (least {by} ")?;
+                least.fmt(f)?;
+                f.write_str(")")?;
+            }
         }
         write!(f, ", in cells of {}: {}", rounded(self.spacing, f), self.cost)
     }

@@ -32,12 +32,12 @@ impl<T: Real> Solution<'_, T> {
             return Ok(T::zero());
         }
         let mut sampler = Sampler::default();
-        let [from, to] = self.gap().range();
-        let at_edge = sampler.height(self.gap(), edge.max(from).min(to))?;
-        let bodies = sampler.height(self.gap(), x)? - at_edge;
+        let [from, to] = self.gap.range();
+        let at_edge = sampler.height(&self.gap, edge.max(from).min(to))?;
+        let bodies = sampler.height(&self.gap, x)? - at_edge;
         let [pushed] = Integrals::new(self.solved())?
             .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
-        Ok(bodies - pushed / self.scale())
+        Ok(bodies - pushed / self.kappa)
     }
 
     /// The slope of that gap: how fast it opens towards larger x. Zero at a free edge, infinite at one
@@ -50,17 +50,17 @@ impl<T: Real> Solution<'_, T> {
         if x == edge {
             return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
         }
-        let bodies = Sampler::default().slope(self.gap(), x)?;
+        let bodies = Sampler::default().slope(&self.gap, x)?;
         let pull = |distance: T, strength: T| [strength / distance];
         let [pull] = Integrals::new(self.solved())?.over(x, pull)?;
-        Ok(bodies - pull / self.scale())
+        Ok(bodies - pull / self.kappa)
     }
 
     /// The edge nearest to a point outside the contacts, and whether it is free.
     fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
-        let (contacts, range) = (self.intervals(), self.gap().range());
-        let next = contacts.partition_point(|on| on.right <= x);
-        if let Some(&interval) = contacts.get(next).filter(|on| on.contains(x)) {
+        let (contacts, range) = (self.intervals(), self.gap.range());
+        let (next, inside) = Interval::find(contacts, x);
+        if let Some(interval) = inside {
             return Err(ContactError::InvalidPosition { x, inside: false, interval });
         }
         let Interval { left, right } = self.hull();
@@ -68,13 +68,12 @@ impl<T: Real> Solution<'_, T> {
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let free = self.found().free;
+        let free = self.found.free;
         let before = next.checked_sub(1).map(|i| contacts[i].right);
         let after = contacts.get(next).map(|on| on.left);
         Ok(match (before, after) {
-            (Some(before), Some(after)) => {
-                (if x - before <= after - x { before } else { after }, true)
-            }
+            (Some(before), Some(after)) if x - before <= after - x => (before, true),
+            (Some(_), Some(after)) => (after, true),
             (Some(before), None) => (before, free.right),
             (None, after) => (after.unwrap_or(left), free.left),
         })

@@ -1,7 +1,6 @@
 //! Where the bodies touch, and what presses them together.
 
 use super::Solution;
-use crate::quadrature::panels::Several;
 use crate::{Interval, Real};
 
 impl<T: Real> Solution<'_, T> {
@@ -23,7 +22,7 @@ impl<T: Real> Solution<'_, T> {
 
     /// The intervals in which the bodies touch, from left to right.
     pub fn intervals(&self) -> &[Interval<T>] {
-        self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)
+        self.solved().contacts()
     }
 
     /// Load per unit length F, of all contacts.

@@ -36,11 +36,8 @@ use crate::{Body, ContactError, Interval, Real};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Shear<T> {
     /// The coefficient of friction μ, positive.
     pub friction: T,
@@ -53,7 +50,7 @@ pub struct Shear<T> {
 }
 
 /// A contact that sticks in part, and slips in part: [`Contact::partial_slip`](crate::Contact::partial_slip).
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct PartialSlip<'b, T: Real> {
     normal: Solution<'b, T>,
     stick: Solution<'b, T>,
@@ -117,24 +114,14 @@ impl<'b, T: Real> PartialSlip<'b, T> {
     /// Those of [`Solution::subsurface`].
     pub fn subsurface(&self, body: Body) -> Result<SlipStress<'_, T>, ContactError<T>> {
         let parts = [self.normal.subsurface()?, self.stick.subsurface()?];
-        let friction = match body {
-            Body::Lower => self.signed_friction(),
-            Body::Upper => -self.signed_friction(),
-        };
+        let friction = self.signed_friction();
+        let friction = if body == Body::Lower { friction } else { -friction };
         Ok(SlipStress { parts, friction })
     }
 
     /// μ with the sign of the force on body 1.
     fn signed_friction(&self) -> T {
         if self.shear.force < T::zero() { -self.shear.friction } else { self.shear.friction }
-    }
-}
-
-impl<T: Real> std::fmt::Debug for PartialSlip<'_, T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut debug = f.debug_struct("PartialSlip");
-        debug.field("normal", &self.normal).field("stick_zones", &self.stick_zones());
-        debug.field("shear", &self.shear).finish()
     }
 }
 

@@ -218,11 +218,8 @@ impl<T: Real> Search<'_, '_, T> {
     fn meet(&mut self, x: T) -> Result<Estimate<T>, ContactError<T>> {
         let found = self.integrator.estimate(self.gap, self.load_case, x, self.cost)?;
         let top = self.top.1;
-        let is_higher = match (found.is_resolved(), top.is_resolved()) {
-            (true, false) => true,
-            (false, true) => false,
-            _ => found.value > top.value,
-        };
+        let are_alike = found.is_resolved() == top.is_resolved();
+        let is_higher = if are_alike { found.value > top.value } else { found.is_resolved() };
         if is_higher {
             self.top = (x, found);
         }

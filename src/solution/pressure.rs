@@ -91,8 +91,7 @@ impl<T: Real> Pressure<'_, T> {
 
     /// Tells whether x is a limit of a contact but for rounding of `-b + (a + b) t`.
     fn is_at_limit(&self, x: T) -> bool {
-        let first = self.contacts.partition_point(|on| on.right <= x);
-        self.contacts.get(first).is_some_and(|on| {
+        Interval::find(self.contacts, x).1.is_some_and(|on| {
             let rounding = T::of(4.0) * T::epsilon() * (on.left.abs() + on.right.abs());
             (x - on.left).min(on.right - x) <= rounding
         })
@@ -184,15 +183,11 @@ impl<T: Real> Pressure<'_, T> {
         if !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }
-        let first = self.contacts.partition_point(|on| on.right <= x);
-        let Some(on) = self.contacts.get(first).filter(|on| on.contains(x)) else {
-            let singular =
-                Side::BOTH.into_iter().any(|side| x == self.on[side] && !self.load_case.free[side]);
-            return if singular {
-                Err(ContactError::Singular { x })
-            } else {
-                Ok(Estimate { value: T::zero(), error: T::zero() })
-            };
+        let (_, Some(on)) = Interval::find(self.contacts, x) else {
+            let is_held = |side| x == self.on[side] && !self.load_case.free[side];
+            let nothing = Estimate { value: T::zero(), error: T::zero() };
+            let singular = Side::BOTH.into_iter().any(is_held);
+            return if singular { Err(ContactError::Singular { x }) } else { Ok(nothing) };
         };
         let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
         if !estimate.value.is_finite() {

@@ -39,11 +39,14 @@ pub(crate) trait Density<T: Real> {
 /// A density on all contacts, ready to be integrated.
 pub(crate) struct Integrals<T: Real, D> {
     pub density: D,
+    /// The integral of the density over all contacts.
+    pub load: T,
     /// The contacts, from left to right.
     contacts: Vec<One<T>>,
 }
 
 /// One of the contacts.
+#[derive(Clone)]
 struct One<T> {
     on: Interval<T>,
     /// The breakpoints inside, rising.
@@ -69,20 +72,17 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
             One { on, breakpoints, free, kept: OnceLock::new() }
         };
         let contacts = contacts.iter().enumerate().map(one).collect();
-        Ok(Self { density: Pressure::new(solved)?, contacts })
+        Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })
     }
 }
 
 impl<T: Real, D: Density<T>> Integrals<T, D> {
-    /// A density that is smooth inside the contacts, and infinite at their limits.
-    pub fn of_smooth(density: D, contacts: &[Interval<T>]) -> Self {
-        let one = |&on: &Interval<T>| One {
-            on,
-            breakpoints: Vec::new(),
-            free: Ends::both(false),
-            kept: OnceLock::new(),
-        };
-        Self { density, contacts: contacts.iter().map(one).collect() }
+    /// Prepares the density of a unit load that is smooth inside the contacts, and infinite at their limits.
+    pub fn of_unit_load(density: D, contacts: &[Interval<T>]) -> Self {
+        let (breakpoints, free) = (Vec::new(), Ends::both(false));
+        let one = One { on: contacts[0], breakpoints, free, kept: OnceLock::new() };
+        let contacts = contacts.iter().map(|&on| One { on, ..one.clone() }).collect();
+        Self { density, load: T::one(), contacts }
     }
 
     /// The breakpoints inside the contacts, rising.
@@ -162,10 +162,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         while let Some((contact, whole, known)) = pending.pop() {
             let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
-            let halves = [
-                panel(contact, [from, middle], known, 1)?,
-                panel(contact, [middle, to], known, 2)?,
-            ];
+            let half = |ends, part| panel(contact, ends, known, part);
+            let halves = [half([from, middle], 1)?, half([middle, to], 2)?];
             let (one, graded_rule, _) = &views[contact];
             let noise = one.noise(graded_rule.place(middle, one.free).0);
             let mut agreed = true;
@@ -219,10 +217,8 @@ impl<T: Real> One<T> {
         let Interval { left, right } = self.on;
         let mut distance = right - left;
         let next = self.breakpoints.partition_point(|&breakpoint| breakpoint < s);
-        for breakpoint in
-            &self.breakpoints[next.saturating_sub(1)..self.breakpoints.len().min(next + 1)]
-        {
-            distance = distance.min((s - *breakpoint).abs());
+        for &breakpoint in self.breakpoints.iter().take(next + 1).skip(next.saturating_sub(1)) {
+            distance = distance.min((s - breakpoint).abs());
         }
         let rounding = T::of(0.25) * T::epsilon() * s.abs();
         if distance > rounding { rounding / distance } else { T::one() }
@@ -235,14 +231,11 @@ impl<T: Real> One<T> {
         graded_rule: &GradedRule<T>,
         ends: [T; 2],
     ) -> Result<[T; NODES], ContactError<T>> {
-        let (mut s, mut share) = ([T::zero(); NODES], [T::zero(); NODES]);
-        for (i, turn) in turns(ends).into_iter().enumerate() {
-            (s[i], share[i]) = graded_rule.place(turn, self.free);
-        }
+        let places = turns(ends).map(|turn| graded_rule.place(turn, self.free));
         let mut bounded = [T::zero(); NODES];
-        density.values(&s, &mut bounded)?;
-        for i in 0..NODES {
-            bounded[i] *= share[i] * graded_rule.on.chebyshev_weight(s[i]);
+        density.values(&places.map(|(s, _)| s), &mut bounded)?;
+        for (bounded, (s, share)) in bounded.iter_mut().zip(places) {
+            *bounded *= share * graded_rule.on.chebyshev_weight(s);
         }
         Ok(bounded)
     }
@@ -253,7 +246,7 @@ fn tolerance<T: Real>() -> T {
     T::epsilon().powf(T::of(0.75))
 }
 
-fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
+pub(super) fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
     for (sum, &term) in sum.iter_mut().zip(terms) {
         *sum += term;
     }

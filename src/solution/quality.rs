@@ -43,7 +43,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`] at the deepest
     /// overlap, [`ContactError::Undecided`]; those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(&self.gap, self.kappa, &self.found, &**self.integrator)
+        certify(self.solved())
     }
 
     /// What finding the limits has cost, the pressures that [`Control::PeakPressure`](crate::Control::PeakPressure) takes

@@ -1,7 +1,7 @@
 //! By how much a solution fails the integral equation.
 
 use super::pressure_integral::{Density, Integrals};
-use crate::{ContactError, Real, Solution};
+use crate::{ContactError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
     /// `PV∫ P(s)/(x - s) ds - κ g(x)` at a place strictly inside the contact: by how much the
@@ -15,7 +15,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`ContactError::InvalidPosition`] for an x not strictly inside; those of
     /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
-        let Some(interval) = self.contact_with(x) else {
+        let (_, Some(interval)) = Interval::find(self.intervals(), x) else {
             return Err(ContactError::InvalidPosition { x, inside: true, interval: self.hull() });
         };
         let integrals = Integrals::new(self.solved())?;
@@ -32,7 +32,7 @@ impl<T: Real> Solution<'_, T> {
         };
         let size = at_x.abs() / interval.half_width();
         let [sum] = integrals.over_as_of(size, x, difference)?;
-        let slope = crate::gap::Sampler::default().slope(self.gap(), x)?;
-        Ok(sum - self.scale() * slope)
+        let slope = crate::gap::Sampler::default().slope(&self.gap, x)?;
+        Ok(sum - self.kappa * slope)
     }
 }

@@ -21,6 +21,14 @@ impl<'s, T: Real> Solved<'s, T> {
         panels::several(self.integrator)
     }
 
+    /// Returns the slope of the gap in a contact from the samples at hand, if they tell it.
+    pub fn sampled_slope(&self, contact: usize, x: T) -> Option<T> {
+        match self.several() {
+            Some(several) => several.panel_set(contact).slope(x),
+            None => self.integrator.slope(x),
+        }
+    }
+
     /// From left to right.
     pub fn contacts(&self) -> &'s [Interval<T>] {
         self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)

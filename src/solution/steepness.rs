@@ -19,12 +19,9 @@ impl<T: Real> Solution<'_, T> {
     #[must_use]
     pub fn is_steep(&self) -> bool {
         let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
-        let slope = |i: usize, x: T| match self.several() {
-            Some(several) => several.panel_set(i).slope(x),
-            None => self.integrator.slope(x),
-        };
+        let solved = self.solved();
         let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
-        let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| slope(i, x)));
+        let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
         slopes.any(|slope| slope.is_some_and(steep))
     }
 
@@ -49,7 +46,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of sampling the bodies.
     pub fn steepest_slope(&self) -> Result<T, ContactError<T>> {
-        let (gap, mut sampler) = (self.gap(), Sampler::default());
+        let (gap, mut sampler) = (&self.gap, Sampler::default());
         let mut steepest = T::zero();
         for &on in self.intervals() {
             let angle = |i: usize| T::pi() * T::count(i) / T::count(POINTS - 1);

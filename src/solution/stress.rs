@@ -49,6 +49,7 @@ mod largest;
 
 use super::pressure_integral::{Density, Integrals};
 use crate::gap::Sampler;
+use crate::material::checked_ratio;
 use crate::{ContactError, Interval, Pressure, Real, Solution};
 
 /// Stress in plane strain: a pressure; tension is positive.
@@ -118,14 +119,6 @@ impl<T: Real> Stress<T> {
     }
 }
 
-fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
-    if ratio >= T::zero() && ratio <= T::of(0.5) {
-        Ok(ratio)
-    } else {
-        Err(ContactError::InvalidPoissonRatio { ratio })
-    }
-}
-
 /// The stress below a contact: [`Solution::subsurface`].
 ///
 /// ```
@@ -164,11 +157,8 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
-        Ok(Subsurface {
-            solution: self,
-            integrals: Integrals::new(self.solved())?,
-            friction: T::zero(),
-        })
+        let (integrals, friction) = (Integrals::new(self.solved())?, T::zero());
+        Ok(Subsurface { solution: self, integrals, friction })
     }
 }
 
@@ -227,10 +217,10 @@ impl<T: Real> Subsurface<'_, T> {
         let Interval { left, right } = self.hull();
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
-        if self.solution.contact_with(x).is_some() {
+        if Interval::find(self.solution.intervals(), x).1.is_some() {
             self.integrals.density.values(&[x], &mut pressure)?;
         }
-        let free = self.solution.found().free;
+        let free = self.solution.found.free;
         let infinite = (x == left && !free.left) || (x == right && !free.right);
         let [pressure] = pressure;
         if infinite || !pressure.is_finite() {
@@ -240,9 +230,9 @@ impl<T: Real> Subsurface<'_, T> {
             T::zero()
         } else if touches {
             // An edge may have been rounded to beyond the end of a body that it lies at.
-            let gap = self.solution.gap();
+            let gap = &self.solution.gap;
             let [from, to] = gap.range();
-            self.solution.scale() * Sampler::default().slope(gap, x.max(from).min(to))?
+            self.solution.kappa * Sampler::default().slope(gap, x.max(from).min(to))?
         } else {
             let [pull] = self.integrals.over(x, |distance, strength| [strength / distance])?;
             pull

@@ -70,7 +70,7 @@ impl<T: Real> Solution<'_, T> {
             intervals: self.intervals().to_vec(),
             load: self.load(),
             loads: contacts.iter().map(|contact| contact.load).collect(),
-            kappa: self.scale(),
+            kappa: self.kappa,
             tilt: self.tilt(),
             mean_pressure: self.mean_pressure(),
             peak,

@@ -9,6 +9,7 @@
 //! The second is by parts: θ/π is the share of the angles to the right of x. Gauss's rule of 16 nodes on spans of θ
 //! that are halved until it agrees with itself.
 
+use super::pressure_integral::add;
 use super::solved::Solved;
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
@@ -54,10 +55,7 @@ struct Slopes<'s, T: Real> {
 impl<T: Real> Slopes<'_, T> {
     /// From the samples at hand, or where there are none from the curves.
     fn at(&mut self, x: T) -> Result<T, ContactError<T>> {
-        let known = match self.solved.several() {
-            Some(several) => several.panel_set(self.contact).slope(x),
-            None => self.solved.integrator.slope(x),
-        };
+        let known = self.solved.sampled_slope(self.contact, x);
         known.map_or_else(|| self.sampler.slope(self.solved.gap, x), Ok)
     }
 
@@ -108,37 +106,30 @@ impl<T: Real> Slopes<'_, T> {
             Err(TryFindError::Search(_)) => from,
         };
         let least = height + self.span([start, self.on.angle(lowest)])?.sum[0];
-        if least < found.least {
-            found.least = least;
-        }
+        found.least = found.least.min(least);
         Ok(())
     }
 }
 
 impl<T: Real> UndeformedGap<T> {
-    pub fn new(
-        solved: Solved<'_, T>,
-        contact: usize,
-        at: Option<T>,
-    ) -> Result<Self, ContactError<T>> {
+    pub fn new(solved: Solved<'_, T>, contact: usize, at: T) -> Result<Self, ContactError<T>> {
         let (zero, on) = (T::zero(), solved.contacts()[contact]);
-        let at = at.filter(|&x| x >= on.left && x <= on.right);
+        let stop = (at >= on.left && at <= on.right).then(|| on.angle(at));
         let mut slopes = Slopes { solved, contact, on, sampler: Sampler::default() };
-        let angles = solved.gap.breakpoints(on).map(|x| on.angle(x));
-        let angles: Vec<T> =
-            std::iter::once(T::pi()).chain(angles).chain(std::iter::once(zero)).collect();
+        let mut angles = vec![T::pi()];
+        angles.extend(solved.gap.breakpoints(on).map(|x| on.angle(x)));
+        angles.push(zero);
         // The leftmost last.
         let mut pending = Vec::new();
         let mut size = [zero; 2];
         for ends in angles.windows(2).rev().filter(|ends| ends[0] > ends[1]) {
             let span = slopes.span([ends[0], ends[1]])?;
-            add(&mut size, span.size);
+            add(&mut size, &span.size);
             pending.push(span);
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
         let (mut left, mut height, mut mean) = (MOST_SPANS, zero, zero);
         let mut found = Self { mean, least: zero, at: None };
-        let stop = at.map(|x| on.angle(x));
         let mut before = slopes.at_limit(on.left);
         while let Some(span) = pending.pop() {
             let [from, to] = span.theta;
@@ -168,18 +159,11 @@ impl<T: Real> UndeformedGap<T> {
                 }
                 height += half.sum[0];
                 mean += half.sum[1];
-                if height < found.least {
-                    found.least = height;
-                }
+                found.least = found.least.min(height);
             }
         }
         let last = slopes.at_limit(on.right);
         slopes.dip(&mut found, [before, last], height, zero)?;
         Ok(Self { mean: mean / T::pi(), ..found })
     }
-}
-
-fn add<T: Real>(sum: &mut [T; 2], terms: [T; 2]) {
-    sum[0] += terms[0];
-    sum[1] += terms[1];
 }

@@ -22,8 +22,8 @@ use crate::material::Elasticity;
 use crate::quadrature::complete;
 use crate::quadrature::panels::{self, Several};
 use crate::search::SearchError;
-use crate::solution::{Approaching, ContactState, LoadRates, References, Report, Solved};
-use crate::{ContactError, Ends, Interval, Real};
+use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
+use crate::{ContactError, Ends, Interval, Real, References};
 
 /// Loads tried before the value is given up.
 const MOST_LOADS: usize = 100;

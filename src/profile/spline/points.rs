@@ -26,9 +26,7 @@ pub enum SplineError<T: Real> {
         points: usize,
     },
     /// A coordinate is NaN or infinite.
-    #[error(
-        "row {row}: the point [{x}, {y}] is not finite: remove the row", x = six(*x), y = six(*y)
-    )]
+    #[error("row {row}: the point [{}, {}] is not finite: remove the row", six(*x), six(*y))]
     NotFinite {
         /// Row of the point.
         row: usize,
@@ -38,10 +36,7 @@ pub enum SplineError<T: Real> {
         y: T,
     },
     /// Two neighbours have one x, or x so near that their distance is lost.
-    #[error(
-        "row {row}: x = {x} as in the row before: keep one of the two, or their mean",
-        x = six(*x)
-    )]
+    #[error("row {row}: x = {} as in the row before: keep one of the two, or their mean", six(*x))]
     Duplicate {
         /// Row of the second.
         row: usize,
@@ -81,19 +76,13 @@ pub enum SplineError<T: Real> {
         deviations: T,
     },
     /// The noise is negative, NaN or infinite.
-    #[error(
-        "the noise is {noise}: give the standard deviation of the heights, 0 or more",
-        noise = six(*noise)
-    )]
+    #[error("the noise is {}: give the standard deviation of the heights, 0 or more", six(*noise))]
     Noise {
         /// The noise as given.
         noise: T,
     },
     /// The limit for outliers is not positive.
-    #[error(
-        "Fit::outliers is {deviations}: give a number of standard deviations, or None",
-        deviations = six(*deviations)
-    )]
+    #[error("Fit::outliers is {}: give a number of standard deviations, or None", six(*deviations))]
     Limit {
         /// The limit as given.
         deviations: T,

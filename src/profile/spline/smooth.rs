@@ -170,12 +170,8 @@ fn freedom<T: Real>(triangle: &[[Row<T>; 2]]) -> T {
     let mut covariance = Matrix2::zeros();
     triangle.iter().rev().fold(T::zero(), |sum, [upper, lower]| {
         let next = Matrix2::new(upper[2], upper[3], lower[2], lower[3]);
-        let inverse = Matrix2::new(
-            T::one() / upper[0],
-            -upper[1] / (upper[0] * lower[1]),
-            T::zero(),
-            T::one() / lower[1],
-        );
+        let above = -upper[1] / (upper[0] * lower[1]);
+        let inverse = Matrix2::new(upper[0].recip(), above, T::zero(), lower[1].recip());
         covariance = inverse
             * (Matrix2::identity() + next * covariance * next.transpose())
             * inverse.transpose();

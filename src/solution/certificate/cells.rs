@@ -19,17 +19,28 @@ const SHORT: f64 = 1e-6;
 /// Samples the gap in cells.
 pub(super) struct Cells<'g, T: Real> {
     gap: &'g Gap<'g, T>,
+    /// The longest of them.
+    pub spacing: T,
     one: PanelSet<T>,
 }
 
 impl<'g, T: Real> Cells<'g, T> {
-    pub fn new(gap: &'g Gap<'g, T>) -> Self {
-        Self { gap, one: PanelSet::new(T::epsilon().powf(T::of(0.75))) }
+    pub fn new(gap: &'g Gap<'g, T>, spacing: T) -> Self {
+        Self { gap, spacing, one: PanelSet::new(T::epsilon().powf(T::of(0.75))) }
     }
 
     /// Returns what all of them have cost.
     pub fn cost(&self) -> Cost {
         self.one.cost
+    }
+
+    /// Looks at the heights of the gap at places of a row, and at what the slopes say of them.
+    pub fn heights<const N: usize>(
+        &mut self,
+        row: &PanelSet<T>,
+        x: [T; N],
+    ) -> Result<[T; N], ContactError<T>> {
+        row.heights(self.gap, x, &mut self.one.cost)
     }
 
     /// Samples the cells between places, which rise.
@@ -66,60 +77,60 @@ impl<'g, T: Real> Cells<'g, T> {
         }
         Ok(row)
     }
-}
 
-/// The ends of cells from an edge of a contact to a place, by rising x: no longer than `spacing`, and the shorter the
-/// nearer they are to the edge.
-pub(super) fn places<T: Real>(edge: T, end: T, half_width: T, spacing: T) -> Vec<T> {
-    let (sign, reach) = (if end < edge { -T::one() } else { T::one() }, (end - edge).abs());
-    let (mut places, mut reached) = (vec![edge], T::zero());
-    while reached < reach && places.len() < MOST_EVALUATIONS {
-        let step = (T::of(0.5) * reached).max(T::of(0.0625) * half_width).min(spacing);
-        // No sliver at the end.
-        let is_last = reached + T::of(1.25) * step >= reach;
-        reached = if is_last { reach } else { reached + step };
-        let to = if is_last { end } else { edge + sign * reached };
-        if places.last() != Some(&to) {
-            places.push(to);
-        }
-    }
-    if sign < T::zero() {
-        places.reverse();
-    }
-    places
-}
-
-/// Compares what is assumed of the slope in a contact, and how far it may be off, with the nodes of all cells, which are
-/// eight or more in each; where they differ most is what is named. Returns the least error that is assumed.
-pub(super) fn compare<T: Real>(
-    gap: &Gap<'_, T>,
-    cells: &[Panel<T>],
-    assumed: impl Fn(T) -> Option<(T, T)>,
-    spacing: T,
-    steepest: T,
-) -> Result<T, ContactError<T>> {
-    let mut sampler = Sampler::default();
-    let mut doubt = None;
-    let mut missed: Option<(T, ContactError<T>)> = None;
-    // Those halved down to a jump end at one of its two sides, by chance.
-    let short = T::of(SHORT) * spacing;
-    for cell in cells.iter().filter(|cell| cell.half() > short) {
-        for &z in &Table::of(cell.n).z[..cell.n] {
-            let x = cell.x[0] + cell.half() * T::of(1.0 + z);
-            let Some((assumed, error)) = assumed(x) else { continue };
-            doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
-            let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
-            let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
-            if (cell.value(x) - assumed).abs() <= most {
-                continue;
-            }
-            // The series of the cell may itself be off.
-            let slope = sampler.slope(gap, x)?;
-            let off = (slope - assumed).abs();
-            if off > most {
-                missed = Some((off, ContactError::FeatureMissed { x, slope, assumed }));
+    /// Lists the ends of cells from an edge of a contact to a place, by rising x: no longer than the spacing, and the
+    /// shorter the nearer they are to the edge.
+    pub fn places(&self, edge: T, end: T, half_width: T) -> Vec<T> {
+        let (sign, reach) = (if end < edge { -T::one() } else { T::one() }, (end - edge).abs());
+        let (mut places, mut reached) = (vec![edge], T::zero());
+        while reached < reach && places.len() < MOST_EVALUATIONS {
+            let step = (T::of(0.5) * reached).max(T::of(0.0625) * half_width).min(self.spacing);
+            // No sliver at the end.
+            let is_last = reached + T::of(1.25) * step >= reach;
+            reached = if is_last { reach } else { reached + step };
+            let to = if is_last { end } else { edge + sign * reached };
+            if places.last() != Some(&to) {
+                places.push(to);
             }
         }
+        if sign < T::zero() {
+            places.reverse();
+        }
+        places
     }
-    missed.map_or(Ok(doubt.unwrap_or(T::zero())), |(_, error)| Err(error))
+
+    /// Compares what is assumed of the slope in a contact, and how far it may be off, with the nodes of all cells of a
+    /// row, which are eight or more in each; where they differ most is what is named. Returns the least error that is
+    /// assumed.
+    pub fn compare(
+        &self,
+        row: &[Panel<T>],
+        assumed: impl Fn(T) -> Option<(T, T)>,
+        steepest: T,
+    ) -> Result<T, ContactError<T>> {
+        let mut sampler = Sampler::default();
+        let mut doubt = None;
+        let mut missed: Option<(T, ContactError<T>)> = None;
+        // Those halved down to a jump end at one of its two sides, by chance.
+        let short = T::of(SHORT) * self.spacing;
+        for cell in row.iter().filter(|cell| cell.half() > short) {
+            for &z in &Table::of(cell.n).z[..cell.n] {
+                let x = cell.x[0] + cell.half() * T::of(1.0 + z);
+                let Some((assumed, error)) = assumed(x) else { continue };
+                doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
+                let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
+                let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
+                if (cell.value(x) - assumed).abs() <= most {
+                    continue;
+                }
+                // The series of the cell may itself be off.
+                let slope = sampler.slope(self.gap, x)?;
+                let off = (slope - assumed).abs();
+                if off > most {
+                    missed = Some((off, ContactError::FeatureMissed { x, slope, assumed }));
+                }
+            }
+        }
+        missed.map_or(Ok(doubt.unwrap_or(T::zero())), |(_, error)| Err(error))
+    }
 }

@@ -8,7 +8,7 @@
 //! graded towards the logarithms at the breakpoints.
 
 use super::series_bounds::{below, least, truncation_error};
-use super::{Extremum, undecided};
+use super::{Extremum, nearer, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::Table;
 use crate::{ContactError, Ends, Interval, Real};
@@ -27,6 +27,13 @@ struct CheckedCell<T> {
     x: [T; NODES],
     pressure: [T; NODES],
     series: [T; NODES],
+}
+
+/// What has been found so far: the deepest tension, and the least ratio.
+struct Found<T> {
+    worst: Option<Extremum<T>>,
+    ratio: Option<Extremum<T>>,
+    cells: usize,
 }
 
 /// A contact whose pressures are known.
@@ -53,80 +60,76 @@ impl<T: Real> Inside<'_, T> {
     /// the ratio of the pressure to that under a smooth body is least.
     pub fn least(&self, cost: Cost) -> Result<Extremum<T>, ContactError<T>> {
         let on = self.on;
-        let worst: std::cell::Cell<Option<Extremum<T>>> = std::cell::Cell::new(None);
-        let mut meet = |x: T, value: T| {
-            if value < -self.allowed && worst.get().is_none_or(|worst| value < worst.value) {
-                worst.set(Some(Extremum { x, value }));
-            }
-        };
+        let mut found = Found { worst: None, ratio: None, cells: 0 };
         for x in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
             let mut pressure = [T::zero()];
             (self.pressures)(&[x], &mut pressure);
-            meet(x, pressure[0]);
+            self.meet(&mut found, x, pressure[0]);
         }
         // Each span between two breakpoints is a cell or more.
-        let crowded = self.gap.breakpoints(on).count() >= MOST_CELLS;
-        // The ratio that is smallest, and where.
-        let mut ratio: Option<Extremum<T>> = None;
-        let (mut waiting, mut cells, mut left) = (Vec::new(), 0, Some(on.left));
-        while let Some(start) = left.filter(|_| !crowded) {
-            let breakpoint =
-                self.gap.breakpoint_after(start).filter(|&breakpoint| breakpoint < on.right);
-            waiting.push(([start, breakpoint.unwrap_or(on.right)], 0));
-            left = breakpoint;
-            while let Some(([from, to], level)) = waiting.pop() {
-                cells += 1;
-                if cells > MOST_CELLS {
-                    // One place with tension is enough.
-                    let seen = worst.get();
-                    return Err(
-                        seen.map_or_else(|| undecided(from, cost), |place| self.tension(place))
-                    );
-                }
-                let middle = T::of(0.5) * from + T::of(0.5) * to;
-                let Some(cell) = self.cell([from, to]) else { continue };
-                let CheckedCell { x, pressure, series } = cell;
-                let left_out = truncation_error(&series);
-                let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-                let bound = below(&series) - left_out;
-                if bound > T::zero() && ratio.is_some_and(|ratio| ratio.value <= bound) {
-                    continue;
-                }
-                let coarse = T::epsilon().sqrt() * size;
-                let fine = T::of(0.25) * self.allowed;
-                if left_out <= fine || (bound > T::zero() && left_out <= coarse) {
-                    // The sign is that of the polynomial, but for what is allowed.
-                    let enough =
-                        if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
-                    let [s, value] = least(&series, enough);
-                    let x = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
-                    if ratio.is_none_or(|ratio| value < ratio.value) {
-                        ratio = Some(Extremum { x, value });
-                    }
-                    if value < -self.allowed {
-                        self.deepest([from, to], &mut meet);
-                    }
-                    continue;
-                }
-                if level < MOST_LEVELS && middle > from && middle < to {
-                    waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
-                    continue;
-                }
-                x.iter().zip(&pressure).for_each(|(&x, &pressure)| meet(x, pressure));
+        if self.gap.breakpoints(on).count() < MOST_CELLS {
+            let mut left = on.left;
+            for right in self.gap.breakpoints(on).chain([on.right]) {
+                self.bound([left, right], &mut found, cost)?;
+                left = right;
             }
         }
-        match (worst.get(), ratio) {
+        match (found.worst, found.ratio) {
             (Some(place), _) => Err(self.tension(place)),
             (None, Some(ratio)) => Ok(ratio),
             (None, None) => Err(undecided(on.centre(), cost)),
         }
     }
 
+    /// Takes a pressure into account.
+    fn meet(&self, found: &mut Found<T>, x: T, value: T) {
+        if value < -self.allowed {
+            found.worst = nearer(Some(Extremum { x, value }), found.worst);
+        }
+    }
+
+    /// Bounds the ratio between two breakpoints.
+    fn bound(&self, span: [T; 2], found: &mut Found<T>, cost: Cost) -> Result<(), ContactError<T>> {
+        let mut waiting = vec![(span, 0)];
+        while let Some(([from, to], level)) = waiting.pop() {
+            found.cells += 1;
+            if found.cells > MOST_CELLS {
+                // One place with tension is enough.
+                let tension = found.worst.map(|place| self.tension(place));
+                return Err(tension.unwrap_or_else(|| undecided(from, cost)));
+            }
+            let middle = T::of(0.5) * from + T::of(0.5) * to;
+            let Some(CheckedCell { x, pressure, series }) = self.cell([from, to]) else { continue };
+            let left_out = truncation_error(&series);
+            let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+            let bound = below(&series) - left_out;
+            if bound > T::zero() && found.ratio.is_some_and(|ratio| ratio.value <= bound) {
+                continue;
+            }
+            let coarse = T::epsilon().sqrt() * size;
+            let fine = T::of(0.25) * self.allowed;
+            if left_out <= fine || (bound > T::zero() && left_out <= coarse) {
+                // The sign is that of the polynomial, but for what is allowed.
+                let enough = if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
+                let [s, value] = least(&series, enough);
+                let x = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
+                found.ratio = nearer(Some(Extremum { x, value }), found.ratio);
+                if value < -self.allowed {
+                    self.deepest([from, to], found);
+                }
+            } else if level < MOST_LEVELS && middle > from && middle < to {
+                waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
+            } else {
+                x.iter().zip(&pressure).for_each(|(&x, &pressure)| self.meet(found, x, pressure));
+            }
+        }
+        Ok(())
+    }
+
     /// Looks at a cell; nothing if there is no room.
     fn cell(&self, [from, to]: [T; 2]) -> Option<CheckedCell<T>> {
-        let half = T::of(0.5);
+        let (half, table) = (T::of(0.5), Table::of(NODES));
         let (middle, reach) = (half * from + half * to, half * (to - from));
-        let table = Table::of(NODES);
         let x: [T; NODES] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
         if x[0] <= from || x[NODES - 1] >= to {
             return None;
@@ -149,15 +152,14 @@ impl<T: Real> Inside<'_, T> {
     }
 
     /// The least pressure itself on a cell that has some below zero, by shrinking a grid.
-    fn deepest(&self, [mut from, mut to]: [T; 2], meet: &mut dyn FnMut(T, T)) {
+    fn deepest(&self, [mut from, mut to]: [T; 2], found: &mut Found<T>) {
         for _ in 0..12 {
             let Some(CheckedCell { x, pressure, .. }) = self.cell([from, to]) else { break };
             let lower = |best: usize, i: usize| if pressure[i] < pressure[best] { i } else { best };
             let best = (0..NODES).fold(0, lower);
-            meet(x[best], pressure[best]);
-            let (start, end) = (from, to);
-            from = if best == 0 { start } else { x[best - 1] };
-            to = if best + 1 == NODES { end } else { x[best + 1] };
+            self.meet(found, x[best], pressure[best]);
+            from = if best == 0 { from } else { x[best - 1] };
+            to = x.get(best + 1).copied().unwrap_or(to);
         }
     }
 }

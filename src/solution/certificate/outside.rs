@@ -6,10 +6,10 @@
 //! grows, the slope itself is not computed, and what the pressure adds to the height is made up for only where the gap
 //! stops growing.
 
-use super::cells::{Cells, places};
+use super::cells::Cells;
 use super::series_bounds::{above, below, integral, least, truncation_error};
-use super::{Extremum, undecided};
-use crate::gap::{Cost, Gap};
+use super::{ContactState, Extremum, nearer, undecided};
+use crate::gap::Cost;
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
@@ -22,24 +22,24 @@ const MOST_LEVELS: usize = 40;
 /// Those cells on one side.
 const MOST_CELLS: usize = 1 << 16;
 
-/// One side of a contact.
-pub(super) struct Beside<'o, T> {
-    pub several: &'o Several<T>,
-    pub system: &'o System<T>,
-    pub contact: usize,
-    pub side: Side,
-    pub on: Interval<T>,
-    /// The least and the largest slope of the bodies in the contact.
-    pub slopes: [T; 2],
-    /// Whether Φ falls outward.
-    pub falls: bool,
+/// Contacts under load.
+pub(super) struct Loaded<'c, T: Real> {
+    pub found: &'c ContactState<T>,
+    pub several: &'c Several<T>,
+    pub system: &'c System<T>,
+    /// The least and the largest slope of the bodies in each contact.
+    pub slopes: &'c [[T; 2]],
     /// Overlaps up to this are none.
     pub allowed: T,
 }
 
-/// What has been followed of it.
+/// One side of a contact, and what has been followed of it.
 pub(super) struct OutsideOf<'o, T: Real> {
-    of: Beside<'o, T>,
+    of: &'o Loaded<'o, T>,
+    contact: usize,
+    side: Side,
+    /// Whether Φ falls outward.
+    falls: bool,
     /// The height of the gap at `y`, and what the slopes of the bodies have added since.
     height: T,
     y: T,
@@ -55,21 +55,25 @@ pub(super) struct OutsideOf<'o, T: Real> {
 }
 
 impl<'o, T: Real> OutsideOf<'o, T> {
-    pub fn new(of: Beside<'o, T>) -> Self {
-        let [height, y, pending] = [T::zero(); 3];
-        let (open, cells, worst, closest, falling) = (false, 0, None, None, None);
-        Self { of, height, y, pending, open, cells, worst, closest, falling }
+    pub fn new(of: &'o Loaded<'o, T>, contact: usize, side: Side, falls: bool) -> Self {
+        let ([height, y, pending], [worst, closest, falling]) = ([T::zero(); 3], [None; 3]);
+        let (open, cells) = (false, 0);
+        Self { of, contact, side, falls, height, y, pending, open, cells, worst, closest, falling }
     }
 
     fn sign(&self) -> T {
-        match self.of.side {
+        match self.side {
             Side::Left => -T::one(),
             Side::Right => T::one(),
         }
     }
 
+    fn on(&self) -> Interval<T> {
+        self.of.several.contacts()[self.contact]
+    }
+
     fn edge(&self) -> T {
-        self.of.on[self.of.side]
+        self.on()[self.side]
     }
 
     fn distance(&self, x: T) -> T {
@@ -78,33 +82,24 @@ impl<'o, T: Real> OutsideOf<'o, T> {
 
     /// Returns what the pressure takes off the slope of the gap at a distance.
     fn pull(&self, distance: T) -> T {
-        let Beside { several, system, contact, side, .. } = self.of;
-        several.pull(system, contact, side, distance)
+        self.of.several.pull(self.of.system, self.contact, self.side, distance)
     }
 
     /// Follows the gap from the edge to a place.
-    pub fn follow(
-        &mut self,
-        gap: &Gap<'_, T>,
-        end: T,
-        spacing: T,
-        cells: &mut Cells<'_, T>,
-        cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    pub fn follow(&mut self, end: T, cells: &mut Cells<'_, T>) -> Result<(), ContactError<T>> {
         let edge = self.edge();
-        let places = places(edge, end, self.of.on.half_width(), spacing);
+        let places = cells.places(edge, end, self.on().half_width());
         let mut row = cells.over(&places)?;
         // Short of the last cell: at the end of a body the slope may be infinite.
         let last = places.len() - 1;
-        let known = if self.of.side == Side::Left {
-            [places[1.min(last)], edge]
-        } else {
-            [edge, places[last.max(1) - 1]]
+        let known = match self.side {
+            Side::Left => [places[1.min(last)], edge],
+            Side::Right => [edge, places[last.max(1) - 1]],
         };
         if known[0] < known[1] {
-            row.heights(gap, known, cost)?;
+            cells.heights(&row, known)?;
         }
-        if self.of.side == Side::Left {
+        if self.side == Side::Left {
             row.panels.reverse();
         }
         let mut left_out = T::zero();
@@ -123,15 +118,15 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         *left_out += length * (panel.tail + rounding * panel.series[0].abs());
         let series = panel.coefficients();
         // A straight flank is as steep as in the contact.
-        let [least, most] = self.of.slopes;
+        let [least, most] = self.of.slopes[self.contact];
         let slack = rounding * least.abs().max(most.abs());
-        let growing = match self.of.side {
+        let growing = match self.side {
             Side::Right => below(series) >= most - slack,
             Side::Left => above(series) <= least + slack,
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
-        if growing && self.of.falls {
+        if growing && self.falls {
             let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
             self.pending += self.sign() * sum * panel.half();
             self.part_again();
@@ -153,11 +148,8 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         let (half, rule) = (T::of(0.5), GaussLegendre::suited(1, T::zero()));
         let (mut sum, mut top) = (T::zero(), to);
         for level in 0..200 {
-            let bottom = if level + 1 == 200 || (from.is_zero() && level > 20) {
-                from
-            } else {
-                from.max(half * top)
-            };
+            let is_last = level + 1 == 200 || (from.is_zero() && level > 20);
+            let bottom = if is_last { from } else { from.max(half * top) };
             for i in 0..rule.n {
                 let y = half * (bottom + top) + half * (top - bottom) * T::of(rule.nodes[i]);
                 let weight = half * (top - bottom) * T::of(rule.weights[i]);
@@ -225,19 +217,15 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let [s, value] = least(&heights, enough);
                 let y = middle + s * reach;
                 let here = Extremum { x: self.edge() + sign * y * y, value };
-                if value < -(allowed + left_out)
-                    && self.worst.is_none_or(|than: Extremum<T>| value < than.value)
-                {
-                    self.worst = Some(here);
+                if value < -(allowed + left_out) {
+                    self.worst = nearer(Some(here), self.worst);
                 }
                 let turns = s > -T::one() && (self.open || value.abs() > allowed);
-                if s <= -T::one() {
-                    self.part_again();
-                } else if turns {
+                if turns {
                     self.falling = Some(here);
-                    if s < T::one() {
-                        self.part_again();
-                    }
+                }
+                if s <= -T::one() || (turns && s < T::one()) {
+                    self.part_again();
                 }
             } else {
                 self.part_again();
@@ -253,9 +241,6 @@ impl<'o, T: Real> OutsideOf<'o, T> {
 
     /// Where the bodies have come closer up to now, they part from here on, or end.
     pub fn part_again(&mut self) {
-        let Some(here) = self.falling.take() else { return };
-        if self.closest.is_none_or(|than| here.value < than.value) {
-            self.closest = Some(here);
-        }
+        self.closest = nearer(self.falling.take(), self.closest);
     }
 }

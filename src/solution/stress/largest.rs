@@ -62,7 +62,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses edges at which all stress is infinite.
     fn check_edges(&self) -> Result<(), ContactError<T>> {
-        let (found, hull) = (self.solution.found(), self.hull());
+        let (found, hull) = (self.solution.found, self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
         // Where both are it is the right one that is named.
         for side in [Side::Right, Side::Left] {
@@ -109,7 +109,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Lists places on the surface of a contact: its grid of pressures, and those that stress crowds at.
     fn features(&self, contact: usize, on: Interval<T>) -> Result<Features<T>, ContactError<T>> {
-        let grid = places(&**self.solution.integrator, self.solution.gap(), contact, on);
+        let grid = places(&**self.solution.integrator, &self.solution.gap, contact, on);
         let mut pressures = vec![T::zero(); grid.len()];
         self.integrals.density.values(&grid, &mut pressures)?;
         let pressures: Vec<_> = grid.iter().zip(pressures).map(|(&x, p)| [x, p]).collect();
@@ -163,15 +163,14 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         } else {
             on.centre() + on.half_width() * along
         };
-        solution.gap().check_watch(solution.cost(), on)?;
-        match self.below.at(x, depth) {
-            Ok(stress) => Ok((place, StressPeak { x, depth, value: (self.value)(stress)? })),
+        solution.gap.check_watch(solution.cost(), on)?;
+        let value = match self.below.at(x, depth) {
+            Ok(stress) => (self.value)(stress)?,
             // Shear that is bounded, or an edge whose strength is nothing but rounding.
-            Err(ContactError::Singular { .. }) => {
-                Ok((place, StressPeak { x, depth, value: -T::one() }))
-            }
-            Err(error) => Err(error),
-        }
+            Err(ContactError::Singular { .. }) => -T::one(),
+            Err(error) => return Err(error),
+        };
+        Ok((place, StressPeak { x, depth, value }))
     }
 
     /// The place of an abscissa.
