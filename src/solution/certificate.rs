@@ -221,8 +221,7 @@ fn assumed<T: Real>(solver: &dyn Integrator<T>, contact: usize, x: T) -> Option<
         return solver.slope(x).zip(solver.doubt(x));
     };
     let panel_set = several.panel_set(contact);
-    let doubt = panel_set.truncation_error(x)? + panel_set.tolerance * panel_set.size;
-    Some((panel_set.slope(x)?, doubt))
+    panel_set.slope(x).zip(panel_set.doubt(x))
 }
 
 /// Refuses corners that pull.
