@@ -28,6 +28,7 @@ pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Ends, Interval, Real};
+use panels::PanelIntegrator;
 use std::any::Any;
 
 /// How many times the budget of a search may be spent where no samples are kept.
@@ -169,6 +170,23 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
 
     /// What the work has cost since the last [`reset`](Self::reset).
     fn cost(&self) -> Cost;
+
+    /// The panels that it works on, if it does: they know of several contacts.
+    #[doc(hidden)]
+    fn panels(&self) -> Option<&PanelIntegrator<T>> {
+        None
+    }
+
+    #[doc(hidden)]
+    fn panels_mut(&mut self) -> Option<&mut PanelIntegrator<T>> {
+        None
+    }
+
+    /// The paper's rule, if it is at work.
+    #[doc(hidden)]
+    fn midpoint(&self) -> Option<&Midpoint> {
+        None
+    }
 }
 
 /// What presses on a contact, and what is known of its edges.

@@ -33,7 +33,6 @@ use crate::gap::{Cost, Gap, Sampler};
 use crate::{ContactError, Interval, Real, Side};
 use level::{Level, Pole};
 use moments::moments;
-use std::any::Any;
 use std::sync::OnceLock;
 
 /// The midpoint rule with N segments and Richardson extrapolation.
@@ -117,23 +116,13 @@ impl<T: Real> Quadrature<T> for Midpoint {
         let Some(levels) = self.levels() else {
             return Err(ContactError::InvalidSegments { segments, extrapolations });
         };
-        let sampler = Sampler::default();
-        let sums = OnceLock::new();
-        Ok(Box::new(MidpointIntegrator {
-            rule: *self,
-            levels,
-            sampler,
-            on: None,
-            sums,
-            moments: None,
-        }))
+        let (rule, on, moments) = (*self, None, None);
+        let (sampler, sums) = (Sampler::default(), OnceLock::new());
+        Ok(Box::new(MidpointIntegrator { rule, levels, sampler, on, sums, moments }))
     }
 
     fn serves(&self, integrator: &dyn Integrator<T>) -> bool {
-        let integrator: &dyn Any = integrator;
-        integrator
-            .downcast_ref()
-            .is_some_and(|MidpointIntegrator { rule, .. }: &MidpointIntegrator<T>| rule == self)
+        integrator.midpoint() == Some(self)
     }
 }
 
@@ -151,6 +140,10 @@ struct MidpointIntegrator<T: Real> {
 }
 
 impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
+    fn midpoint(&self) -> Option<&Midpoint> {
+        Some(&self.rule)
+    }
+
     fn fork(&self) -> Box<dyn Integrator<T>> {
         Box::new(self.clone())
     }
@@ -256,7 +249,9 @@ impl<T: Real> MidpointSums<T> {
         // g is not quite that line.
         let bend = T::one() + T::count(self.levels[0].n).recip();
         let error = bend * (a * one_missed + b * t_missed).abs() + value.1.abs();
-        let error = error + self.jump_error(x) + self.coarse_error();
+        // Fewer than four points leave nothing to judge a rule by.
+        let is_coarse = self.levels[0].n < 4;
+        let error = if is_coarse { T::one() / T::zero() } else { error + self.jump_error(x) };
         let half_width = self.on.half_width();
         Ok(Estimate { value: half_width * value.0, error: half_width * error })
     }
@@ -296,10 +291,5 @@ impl<T: Real> MidpointSums<T> {
             }
         }
         (values[0], changed)
-    }
-
-    /// Fewer than four points leave nothing to judge a rule by.
-    fn coarse_error(&self) -> T {
-        if self.levels[0].n < 4 { T::one() / T::zero() } else { T::zero() }
     }
 }

@@ -35,32 +35,11 @@ use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{MOST_MISSED, PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
-use std::any::Any;
-
 /// Whether the slope of the gap rises all over the contact last prepared, up to a share of itself; `None` for
 /// other integrators, and for several contacts.
 pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {
-    let integrator: &dyn Any = integrator;
-    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
-    let allowed = share * integrator.panel_set.size;
-    (!integrator.is_several).then(|| {
-        edge_integrals::rise(&integrator.panel_set.panels, integrator.conjugate.on, allowed)
-    })
-}
-
-/// The panels that one contact lies on, and the contact; `None` for other integrators.
-fn held_by<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-) -> Option<(&[Panel<T>], Interval<T>)> {
-    let integrator: &dyn Any = integrator;
-    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
-    let (panel_set, on) = if integrator.is_several {
-        (integrator.several.panel_set(contact), integrator.several.contacts()[contact])
-    } else {
-        (&integrator.panel_set, integrator.conjugate.on)
-    };
-    Some((panel::within(&panel_set.panels, on), on))
+    let (PanelSet { panels, size, .. }, on) = integrator.panels()?.only()?;
+    Some(edge_integrals::rise(panels, on, share * *size))
 }
 
 /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.
@@ -69,24 +48,17 @@ pub(crate) fn rises_on<T: Real>(
     contact: usize,
     on: Interval<T>,
 ) -> bool {
-    let integrator: &dyn Any = integrator;
-    let Some(integrator) = integrator.downcast_ref::<PanelIntegrator<T>>() else { return false };
-    let panel_set = match integrator.is_several {
-        true => integrator.several.panel_set(contact),
-        false => &integrator.panel_set,
-    };
-    let covers = |sampled: Interval<T>| sampled.contains(on.left) && sampled.contains(on.right);
-    panel_set.interval().is_some_and(covers)
-        && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
+    integrator.panels().is_some_and(|integrator| {
+        let (panel_set, _) = integrator.contact(contact);
+        panel_set.covers(on)
+            && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
+    })
 }
 
 /// Returns by how much the gap of one contact rises by its panels from one place to another, before the bodies are
 /// turned.
 pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
-    let integrator: &dyn Any = integrator;
-    let PanelIntegrator { panel_set, is_several: false, .. } = integrator.downcast_ref()? else {
-        return None;
-    };
+    let (panel_set, _) = integrator.panels()?.only()?;
     Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
 }
 
@@ -96,16 +68,10 @@ pub(crate) fn nodes<T: Real>(
     contact: usize,
     show: &mut dyn FnMut(T) -> Result<(), ContactError<T>>,
 ) -> Result<(), ContactError<T>> {
-    let Some((panels, on)) = held_by(integrator, contact) else { return Ok(()) };
-    for panel in panels {
-        for &z in &crate::numerics::chebyshev::Table::of(panel.n).z[..panel.n] {
-            let x = panel.x[0] + panel.half() * T::of(1.0 + z);
-            if on.contains(x) {
-                show(x)?;
-            }
-        }
-    }
-    Ok(())
+    let Some(integrator) = integrator.panels() else { return Ok(()) };
+    let (PanelSet { panels, .. }, on) = integrator.contact(contact);
+    let nodes = panel::within(panels, on).iter().flat_map(Panel::nodes);
+    nodes.filter(|&x| on.contains(x)).try_for_each(show)
 }
 
 /// Lists the parts of one contact that lie on one panel each, and the nodes of that; none without panels.
@@ -113,14 +79,56 @@ pub(crate) fn spans<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
 ) -> Vec<(Interval<T>, usize)> {
-    let Some((panels, on)) = held_by(integrator, contact) else { return Vec::new() };
-    let last = panels.len() - 1;
-    let span = |(i, panel): (usize, &Panel<T>)| {
-        let left = if i == 0 { on.left } else { panel.x[0] };
-        let right = if i == last { on.right } else { panel.x[1] };
-        (Interval { left, right }, panel.n)
-    };
-    panels.iter().enumerate().map(span).collect()
+    let Some(integrator) = integrator.panels() else { return Vec::new() };
+    let (PanelSet { panels, .. }, on) = integrator.contact(contact);
+    let span = |(panel, [left, right]): (&Panel<T>, [T; 2])| (Interval { left, right }, panel.n);
+    panel::spans(panel::within(panels, on), on).map(span).collect()
+}
+
+/// Turns an integrator of panels to several contacts; `None` for any other integrator, which knows but one.
+pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
+    let integrator = integrator.panels_mut()?;
+    integrator.is_several = true;
+    integrator.several.spent = integrator.panel_set.cost;
+    Some(&mut integrator.several)
+}
+
+/// Hands guides to an integrator of panels.
+pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
+    if let Some(integrator) = integrator.panels_mut() {
+        integrator.panel_set.guide(guides);
+    }
+}
+
+/// Looks between the nodes of the panels of each contact; tells whether panels have missed a feature, and have been
+/// sampled anew.
+///
+/// # Errors
+/// Those of sampling the bodies.
+pub(crate) fn probe<T: Real>(
+    integrator: &mut dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    on: Interval<T>,
+) -> Result<bool, ContactError<T>> {
+    let Some(integrator) = integrator.panels_mut() else { return Ok(false) };
+    if integrator.is_several {
+        return integrator.several.probe(gap);
+    }
+    let is_missed = integrator.panel_set.probe(gap, on)?;
+    if is_missed {
+        integrator.moments = None;
+    }
+    Ok(is_missed)
+}
+
+/// Whether an integrator is one of panels.
+pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
+    integrator.panels().is_some()
+}
+
+/// The several contacts that an integrator was last turned to; `None` if it was one.
+pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
+    integrator.panels().filter(|panels| panels.is_several).map(|panels| &panels.several)
 }
 
 /// The default quadrature: panels.
@@ -164,33 +172,28 @@ impl<T: Real> Quadrature<T> for Panels {
             return Err(ContactError::InvalidTolerance { tolerance: T::of(self.tolerance) });
         }
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
-        let (panel_set, conjugate) = (PanelSet::new(tolerance), HilbertTransform::new());
-        let several = Several::new(tolerance);
-        let (moments, over, fall) = (None, None, None);
-        let (is_prepared, is_several) = (false, false);
         Ok(Box::new(PanelIntegrator {
             rule: *self,
-            panel_set,
-            conjugate,
-            is_prepared,
-            moments,
-            over,
-            fall,
-            several,
-            is_several,
+            panel_set: PanelSet::new(tolerance),
+            conjugate: HilbertTransform::new(),
+            is_prepared: false,
+            moments: None,
+            over: None,
+            fall: None,
+            several: Several::new(tolerance),
+            is_several: false,
         }))
     }
 
     fn serves(&self, integrator: &dyn Integrator<T>) -> bool {
-        let integrator: &dyn Any = integrator;
-        integrator
-            .downcast_ref()
-            .is_some_and(|PanelIntegrator { rule, .. }: &PanelIntegrator<T>| rule == self)
+        integrator.panels().is_some_and(|panels| panels.rule == *self)
     }
 }
 
+/// Panels at work: on one contact, or on several at once.
 #[derive(Clone)]
-struct PanelIntegrator<T> {
+#[expect(missing_debug_implementations, unnameable_types, reason = "users only pass it on")]
+pub struct PanelIntegrator<T> {
     rule: Panels,
     panel_set: PanelSet<T>,
     conjugate: HilbertTransform<T>,
@@ -207,61 +210,17 @@ struct PanelIntegrator<T> {
     is_several: bool,
 }
 
-/// Turns an integrator of panels to several contacts; `None` for any other integrator, which knows but one.
-pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
-    let integrator: &mut dyn Any = integrator;
-    let integrator: &mut PanelIntegrator<T> = integrator.downcast_mut()?;
-    integrator.is_several = true;
-    integrator.several.spent = integrator.panel_set.cost;
-    Some(&mut integrator.several)
-}
-
-/// Hands guides to an integrator of panels.
-pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
-    let integrator: &mut dyn Any = integrator;
-    if let Some(panels) = integrator.downcast_mut::<PanelIntegrator<T>>() {
-        panels.panel_set.guide(guides);
-    }
-}
-
-/// Looks between the nodes of the panels of each contact; tells whether panels have missed a feature, and have been
-/// sampled anew.
-///
-/// # Errors
-/// Those of sampling the bodies.
-pub(crate) fn probe<T: Real>(
-    integrator: &mut dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    on: Interval<T>,
-) -> Result<bool, ContactError<T>> {
-    let integrator: &mut dyn Any = integrator;
-    let Some(integrator) = integrator.downcast_mut::<PanelIntegrator<T>>() else {
-        return Ok(false);
-    };
-    if integrator.is_several {
-        return integrator.several.probe(gap);
-    }
-    let is_missed = integrator.panel_set.probe(gap, on)?;
-    if is_missed {
-        (integrator.moments, integrator.is_prepared) = (None, false);
-    }
-    Ok(is_missed)
-}
-
-/// Whether an integrator is one of panels.
-pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
-    let integrator: &dyn Any = integrator;
-    integrator.is::<PanelIntegrator<T>>()
-}
-
-/// The several contacts that an integrator was last turned to; `None` if it was one.
-pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
-    let integrator: &dyn Any = integrator;
-    let integrator: &PanelIntegrator<T> = integrator.downcast_ref()?;
-    integrator.is_several.then_some(&integrator.several)
-}
-
 impl<T: Real> PanelIntegrator<T> {
+    /// The panels of the only contact, and the contact; `None` with several.
+    fn only(&self) -> Option<(&PanelSet<T>, Interval<T>)> {
+        (!self.is_several).then_some((&self.panel_set, self.conjugate.on))
+    }
+
+    /// The panels that one contact lies on, and the contact.
+    fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
+        self.only().unwrap_or_else(|| (self.several.panel_set(i), self.several.contacts()[i]))
+    }
+
     fn turn_to_one(&mut self) {
         self.is_several = false;
         self.panel_set.spent = self.several.cost;
@@ -287,10 +246,8 @@ impl<T: Real> PanelIntegrator<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
-        let [from, to] = gap.range();
         self.clear_samples();
-        self.panel_set
-            .extend(gap, Interval { left: on.left.max(from), right: on.right.min(to) })?;
+        self.panel_set.extend(gap, on)?;
         Ok(self.remember(on))
     }
 
@@ -313,6 +270,14 @@ impl<T: Real> PanelIntegrator<T> {
 }
 
 impl<T: Real> Integrator<T> for PanelIntegrator<T> {
+    fn panels(&self) -> Option<&Self> {
+        Some(self)
+    }
+
+    fn panels_mut(&mut self) -> Option<&mut Self> {
+        Some(self)
+    }
+
     fn fork(&self) -> Box<dyn Integrator<T>> {
         Box::new(self.clone())
     }
@@ -324,12 +289,9 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         coarse: bool,
     ) -> Result<Option<T>, ContactError<T>> {
         self.turn_to_one();
-        if !coarse {
-            self.panel_set.initial = self.expected_size(on);
-        }
-        self.panel_set.coarse = coarse;
         self.moments = None;
         self.panel_set.clear(true);
+        (self.panel_set.coarse, self.panel_set.initial) = (coarse, self.expected_size(on));
         self.panel_set.extend(gap, on)?;
         self.fall = coarse.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
@@ -366,8 +328,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         if self.fall.is_some() {
             return Ok(edge_integrals::moments(&self.panel_set.panels, on, true, &mut self.over));
         }
-        let sampled = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
-        self.panel_set.extend(gap, sampled)?;
+        self.panel_set.extend(gap, on)?;
         let m = self.remember(on);
         // What is good enough for a wide span may be nothing to a narrow one in its middle.
         let is_wide = |have: Interval<T>| have.half_width() > T::of(1.25) * on.half_width();
@@ -407,15 +368,10 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             out.iter_mut().for_each(|pressure| *pressure *= load_case.kappa);
             return Ok(());
         }
-        let (whole, rest) = x.as_chunks::<LANES>();
-        let (out, rest_out) = out.as_chunks_mut::<LANES>();
-        for (x, out) in whole.iter().zip(out) {
-            *out = self.in_lanes(load_case, x, LANES);
-        }
-        if let [first, ..] = rest {
-            let mut lanes = [*first; LANES];
-            lanes[..rest.len()].copy_from_slice(rest);
-            rest_out.copy_from_slice(&self.in_lanes(load_case, &lanes, rest.len())[..rest.len()]);
+        for (x, out) in x.chunks(LANES).zip(out.chunks_mut(LANES)) {
+            let mut lanes = [x[0]; LANES];
+            lanes[..x.len()].copy_from_slice(x);
+            out.copy_from_slice(&self.in_lanes(load_case, &lanes, x.len())[..x.len()]);
         }
         Ok(())
     }
@@ -466,13 +422,12 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     }
 
     fn doubt(&self, x: T) -> Option<T> {
-        Some(self.panel_set.truncation_error(x)? + self.panel_set.tolerance * self.panel_set.size)
+        self.panel_set.doubt(x)
     }
 
     fn clear_samples(&mut self) {
         self.panel_set.clear(true);
         (self.fall, self.moments) = (None, None);
-        self.panel_set.initial = LEAST;
     }
 
     fn reset(&mut self, same_bodies: bool) {

@@ -188,7 +188,7 @@ impl<T: Real> Loaded<'_, T> {
 /// Returns what a solver assumes of the slope of the gap in one of its contacts, and how far that may be off.
 fn assumed<T: Real>(solved: Solved<'_, T>, contact: usize, x: T) -> Option<(T, T)> {
     let doubt = match solved.several().map(|several| several.panel_set(contact)) {
-        Some(panels) => panels.truncation_error(x)? + panels.tolerance * panels.size,
+        Some(panels) => panels.doubt(x)?,
         None => solved.integrator.doubt(x)?,
     };
     Some((solved.sampled_slope(contact, x)?, doubt))

@@ -88,12 +88,8 @@ impl<T: Real> Level<T> {
 
     /// The slopes at the edges, by the line through those at the first and the last point.
     pub fn edge_slopes(&self) -> [T; 2] {
-        let end = |h: Option<&T>, root: Option<&T>| match (h, root) {
-            (Some(&h), Some(&root)) => h / root,
-            _ => T::zero(),
-        };
-        let [first, last] =
-            [end(self.h.first(), self.root.first()), end(self.h.last(), self.root.last())];
+        let Some(last) = self.h.len().checked_sub(1) else { return [T::zero(); 2] };
+        let [first, last] = [0, last].map(|i| self.h[i] / self.root[i]);
         let between = T::count(self.n) - self.first - self.first;
         if between <= T::zero() {
             return [first, last];
@@ -126,17 +122,10 @@ impl<T: Real> Level<T> {
     pub fn at(&self, pole: &mut Pole<'_, T>) -> Result<[T; 3], ContactError<T>> {
         let (n, on) = (T::count(self.n), pole.on);
         let place = n * ((pole.x - on.left) / (on.right - on.left));
-        let nearest =
-            nalgebra::try_convert::<T, f64>(place - self.first).unwrap_or(f64::NAN).round();
-        let delta = (place - self.first) - T::of(nearest);
-        let index = Some(nearest).filter(|&i| i >= 0.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "it is none or more"
-        )]
-        let index = index.map(|i| i as usize).filter(|&i| i < self.h.len());
-        let near = index.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
+        let is_close = |&i: &usize| (place - self.place(i)).abs() <= T::of(0.5);
+        let closest = (0..self.h.len()).find(is_close);
+        let delta = place - self.place(closest.unwrap_or(0));
+        let near = closest.filter(|_| self.trapezoidal || delta.abs() < T::of(0.0625));
 
         let (mut of_g, mut of_one, mut of_t) = (CompensatedSum::new(), T::zero(), T::zero());
         for (i, (&h, &root)) in self.h.iter().zip(&self.root).enumerate() {

@@ -43,10 +43,6 @@ fn fejer(m: usize) -> Vec<f64> {
     (1..m).map(weight).collect()
 }
 
-/// sin(iπ/m) for the finest m, over a full turn.
-static SINES: LazyLock<Vec<f64>> =
-    LazyLock::new(|| (0..2 * FINEST).map(|i| (PI * i as f64 / FINEST as f64).sin()).collect());
-
 /// Integrates the slope over `on`, a panel at a time.
 pub(super) fn moments<T: Real>(
     sampler: &mut Sampler<T>,
@@ -115,15 +111,12 @@ impl<T: Real> Segment<T> {
 
     /// What the highest coefficients of the interpolant leave open of the integrals.
     fn plateau(&self) -> T {
-        let stride = FINEST >> (self.rule + COARSEST.ilog2() as usize - 1);
-        let m = FINEST / stride;
+        let m = COARSEST << (self.rule - 1);
+        let sine = |i: usize| T::of((PI * (i % (2 * m)) as f64 / m as f64).sin());
         let coefficient = |degree: usize| {
-            let term = |i: usize| {
-                let slope = self.slope[i * stride].unwrap_or_else(T::zero);
-                let sine = |i: usize| T::of(SINES[i * stride % (2 * FINEST)]);
-                slope * sine(i) * sine(i * degree)
-            };
-            (1..m).fold(T::zero(), |sum, i| sum + term(i)) * T::of(2.0) / T::count(m)
+            let slope = |i: usize| self.slope[i * (FINEST / m)].unwrap_or_else(T::zero);
+            let term = |sum, i| sum + slope(i) * sine(i) * sine(i * degree);
+            (1..m).fold(T::zero(), term) * T::of(2.0) / T::count(m)
         };
         let highest = (m - 4..m).map(coefficient).fold(T::zero(), |max, c| max.max(c.abs()));
         highest * (self.to - self.from) / T::pi()

@@ -5,7 +5,7 @@
 //! over the contact, each is a span of θ for Gauss's rule.
 
 use super::half_angle::{Arc, HalfAngle, Sines};
-use super::panel::{Panel, Series, within};
+use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::CompensatedSum;
 use crate::numerics::chebyshev::{MOST, Row, by_size, evaluate, size_for};
@@ -15,7 +15,7 @@ use crate::{Interval, Real};
 
 /// `∫ g cos iθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
-struct EdgeSums<T> {
+pub(super) struct EdgeSums<T> {
     g: [CompensatedSum<T>; 3],
     size: T,
     slope: [T; 3],
@@ -23,9 +23,18 @@ struct EdgeSums<T> {
 }
 
 impl<T: Real> EdgeSums<T> {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let zero = T::zero();
         Self { g: [CompensatedSum::new(); 3], size: zero, slope: [zero; 3], error: zero }
+    }
+
+    /// Adds `∫ g cos iθ dθ`, and `∫ g' cosⁱθ dθ` with the derivative by z, given 1/L.
+    #[inline(always)]
+    fn add(&mut self, g: [T; 3], slope: [T; 3], by_x: T) {
+        for i in 0..3 {
+            self.g[i].add(g[i]);
+            self.slope[i] += by_x * slope[i];
+        }
     }
 
     fn scale(&mut self, share: T) {
@@ -33,6 +42,22 @@ impl<T: Real> EdgeSums<T> {
         self.slope = self.slope.map(|sum| sum * share);
         self.size *= share;
         self.error *= share;
+    }
+
+    pub fn moments(self, on: Interval<T>) -> Moments<T> {
+        // A formula of a few terms is good to a few units in the last place.
+        let rounding = T::of(16.0) * T::epsilon() * self.size;
+        let [by_0, by_1, by_2] = self.slope;
+        let derivatives = Some(MomentDerivatives { by_0, by_1, by_2 });
+        Moments {
+            m0: self.g[0].value(),
+            m1: self.g[1].value(),
+            m2: Some(self.g[2].value()),
+            l1_norm: self.size,
+            error: self.error.max(rounding),
+            inversion: T::zero(),
+            derivatives: derivatives.filter(|_| on.half_width() > T::zero()),
+        }
     }
 }
 
@@ -57,19 +82,7 @@ pub(super) fn moments<T: Real>(
             by_gauss(&mut sums, within, on, coarse);
         }
     }
-    // A formula of a few terms is good to a few units in the last place.
-    let rounding = T::of(16.0) * T::epsilon() * sums.size;
-    let [by_0, by_1, by_2] = sums.slope;
-    Moments {
-        m0: sums.g[0].value(),
-        m1: sums.g[1].value(),
-        m2: Some(sums.g[2].value()),
-        l1_norm: sums.size,
-        error: sums.error.max(rounding),
-        inversion: T::zero(),
-        derivatives: Some(MomentDerivatives { by_0, by_1, by_2 })
-            .filter(|_| on.half_width() > T::zero()),
-    }
+    sums.moments(on)
 }
 
 /// The coefficients of the derivative by z.
@@ -112,11 +125,8 @@ fn whole<T: Real>(
     let half = T::of(0.5);
     let slopes = by_size!(size_for(*counting), N => derivative::<N, T>(series));
     let by_x = T::one() / on.half_width();
-    sums.g[0].add(series[0]);
-    sums.g[1].add(half * series[1]);
-    sums.g[2].add(half * series[2]);
-    let [h0, h1, h2] = [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])];
-    sums.slope = [by_x * h0, by_x * h1, by_x * h2];
+    let g = [series[0], half * series[1], half * series[2]];
+    sums.add(g, [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])], by_x);
     let squares = series[1..*counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
     sums.size = (series[0] * series[0] + half * squares).sqrt();
     sums.error = tail;
@@ -165,12 +175,7 @@ fn span_of<const N: usize, T: Real>(
             h[2] += slopes[k] * half * (integrals[k] + twice);
         }
     }
-    for (sum, g) in sums.g.iter_mut().zip(g) {
-        sum.add(g);
-    }
-    for (sum, h) in sums.slope.iter_mut().zip(h) {
-        *sum += by_x * h;
-    }
+    sums.add(g, h, by_x);
 }
 
 /// Several panels hold it between them, some of them too short for their series to be continued.
@@ -178,10 +183,7 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
     let mut before: Option<&Panel<T>> = None;
-    for (i, panel) in panels.iter().enumerate() {
-        // The outermost may have to be continued a little.
-        let from = if i == 0 { on.left } else { panel.x[0] };
-        let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
+    for (panel, [from, to]) in spans(panels, on) {
         if let Some(before) = before {
             let error = before.tail + panel.tail;
             jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
@@ -207,16 +209,9 @@ fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>,
     let by_half_width = T::of(2.0) / arc.width();
     let mut lanes = [[T::zero(); W]; 7];
     for block in 0..rule.n / W {
-        let mut s = [T::zero(); W];
-        let mut cosine = s;
-        let mut weight = s;
-        for i in 0..W {
-            let node = block * W + i;
-            let (y, turn) = arc.beside_middle(arc.tangent * T::of(rule.nodes[node]));
-            s[i] = from + (y - arc.to_left) * by_x;
-            cosine[i] = arc.cos + y * by_half_width;
-            weight[i] = T::of(rule.weights[node]) * turn;
-        }
+        let [y, weight] = arc.nodes::<W>(rule, block);
+        let s = y.map(|y| from + (y - arc.to_left) * by_x);
+        let cosine = y.map(|y| arc.cos + y * by_half_width);
         let (g, slope) = evaluate::<W, T>(panel.coefficients(), &s);
         for i in 0..W {
             let (g, slope) = (weight[i] * g[i], weight[i] * slope[i]);
@@ -231,13 +226,8 @@ fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>,
     }
     let total = |lane: [T; W]| lane.into_iter().fold(T::zero(), |sum, term| sum + term);
     let [g0, g1, size, h0, h1, h2, square] = lanes.map(|lane| total(lane) * arc.tangent);
-    sums.g[0].add(g0);
-    sums.g[1].add(g1);
-    sums.g[2].add(square + square - g0);
+    sums.add([g0, g1, square + square - g0], [h0, h1, h2], by_x);
     sums.size += size;
-    for (sum, term) in sums.slope.iter_mut().zip([h0, h1, h2]) {
-        *sum += term * by_x;
-    }
     sums.error += panel.tail * T::of(4.0) * arc.tangent;
 }
 

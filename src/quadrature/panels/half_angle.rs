@@ -15,6 +15,7 @@
 //! instead, whose integrals over a span are differences of `sin kθ/k`.
 
 use crate::numerics::chebyshev::MOST;
+use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 
 /// A point of the contact by the cosine and sine of half its angle.
@@ -67,24 +68,13 @@ impl<T: Real> HalfAngle<T> {
         let mut sines = [T::zero(); MOST + 2];
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
-        for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {
-            *integral = sine * T::of(share);
+        for (k, integral) in (1u8..).zip(&mut sines[1..count]) {
+            *integral = sine * T::of(1.0 / f64::from(k));
             (before, sine) = (sine, twice * sine - before);
         }
         sines
     }
 }
-
-/// 1/k from k = 1 on.
-const SHARES: [f64; MOST + 1] = {
-    let mut shares = [0.0; MOST + 1];
-    let mut k = 0;
-    while k <= MOST {
-        shares[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    shares
-};
 
 /// A span of a contact, by the angles of its ends.
 pub(super) struct Arc<T> {
@@ -113,9 +103,22 @@ impl<T: Real> Arc<T> {
 
     /// `x - x_m` and dθ/dσ at σ.
     #[inline(always)]
-    pub fn beside_middle(&self, sigma: T) -> (T, T) {
+    fn beside_middle(&self, sigma: T) -> (T, T) {
         let turn = T::one() / (T::one() + sigma * sigma);
         (-self.width * sigma * (sigma * self.cos + self.sin) * turn, turn + turn)
+    }
+
+    /// `x - x_m` and dθ/σ at W nodes of a rule over the span, σ that of its end.
+    #[inline(always)]
+    pub fn nodes<const W: usize>(&self, rule: &GaussLegendre, block: usize) -> [[T; W]; 2] {
+        let [mut y, mut weight] = [[T::zero(); W]; 2];
+        for i in 0..W {
+            let node = block * W + i;
+            let turn;
+            (y[i], turn) = self.beside_middle(self.tangent * T::of(rule.nodes[node]));
+            weight[i] = T::of(rule.weights[node]) * turn;
+        }
+        [y, weight]
     }
 
     /// The width of the contact.

@@ -63,19 +63,6 @@ impl<T: Real> Edges<T> {
     }
 }
 
-/// The coefficients of artanh(r)/r in r².
-const ARTANH: [f64; 9] = [
-    1.0,
-    1.0 / 3.0,
-    1.0 / 5.0,
-    1.0 / 7.0,
-    1.0 / 9.0,
-    1.0 / 11.0,
-    1.0 / 13.0,
-    1.0 / 15.0,
-    1.0 / 17.0,
-];
-
 /// A contact on its panels.
 #[derive(Clone)]
 pub(super) struct HilbertTransform<T> {
@@ -356,7 +343,8 @@ impl<T: Real> Breakpoint<T> {
             // 2 artanh, of which the logarithm would lose the digits.
             let ratio = m[i].min(n[i]) / m[i].max(n[i]);
             let square = ratio * ratio;
-            let series = ARTANH.iter().rev().fold(T::zero(), |sum, &c| sum * square + T::of(c));
+            let add = |sum, k: u8| sum * square + T::of(1.0 / f64::from(2 * k + 1));
+            let series = (0..9).rev().fold(T::zero(), add);
             change[i] * (ratio + ratio) * series
         })
     }

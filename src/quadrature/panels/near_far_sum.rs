@@ -7,7 +7,7 @@
 
 use super::half_angle::{Arc, HalfAngle};
 use super::hilbert_transform::{Breakpoint, Rounding, shares};
-use super::panel::Panel;
+use super::panel::{Panel, spans};
 use super::treecode::{Group, group};
 use crate::numerics::CompensatedSum;
 use crate::numerics::chebyshev::{MOST, Row, value_at};
@@ -59,10 +59,8 @@ impl<T: Real> NearFarSum<T> {
     fn set_within(&mut self, panels: &[Panel<T>], on: Interval<T>, outside: bool) {
         self.parts.clear();
         self.nodes.clear();
-        for (i, panel) in panels.iter().enumerate() {
-            let from = if i == 0 { on.left } else { panel.x[0] };
-            let to = if i + 1 == panels.len() { on.right } else { panel.x[1] };
-            self.parts.push(FarPanel::new(clip(panel, from, to), on, outside, &mut self.nodes));
+        for (panel, x) in spans(panels, on) {
+            self.parts.push(FarPanel::new(clip(panel, x), on, outside, &mut self.nodes));
         }
         self.groups.clear();
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
@@ -101,19 +99,9 @@ impl<T: Real> NearFarSum<T> {
                     (group.parts.start, None)
                 }
                 Distance::FarPanel(number, part) => {
-                    let s = part.panel.local(x);
-                    if s.abs() <= part.reach {
-                        let (regular, value) = part.regular(s);
-                        sum.add(regular);
-                        (number, Some(value))
-                    } else {
-                        let offset = part.panel.x[0] - x;
-                        let nodes = &self.nodes[part.nodes.clone()];
-                        let term =
-                            |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
-                        sum.add(nodes.iter().fold(zero, term));
-                        (number, None)
-                    }
+                    let (regular, value) = part.seen_from(x, &self.nodes);
+                    sum.add(regular);
+                    (number, value)
                 }
             };
             if number > 0 && (value.is_some() || before.is_some()) {
@@ -149,21 +137,15 @@ impl<T: Real> NearFarSum<T> {
             if y <= x { y.atan2(x) } else { T::frac_pi_2() - x.atan2(y) }
         };
         let sign = if right { -T::of(2.0) } else { T::of(2.0) } / root;
-        let (zero, mut sum) = (T::zero(), CompensatedSum::new());
+        let mut sum = CompensatedSum::new();
         self.seen_from(x, |seen| match seen {
             Distance::Group(group) => sum.add(group.integral(x)),
             Distance::FarPanel(_, part) => {
-                let s = part.panel.local(x);
-                if s.abs() <= part.reach {
-                    let (regular, value) = part.regular(s);
+                let (regular, value) = part.seen_from(x, &self.nodes);
+                sum.add(regular);
+                if let Some(value) = value {
                     let [from, to] = part.panel.x.map(angle);
-                    sum.add(regular);
                     sum.add(value * sign * (to - from));
-                } else {
-                    let offset = part.panel.x[0] - x;
-                    let nodes = &self.nodes[part.nodes.clone()];
-                    let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
-                    sum.add(nodes.iter().fold(zero, term));
                 }
             }
         });
@@ -178,9 +160,9 @@ pub(super) enum Distance<'f, T> {
 }
 
 /// The part of a panel between two points, expanded anew.
-fn clip<T: Real>(panel: &Panel<T>, from: T, to: T) -> Panel<T> {
-    let (series, _) = panel.over(Interval { left: from, right: to });
-    let mut clipped = Panel { series, tail: panel.tail, ..Panel::new([from, to]) };
+fn clip<T: Real>(panel: &Panel<T>, x: [T; 2]) -> Panel<T> {
+    let (series, _) = panel.over(Interval { left: x[0], right: x[1] });
+    let mut clipped = Panel { series, tail: panel.tail, ..Panel::new(x) };
     clipped.count(panel.n);
     clipped
 }
@@ -207,13 +189,8 @@ impl<T: Real> FarPanel<T> {
         let start = nodes.len();
         let mut integrals = [T::zero(); MOST];
         for block in 0..rule.n / W {
-            let (mut along, mut weight) = ([T::zero(); W], [T::zero(); W]);
-            for i in 0..W {
-                let node = block * W + i;
-                let (y, turn) = arc.beside_middle(arc.tangent * T::of(rule.nodes[node]));
-                along[i] = y - arc.to_left;
-                weight[i] = T::of(rule.weights[node]) * turn * arc.tangent;
-            }
+            let [y, weight] = arc.nodes::<W>(rule, block);
+            let (along, weight) = (y.map(|y| y - arc.to_left), weight.map(|by| by * arc.tangent));
             let s = along.map(|along| along * by_x - T::one());
             let (mut t0, mut t1) = ([T::one(); W], s);
             for integral in &mut integrals[..counting] {
@@ -245,15 +222,21 @@ impl<T: Real> FarPanel<T> {
         [from - beyond, to + beyond]
     }
 
-    /// `∫ q dθ` and the polynomial itself at a place in the panel.
-    fn regular(&self, s: T) -> (T, T) {
+    /// `∫ q dθ` and the polynomial itself at a place near the panel; of one far off, all of the integral.
+    fn seen_from(&self, x: T, nodes: &[[T; 2]]) -> (T, Option<T>) {
+        let s = self.panel.local(x);
+        if s.abs() > self.reach {
+            let offset = self.panel.x[0] - x;
+            let term = |sum, &[along, weighted]: &[T; 2]| sum + weighted / (offset + along);
+            return (nodes[self.nodes.clone()].iter().fold(T::zero(), term), None);
+        }
         let series = self.panel.coefficients();
         let (mut b1, mut b2, mut sum) = (T::zero(), T::zero(), T::zero());
         for k in (1..series.len()).rev() {
             (b1, b2) = ((s + s) * b1 + (series[k] - b2), b1);
             sum += self.integrals[k - 1] * b1;
         }
-        (sum, s * b1 + (series[0] - b2))
+        (sum, Some(s * b1 + (series[0] - b2)))
     }
 }
 

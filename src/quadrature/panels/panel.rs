@@ -46,7 +46,6 @@ impl<T: Real> Panel<T> {
 
     /// Takes the series for that of a panel with n nodes.
     pub fn count(&mut self, n: usize) {
-        let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
         self.n = n;
         self.counting = significant_length(&self.series[..n], 0..T::COMPONENTS, rounding);
     }
@@ -56,7 +55,6 @@ impl<T: Real> Panel<T> {
     pub fn drop_noise(&mut self, level: T) {
         let by_value = significant_length(self.coefficients(), 0..1, |_| T::of(4.0) * level);
         // In derivatives the noise is another.
-        let rounding = |max: T| T::of(0.125) * T::epsilon() * max;
         self.counting =
             significant_length(self.coefficients(), 1..T::COMPONENTS, rounding).max(by_value);
     }
@@ -85,6 +83,12 @@ impl<T: Real> Panel<T> {
 
     pub fn half(&self) -> T {
         T::of(0.5) * (self.x[1] - self.x[0])
+    }
+
+    /// The places that it was sampled at.
+    pub fn nodes(&self) -> impl Iterator<Item = T> + use<'_, T> {
+        let place = |&z: &f64| self.x[0] + self.half() * T::of(1.0 + z);
+        Table::of(self.n).z[..self.n].iter().map(place)
     }
 
     pub fn coefficients(&self) -> &[T] {
@@ -150,6 +154,11 @@ impl<T: Real> Panel<T> {
 /// The coefficients of a series, and how many of them count.
 pub(super) type Series<T> = (Row<T>, usize);
 
+/// The size of a coefficient that is rounding, by that of the largest.
+fn rounding<T: Real>(largest: T) -> T {
+    T::of(0.125) * T::epsilon() * largest
+}
+
 /// How many coefficients there are, two at least, up to the last that is more than nothing in any of
 /// these parts, given what is nothing beside the largest.
 fn significant_length<T: Real>(
@@ -173,6 +182,19 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     let first = panels.partition_point(|panel| panel.x[1] <= on.left);
     let last = panels.partition_point(|panel| panel.x[0] < on.right).max(first + 1);
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
+}
+
+/// Panels with the part that an interval has of each: the outermost end with it.
+pub(super) fn spans<T: Real>(
+    panels: &[Panel<T>],
+    on: Interval<T>,
+) -> impl Iterator<Item = (&Panel<T>, [T; 2])> {
+    let last = panels.len() - 1;
+    panels.iter().enumerate().map(move |(i, panel)| {
+        let from = if i == 0 { on.left } else { panel.x[0] };
+        let to = if i == last { on.right } else { panel.x[1] };
+        (panel, [from, to])
+    })
 }
 
 /// What the coefficients say of a series.

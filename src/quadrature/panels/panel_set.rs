@@ -123,7 +123,7 @@ impl<T: Real> PanelSet<T> {
     /// Forgets the panels; the curves' last points are kept if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
-        self.is_cut_up = false;
+        (self.is_cut_up, self.initial) = (false, LEAST);
         (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
         if !same_bodies {
@@ -173,6 +173,10 @@ impl<T: Real> PanelSet<T> {
         Some(Interval { left: first.x[0], right: last.x[1] })
     }
 
+    pub fn covers(&self, on: Interval<T>) -> bool {
+        self.interval().is_some_and(|have| have.left <= on.left && have.right >= on.right)
+    }
+
     /// Whether an outermost panel that starts at a breakpoint is much longer than what an interval has of it.
     pub fn overshoots(&self, gap: &Gap<'_, T>, on: Interval<T>) -> bool {
         let [Some(first), Some(last)] = [self.panels.first(), self.panels.last()] else {
@@ -192,8 +196,8 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// The error that it may have.
-    pub fn truncation_error(&self, x: T) -> Option<T> {
-        self.panel_at(x).map(|panel| panel.tail)
+    pub fn doubt(&self, x: T) -> Option<T> {
+        self.panel_at(x).map(|panel| panel.tail + self.tolerance * self.size)
     }
 
     fn panel_at(&self, x: T) -> Option<&Panel<T>> {
@@ -215,8 +219,9 @@ impl<T: Real> PanelSet<T> {
 
     /// Covers an interval, sampling only what is missing.
     pub fn extend(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
-        let covers = |have: Interval<T>| have.left <= on.left && have.right >= on.right;
-        if !self.interval().is_some_and(covers) {
+        let [from, to] = gap.range();
+        let on = Interval { left: on.left.max(from), right: on.right.min(to) };
+        if !self.covers(on) {
             self.turn(T::zero());
             self.extend_untilted(gap, on)?;
             self.check_declared(gap)?;
@@ -235,33 +240,32 @@ impl<T: Real> PanelSet<T> {
             self.at_first = self.panels.len();
             return Ok(());
         };
-        // More than a sliver at a time, but beside a breakpoint perhaps not much.
-        let (range, half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
-        let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
-        let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
+        // More than a sliver at a time, but beside an end of the bodies perhaps not much.
+        let ([from, to], half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
+        let further = |left: T, right: T| {
+            let left = if on.left < have.left { on.left.min(left) } else { have.left };
+            let right = if on.right > have.right { on.right.max(right) } else { have.right };
+            let left = left.max(half * on.left.min(have.left) + half * from);
+            Interval { left, right: right.min(half * on.right.max(have.right) + half * to) }
+        };
         if self.is_cut_up {
             let more = sliver * (have.right - have.left);
-            let left = if on.left < have.left { on.left - more } else { have.left };
-            let right = if on.right > have.right { on.right + more } else { have.right };
-            let left = left.max(half * on.left.min(have.left) + half * range[0]);
-            let right = right.min(half * on.right.max(have.right) + half * range[1]);
-            return self.sample_anew(gap, Interval { left, right });
+            return self.sample_anew(gap, further(on.left - more, on.right + more));
         }
+        let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
+        let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
+        let Interval { left, right } = further(have.left - more(&first), have.right + more(&last));
         let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(LEAST);
         // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
         // breakpoint is between them.
-        if on.right > have.right {
+        if right > have.right {
             self.initial = enough(&last);
-            let far = (have.right + more(&last)).min(half * on.right + half * range[1]);
-            let right = on.right.max(far);
             let apart = gap.breakpoint_after(last.x[0]) == Some(have.right);
             let known = self.panels.len() - usize::from(!apart);
             self.sample(gap, Interval { left: have.right, right }, known, None)?;
         }
-        if on.left < have.left {
+        if left < have.left {
             self.initial = enough(&first);
-            let far = (have.left - more(&first)).max(half * on.left + half * range[0]);
-            let left = on.left.min(far);
             let apart = gap.breakpoint_before(first.x[1]) == Some(have.left);
             let neighbour = (!apart).then(|| self.panels.remove(0));
             let known = self.panels.len();
@@ -278,7 +282,6 @@ impl<T: Real> PanelSet<T> {
         on: Interval<T>,
     ) -> Result<(), ContactError<T>> {
         self.clear(true);
-        self.initial = LEAST;
         self.extend(gap, on)
     }
 

@@ -2,7 +2,6 @@
 
 use super::PanelSet;
 use crate::gap::Gap;
-use crate::numerics::chebyshev::{Table, value_at};
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Real};
 
@@ -30,7 +29,7 @@ impl<T: Real> PanelSet<T> {
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
             let fall = match at_seam {
                 Some((slope, _)) => Some(([panel.x[0]; 2], [slope, left])),
-                None if panel.fall > allowed => steepest_fall(panel, allowed),
+                None if panel.fall > allowed => fall(panel, allowed),
                 None => None,
             };
             if let Some((between, slopes)) = fall {
@@ -42,16 +41,11 @@ impl<T: Real> PanelSet<T> {
     }
 }
 
-/// Returns the neighbouring nodes between which the series of a panel falls most, and its slopes there, where that is more
-/// than is allowed: noise has been left out of it.
-fn steepest_fall<T: Real>(panel: &Panel<T>, allowed: T) -> Option<([T; 2], [T; 2])> {
-    let z = &Table::of(panel.n).z[..panel.n];
-    let slope = |z: f64| value_at(panel.coefficients(), T::of(z));
-    let falls = z.windows(2).map(|pair| [slope(pair[0]), slope(pair[1])]);
-    let (i, slopes) = falls.enumerate().reduce(|most, next| {
-        let by = |(_, [from, to]): &(usize, [T; 2])| *from - *to;
-        if by(&next) > by(&most) { next } else { most }
-    })?;
-    let place = |z: f64| panel.x[0] + panel.half() * T::of(1.0 + z);
-    (slopes[0] - slopes[1] > allowed).then(|| ([place(z[i]), place(z[i + 1])], slopes))
+/// Returns neighbouring nodes between which the series of a panel falls by more than is allowed, and its slopes there:
+/// noise has been left out of it.
+fn fall<T: Real>(panel: &Panel<T>, allowed: T) -> Option<([T; 2], [T; 2])> {
+    let nodes: Vec<T> = panel.nodes().collect();
+    let pairs = nodes.windows(2).map(|x| [x[0], x[1]]);
+    let mut falls = pairs.map(|x| (x, x.map(|x| panel.value(x))));
+    falls.find(|(_, slopes)| slopes[0] - slopes[1] > allowed)
 }

@@ -3,77 +3,40 @@
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Table, middle};
-use crate::quadrature::panels::panel::{Panel, within};
+use crate::quadrature::panels::panel::{Panel, spans, within};
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
-    /// Whether the heights of the last points agree with the slopes there, to a third: a wrong
-    /// sign or factor in a derivative, not a formula that is merely hard to evaluate.
+    /// Refuses a wrong sign or factor in a derivative where the heights of the last points go least with their slopes.
     pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
-            let trace = &self.traces[i];
-            let curve_samples = trace.curve_samples();
-            let n = curve_samples.len();
-            if trace.direct || n < 8 {
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
+            let samples = trace.curve_samples();
+            if trace.direct || samples.len() < 8 {
                 continue;
             }
-            // How far two points are apart in height, and how far they should be.
-            let rise = |i: usize| {
-                let [one, other] = [&curve_samples[i], &curve_samples[i + 1]];
-                let due = T::of(0.5) * (other.x - one.x) * (one.slope + other.slope);
-                [other.y - one.y, due]
+            let refuse = |source| Err(ContactError::Profile { body, source });
+            if let Some(&CurveSample { k, y, .. }) = samples.iter().find(|one| !one.y.is_finite()) {
+                return refuse(ProfileError::NotFinite { quantity: "Y", k, value: y });
+            }
+            let miss = |pair: &[CurveSample<T>]| {
+                let rise = T::of(0.5) * (pair[1].x - pair[0].x) * (pair[0].slope + pair[1].slope);
+                (pair[1].y - pair[0].y - rise).abs()
             };
-            let (mut off, mut sum, mut rounded) = (T::zero(), T::zero(), T::zero());
-            for i in 0..n - 1 {
-                let [rise, due] = rise(i);
-                off += (rise - due).abs();
-                sum += rise.abs() + due.abs();
-                rounded = rounded.max(
-                    curve_samples[i].y.abs() + (curve_samples[i].x * curve_samples[i].slope).abs(),
-                );
-            }
-            if !sum.is_finite()
-                && let Some(curve_sample) =
-                    curve_samples.iter().find(|curve_sample| !curve_sample.y.is_finite())
+            let worse = |one, other| if miss(other) > miss(one) { other } else { one };
+            for &CurveSample { k, x, slope, .. } in
+                samples.windows(2).reduce(worse).into_iter().flatten()
             {
-                let source = ProfileError::NotFinite {
-                    quantity: "Y",
-                    k: curve_sample.k,
-                    value: curve_sample.y,
+                // A wave that both bodies have is in no gap, and may be shorter than the step of a difference.
+                let differences = [T::epsilon().cbrt(), T::epsilon().sqrt()]
+                    .map(|share| gap.difference(body, x, k, share));
+                let is_wrong = |difference: &T| {
+                    let apart = (*difference - slope).abs();
+                    apart > T::of(0.3) * (difference.abs() + slope.abs())
                 };
-                return Err(ContactError::Profile { body, source });
-            }
-            let steepest = curve_samples
-                .iter()
-                .fold(T::zero(), |max, curve_sample| max.max(curve_sample.slope.abs()));
-            let noise = T::of(1e4) * T::epsilon() * rounded.max(trace.height())
-                + T::count(n) * self.noise_of_height(i, steepest);
-            let noise =
-                noise + T::of(1e-6) * self.size * (curve_samples[n - 1].x - curve_samples[0].x);
-            if off > T::of(0.3) * sum + noise {
-                let miss = |i: usize| rise(i)[0] - rise(i)[1];
-                let worse = |i: usize, j: usize| if miss(j).abs() > miss(i).abs() { j } else { i };
-                let i = (0..n - 1).fold(0, worse);
-                // A wave that both bodies have is in no gap, and need not be resolved.
-                let near = |curve_sample: &CurveSample<T>| {
-                    // Nor need it be longer than the step of a difference.
-                    let differences = [T::epsilon().cbrt(), T::epsilon().sqrt()]
-                        .map(|share| gap.difference(body, curve_sample.x, curve_sample.k, share));
-                    let is_wrong = |difference: &T| {
-                        let apart = (*difference - curve_sample.slope).abs();
-                        apart > T::of(0.2) * difference.abs().max(curve_sample.slope.abs())
-                    };
-                    let wrong = differences.iter().all(is_wrong);
-                    wrong.then_some((curve_sample.k, curve_sample.slope, differences[0]))
-                };
-                let Some((k, given, difference)) =
-                    near(&curve_samples[i]).or(near(&curve_samples[i + 1]))
-                else {
-                    continue;
-                };
-                let quantity = "the slope Y'/X'";
-                let source = ProfileError::Derivative { quantity, k, given, difference };
-                return Err(ContactError::Profile { body, source });
+                if differences.iter().all(is_wrong) {
+                    let (quantity, given, difference) = ("the slope Y'/X'", slope, differences[0]);
+                    return refuse(ProfileError::Derivative { quantity, k, given, difference });
+                }
             }
         }
         Ok(())
@@ -139,13 +102,9 @@ impl<T: Real> PanelSet<T> {
         if to < from {
             return -self.rise(to, from);
         }
-        let span = within(&self.panels, Interval { left: from, right: to });
-        let last = span.len() - 1;
-        span.iter().enumerate().fold(T::zero(), |sum, (i, panel)| {
-            let start = if i == 0 { from } else { panel.x[0] };
-            let end = if i == last { to } else { panel.x[1] };
-            sum + panel.rise(start, end)
-        })
+        let on = Interval { left: from, right: to };
+        let spans = spans(within(&self.panels, on), on);
+        spans.fold(T::zero(), |sum, (panel, [from, to])| sum + panel.rise(from, to))
     }
 
     /// The heights of the gap before the bodies are turned at places that rise, which must go with the slopes

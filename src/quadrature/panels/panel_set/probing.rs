@@ -5,11 +5,10 @@
 //! may be felt by none. Slopes there contradict the series.
 
 use super::PanelSet;
-use crate::gap::{Cost, Gap, sample_near};
+use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{Table, by_size};
 use crate::quadrature::panels::Panel;
-use crate::quadrature::panels::interpolation::at_nodes;
-use crate::{Body, ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real};
 
 /// The distance of places in a contact by default, in widths of the narrowest feature to be seen: at three of them from its top the
 /// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
@@ -124,13 +123,8 @@ impl<T: Real> PanelSet<T> {
         let centre = T::of(0.5) * panel.x[0] + T::of(0.5) * panel.x[1];
         let places = offsets.map(|offset| centre + offset);
         let most = T::of(NEAR_PLACE) * apart;
-        let room = table.spacing.map(|spacing| (T::of(NEAR * spacing) * reach).min(most));
-        let room = std::array::from_fn(|i| room[i]);
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
-            sample_near(gap, body, &places, &room, trace, &mut self.cost)?;
-        }
-        let wanted = offsets.map(|offset| reach + offset);
-        let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], panel.x[0], reach));
+        let room = std::array::from_fn(|i| (T::of(NEAR * table.spacing[i]) * reach).min(most));
+        let [lower, upper] = self.slopes_at(gap, panel.x, &offsets, &places, &[room; 2])?;
         let size = |i: usize| lower[i].abs() + upper[i].abs();
         let steepest = (0..N).fold(T::zero(), |most, i| most.max(size(i)));
         let least = (self.tolerance * self.size).max(T::epsilon() * steepest);

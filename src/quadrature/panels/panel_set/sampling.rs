@@ -54,94 +54,87 @@ impl<T: Real> PanelSet<T> {
         gap: &Gap<'_, T>,
         trial: &mut Candidate<T>,
     ) -> Result<(), ContactError<T>> {
-        let (panel, level) = (&mut trial.panel, trial.level);
-        let mut n = if self.coarse { 4 } else { self.initial };
-        let [left, right] = panel.x;
+        let [left, right] = trial.panel.x;
         gap.check_budget(self.spent + self.cost, 1, 0, Interval { left, right })?;
-        loop {
-            let seen = by_size!(n, N => self.sample_panel::<N>(gap, panel))?;
-            let SampledBody { slope, bodies, noise, measured, off, missed } = seen;
-            if level == 0 {
-                self.size = self.size.max(slope);
-            }
-            let counts = level < LEVELS_OF_A_TIP;
-            let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
-            // Next to a singularity the slope may be large, or noisy, beyond all that counts
-            // elsewhere.
-            let allowed = (self.tolerance * self.size.max(slope)).max(noise);
-            let rounded = (T::epsilon() * bodies).max(measured);
-            let verdict = judge(n, &panel.series, allowed, rounded);
-            let (tail, next, split) = match verdict {
-                // The first sign of a tip looks like noise.
-                Resolution::Good(tail) | Resolution::Noise(tail)
-                    if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(tail)) =>
-                {
-                    (tail, None, true)
-                }
-                Resolution::Good(tail) if off > allowed => {
-                    let more = SIZES.into_iter().find(|&more| more > n);
-                    (tail.max(off), more, true)
-                }
-                Resolution::Good(tail) => (tail.max(off), None, false),
-                Resolution::Noise(size) => {
-                    panel.drop_noise(size);
-                    (size, None, false)
-                }
-                Resolution::Take(next, tail) => (tail, Some(next), true),
-                Resolution::Split(tail) => (tail, None, true),
-            };
-            (panel.tail, panel.noise) = (tail, noise);
-            let (mut next, mut split, mut derivatives) = (next, split, T::zero());
-            // More samples do nothing for the derivatives of what must be split anyway.
-            if T::COMPONENTS > 1 && (next.is_some() || !split) {
-                let noisy = matches!(verdict, Resolution::Noise(_));
-                let (more, off) = self.judge_derivatives(panel, level);
-                next = next.max(more);
-                if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
-                    (split, derivatives) = (true, off);
-                }
-            }
+        let mut nodes = Some(if self.coarse { 4 } else { self.initial });
+        while let Some(n) = nodes {
+            let seen = by_size!(n, N => self.sample_panel::<N>(gap, &mut trial.panel))?;
+            nodes = self.judge(trial, &seen);
             if self.coarse {
                 // A short panel may be continued a long way.
-                panel.drop_noise(T::epsilon() * bodies);
-                split = false;
-            } else if let Some(next) = next {
-                n = next;
-                continue;
-            } else if !split {
-                // The heights tell of what is too narrow for the nodes.
-                let heights = self.check_heights_beside_noise(gap, panel, bodies);
-                if heights.is_err() {
-                    // Beside a step in them any difference is large.
-                    if !trial.hides {
-                        self.check_slopes(gap)?;
-                    }
-                    if level >= LEVELS_OF_A_STEP {
-                        heights?;
-                    }
-                    split = true;
-                }
-                trial.hides = split;
+                trial.panel.drop_noise(T::epsilon() * seen.bodies);
+                (trial.split, nodes) = (false, None);
+            } else if nodes.is_none() && !trial.split {
+                trial.split = self.hides(gap, trial, seen.bodies)?;
+                trial.hides = trial.split;
             }
-            (trial.allowed, trial.split, trial.derivatives) = (allowed, split, derivatives);
-            return Ok(());
         }
+        Ok(())
     }
 
-    /// Checks the heights, and measures the noise where they contradict the slopes.
-    fn check_heights_beside_noise(
-        &mut self,
-        gap: &Gap<'_, T>,
-        panel: &Panel<T>,
-        steepest: T,
-    ) -> Result<(), ContactError<T>> {
-        let mut heights = self.check_heights(panel, steepest);
-        for by_rounding in [false, true] {
-            if heights.is_err() && self.measure_noise(gap, by_rounding) {
-                heights = self.check_heights(panel, steepest);
+    /// Estimates the error of a panel: takes it, or has it split, or returns a larger number of nodes.
+    fn judge(&mut self, trial: &mut Candidate<T>, seen: &SampledBody<T>) -> Option<usize> {
+        let (panel, level) = (&mut trial.panel, trial.level);
+        let SampledBody { slope, bodies, noise, measured, off, missed } = *seen;
+        if level == 0 {
+            self.size = self.size.max(slope);
+        }
+        let counts = level < LEVELS_OF_A_TIP;
+        let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
+        // Next to a singularity the slope may be large, or noisy, beyond all that counts elsewhere.
+        let allowed = (self.tolerance * self.size.max(slope)).max(noise);
+        let rounded = (T::epsilon() * bodies).max(measured);
+        let verdict = judge(panel.n, &panel.series, allowed, rounded);
+        let (tail, mut next, mut split) = match verdict {
+            // The first sign of a tip looks like noise.
+            Resolution::Good(tail) | Resolution::Noise(tail)
+                if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(tail)) =>
+            {
+                (tail, None, true)
+            }
+            Resolution::Good(tail) if off > allowed => (tail.max(off), more_than(panel.n), true),
+            Resolution::Good(tail) => (tail.max(off), None, false),
+            Resolution::Noise(size) => {
+                panel.drop_noise(size);
+                (size, None, false)
+            }
+            Resolution::Take(next, tail) => (tail, Some(next), true),
+            Resolution::Split(tail) => (tail, None, true),
+        };
+        (panel.tail, panel.noise, trial.derivatives) = (tail, noise, T::zero());
+        // More samples do nothing for the derivatives of what must be split anyway.
+        if T::COMPONENTS > 1 && (next.is_some() || !split) {
+            let noisy = matches!(verdict, Resolution::Noise(_));
+            let (more, off) = self.judge_derivatives(panel, level);
+            next = next.max(more);
+            if next.is_none() && !noisy && level < DERIVATIVE_LEVELS && off > T::zero() {
+                (split, trial.derivatives) = (true, off);
             }
         }
-        heights
+        (trial.allowed, trial.split) = (allowed, split);
+        next
+    }
+
+    /// Whether the heights tell of what is too narrow for the nodes, beyond their noise, which is measured where they
+    /// contradict the slopes.
+    fn hides(
+        &mut self,
+        gap: &Gap<'_, T>,
+        trial: &Candidate<T>,
+        steepest: T,
+    ) -> Result<bool, ContactError<T>> {
+        let mut heights = self.check_heights(&trial.panel, steepest);
+        for by_rounding in [false, true] {
+            if heights.is_err() && self.measure_noise(gap, by_rounding) {
+                heights = self.check_heights(&trial.panel, steepest);
+            }
+        }
+        // Beside a step in them any difference is large.
+        if heights.is_err() && !trial.hides {
+            self.check_slopes(gap)?;
+        }
+        let hides = heights.is_err();
+        if trial.level >= LEVELS_OF_A_STEP { heights.map(|()| false) } else { Ok(hides) }
     }
 
     /// Whether what a panel misses at a breakpoint is more than the noise there: a tip much narrower than
@@ -196,7 +189,7 @@ impl<T: Real> PanelSet<T> {
             let series = panel.series.map(|a| a.component(i + 1));
             match judge(panel.n, &series, allowed, T::epsilon() * seen.bodies) {
                 Resolution::Good(_) if seen.off > allowed => {
-                    next = next.max(SIZES.into_iter().find(|&more| more > panel.n));
+                    next = next.max(more_than(panel.n));
                 }
                 Resolution::Take(more, _) => next = next.max(Some(more)),
                 Resolution::Split(tail) => worst = worst.max(tail / size),
@@ -225,14 +218,10 @@ impl<T: Real> PanelSet<T> {
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
         let near = T::of(NEAR[usize::from(self.coarse)]) * reach;
         let room: [T; N] = std::array::from_fn(|i| near * T::of(table.spacing[i]));
-        let (bodies, noise) = ([Body::Lower, Body::Upper], self.noise);
-        for (i, (body, trace)) in bodies.into_iter().zip(&mut self.traces).enumerate() {
-            let room = noise.map_or(room, |noise| room.map(|room| room.max(noise[i].x)));
-            sample_near(gap, body, &nodes, &room, trace, &mut self.cost)?;
-        }
+        let noise = self.noise.map_or([zero; 2], |noise| noise.map(|noise| noise.x));
+        let rooms = noise.map(|noise| room.map(|room| room.max(noise)));
+        let [lower, upper] = self.slopes_at(gap, x, &offsets, &nodes, &rooms)?;
         self.cost.samples += N;
-        let wanted = offsets.map(|offset| reach + offset);
-        let [lower, upper] = [0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach));
         let mut slopes = [zero; N];
         for i in 0..N {
             slopes[i] = upper[i] - lower[i];
@@ -259,6 +248,26 @@ impl<T: Real> PanelSet<T> {
             self.derivatives.push(seen);
         }
         Ok(seen)
+    }
+
+    /// Samples both bodies near places in a panel, and returns their slopes there. `offsets` are those of the places
+    /// from its middle, before rounding.
+    #[inline(always)]
+    pub(super) fn slopes_at<const N: usize>(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: [T; 2],
+        offsets: &[T; N],
+        places: &[T; N],
+        rooms: &[[T; N]; 2],
+    ) -> Result<[[T; N]; 2], ContactError<T>> {
+        let bodies = [Body::Lower, Body::Upper].into_iter().zip(rooms);
+        for ((body, room), trace) in bodies.zip(&mut self.traces) {
+            sample_near(gap, body, places, room, trace, &mut self.cost)?;
+        }
+        let reach = T::of(0.5) * (x[1] - x[0]);
+        let wanted = offsets.map(|offset| reach + offset);
+        Ok([0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach)))
     }
 
     /// Whether the bodies were sampled last on other pieces than those of a span.
@@ -338,4 +347,9 @@ impl<T: Real> PanelSet<T> {
         seen.noise = (rounded * (bend(lower) + bend(upper)) / length).max(seen.measured);
         seen
     }
+}
+
+/// The next number of nodes.
+fn more_than(n: usize) -> Option<usize> {
+    SIZES.into_iter().find(|&more| more > n)
 }

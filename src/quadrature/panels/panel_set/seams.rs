@@ -8,7 +8,7 @@ use crate::quadrature::panels::panel::Panel;
 impl<T: Real> PanelSet<T> {
     /// Whether two neighbours have the same slope where they meet.
     pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
-        missed(left, right) <= self.doubt(left, right, allowed, T::one())
+        missed(left, right) <= self.tolerated(left, right, allowed, T::one())
     }
 
     /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
@@ -16,7 +16,8 @@ impl<T: Real> PanelSet<T> {
     pub(super) fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
         let finest = T::of(FINEST) * T::epsilon() / self.tolerance;
         let missed = missed(left, right);
-        let [least, most] = [finest, T::one()].map(|share| self.doubt(left, right, allowed, share));
+        let [least, most] =
+            [finest, T::one()].map(|share| self.tolerated(left, right, allowed, share));
         if missed > least && missed <= most {
             left.tail = left.tail.max(missed);
             right.tail = right.tail.max(missed);
@@ -24,7 +25,7 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// By how much two neighbours may miss each other, with so much of what is allowed.
-    fn doubt(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
+    fn tolerated(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
         let allowed = share * allowed.max(self.tolerance * self.size);
         T::of(16.0) * (left.tail + right.tail + allowed)
     }

@@ -25,10 +25,8 @@ impl<T: Real> Several<T> {
     /// no further than in the next gap, given the conditions on these contacts.
     pub fn pull(&self, system: &System<T>, contact: usize, side: Side, distance: T) -> T {
         let on = self.parts[contact].on;
-        let place = |distance: T| match side {
-            Side::Left => on.left - distance,
-            Side::Right => on.right + distance,
-        };
+        let sign = if side == Side::Left { -T::one() } else { T::one() };
+        let place = |distance: T| on[side] + sign * distance;
         let x = place(distance);
         let value =
             |distance| self.outside(0..self.count, place(distance), Some((contact, distance)));
@@ -41,20 +39,16 @@ impl<T: Real> Several<T> {
                 / T::pi();
         };
         let width = self.parts[k + 1].on.left - self.parts[k].on.right;
-        let rest = width - distance;
-        let distances = match side {
-            Side::Left => [rest, distance],
-            Side::Right => [distance, rest],
-        };
-        let without = match self.weight.zeros().get(k) {
-            Some(&zero) => {
-                // At the zero itself that is a derivative: by a place aside from it.
-                let aside = T::epsilon().sqrt() * width;
-                let distance = if (x - zero).abs() < aside { distance + aside } else { distance };
-                (value(distance) - system.at_zeros[k]) / (place(distance) - zero)
-            }
-            None => value(distance),
-        };
+        let mut distances = [distance, width - distance];
+        if side == Side::Left {
+            distances.reverse();
+        }
+        // At the zero itself that is a derivative: by a place aside from it.
+        let aside = T::epsilon().sqrt() * width;
+        let is_close = |&zero: &T| (x - zero).abs() < aside;
+        let is_at_zero = self.weight.zeros().get(k).is_some_and(is_close);
+        let distance = if is_at_zero { distance + aside } else { distance };
+        let without = self.without_zero(k, system, place(distance), value(distance));
         -self.weight.in_gap(k, x, distances) * without / T::pi()
     }
 

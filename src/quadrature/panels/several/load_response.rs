@@ -38,14 +38,13 @@ impl<T: Real> Several<T> {
         linear.solve(&unit, &mut step);
         let mut rates = vec![Ends::both(T::zero()); self.count];
         let mut terms = Vec::with_capacity(n);
-        let free = (0..2 * self.count).filter(|&i| self.is_free(i));
-        for (i, rate) in free.zip(step) {
+        for (i, rate) in self.free().zip(step) {
             if !rate.is_finite() {
                 return None;
             }
             rates[i / 2][Side::BOTH[i % 2]] = rate;
             let share = -T::of(0.5) * system.at_ends[i] * rate / (T::pi() * T::pi());
-            terms.push([self.limit(i), share]);
+            terms.push([system.limits[i], share]);
         }
         Some((rates, LoadResponse { weight: self.weight.clone(), terms }))
     }

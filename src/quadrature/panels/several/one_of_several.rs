@@ -1,9 +1,9 @@
 //! One of several contacts: the slope of the gap times the weight, and what follows from it.
 
-use super::super::edge_integrals;
+use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::NearFarSum;
-use super::super::panel::{Panel, Series, within};
+use super::super::panel::{Panel, Series, spans, within};
 use super::super::panel_set::{MOST_MISSED, PanelSet};
 use super::distant_contacts::DistantContacts;
 use crate::gap::{Cost, Gap};
@@ -43,7 +43,6 @@ pub(super) struct OneOfSeveral<T> {
     pub panel_set: PanelSet<T>,
     /// A place in the contact, and the height of the gap there before the bodies are turned.
     height: Option<[T; 2]>,
-    tilt: T,
     /// `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
     /// Stretches still to be looked at, with how often each has been halved.
@@ -65,26 +64,18 @@ pub(super) struct OneOfSeveral<T> {
 impl<T: Real> OneOfSeveral<T> {
     pub fn new(tolerance: T) -> Self {
         let zero = T::zero();
+        let nowhere = Interval { left: zero, right: zero };
         Self {
-            on: Interval { left: zero, right: zero },
+            on: nowhere,
             panel_set: PanelSet::new(tolerance),
             height: None,
-            tilt: zero,
             panels: Vec::new(),
             waiting: Vec::new(),
             size: zero,
             conjugate: HilbertTransform::new(),
             series: ([zero; MOST], 0),
             far: NearFarSum::new(),
-            moments: Moments {
-                m0: zero,
-                m1: zero,
-                m2: None,
-                l1_norm: zero,
-                error: zero,
-                inversion: zero,
-                derivatives: None,
-            },
+            moments: EdgeSums::new().moments(nowhere),
             weight: DistantContacts::near(0),
             value: DistantContacts::near(0),
         }
@@ -112,15 +103,14 @@ impl<T: Real> OneOfSeveral<T> {
     ) -> Result<(), ContactError<T>> {
         self.on = on;
         let plain = on.plain();
-        let covers = |have: Interval<T>| have.left <= plain.left && have.right >= plain.right;
         let close = |have: Interval<T>| {
             let [on, have] = [on, have].map(|on| on.half_width());
             on >= T::of(NARROWER) * have && have >= T::of(REMNANT) * on
         };
-        if !self.panel_set.interval().is_some_and(|have| covers(have) && close(have)) {
-            if !self.panel_set.interval().is_some_and(close) {
+        let is_close = self.panel_set.interval().is_some_and(close);
+        if !(is_close && self.panel_set.covers(plain)) {
+            if !is_close {
                 self.clear(true);
-                self.panel_set.initial = 8;
             }
             let room = T::of(ROOM) * (plain.right - plain.left);
             let [from, to] = ends;
@@ -137,31 +127,30 @@ impl<T: Real> OneOfSeveral<T> {
             let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
             self.height = Some([places[0], self.height_at(gap, places)?]);
         }
-        self.tilt = gap.tilt();
         Ok(())
     }
 
     /// Returns the height of the gap at the first of two places. Heights that contradict the slopes may tell of a narrow
     /// feature.
     fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<T, ContactError<T>> {
-        for trial in 0.. {
+        let mut trials = 0;
+        loop {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);
             self.panel_set.cost += cost;
             let may_hide = matches!(heights, Err(ContactError::InconsistentHeights { .. }));
-            let looks = may_hide && trial < MOST_MISSED;
-            if !(looks && self.panel_set.probe(gap, self.on.plain())?) {
+            trials += 1;
+            if !may_hide || trials > MOST_MISSED || !self.panel_set.probe(gap, self.on.plain())? {
                 return heights.map(|[height, _]| height);
             }
         }
-        unreachable!("a trial is the last one")
     }
 
     /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
     /// the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
         self.height.map_or(T::zero(), |[place, height]| {
-            height + self.tilt * place + self.panel_set.rise(place, x)
+            height + self.panel_set.tilt * place + self.panel_set.rise(place, x)
         })
     }
 
@@ -176,12 +165,10 @@ impl<T: Real> OneOfSeveral<T> {
         let sampled = within(&self.panel_set.panels, on);
         self.panels.clear();
         let tolerance = self.panel_set.tolerance;
-        (self.size, self.moments.error) = (T::zero(), T::zero());
-        for (i, panel) in sampled.iter().enumerate() {
-            let from = if i == 0 { on.left } else { panel.x[0] };
-            let to = if i + 1 == sampled.len() { on.right } else { panel.x[1] };
+        self.size = T::zero();
+        for (panel, x) in spans(sampled, on) {
             self.waiting.clear();
-            self.waiting.push(([from, to], 0));
+            self.waiting.push((x, 0));
             while let Some((x, halved)) = self.waiting.pop() {
                 let (product, resolved, moved) = multiply(panel, x, &weight, tolerance);
                 let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);

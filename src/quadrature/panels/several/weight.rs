@@ -51,11 +51,20 @@ impl<T: Real> Weight<T> {
         &self.zeros
     }
 
+    /// The number of the first or the last contact.
+    fn outermost(&self, side: Side) -> usize {
+        if side == Side::Left { 0 } else { self.on.len() - 1 }
+    }
+
+    /// `x - z`, z the corner on one side; 1 without it.
+    fn corner_distance(&self, side: Side, x: T) -> T {
+        let limit = self.on[self.outermost(side)][side];
+        if self.corners[side] { x - limit } else { T::one() }
+    }
+
     /// `Π (x - z)` over the corners.
     fn corner_factor(&self, x: T) -> T {
-        let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
-        let Ends { left, right } = self.corners;
-        (if left { x - first } else { T::one() }) * (if right { x - last } else { T::one() })
+        self.corner_distance(Side::Left, x) * self.corner_distance(Side::Right, x)
     }
 
     /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
@@ -83,79 +92,61 @@ impl<T: Real> Weight<T> {
     fn smooth(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         // Contacts and zeros of p to the right of this one.
         let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
-        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * self.square(i, contacts, x).sqrt()
+        Self::sign(flips) * self.square(i, contacts, x).sqrt()
     }
 
     /// The square of what some contacts make of it.
     fn square(&self, i: usize, contacts: Range<usize>, x: T) -> T {
-        let mut square = T::one();
-        for k in contacts {
-            if k == i {
-                continue;
-            }
-            let (on, zero) = (self.on[k], self.zeros.get(if k < i { k } else { k - 1 }));
-            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
-            square *= factor / ((x - on.left) * (x - on.right));
-        }
-        square
+        contacts.filter(|&k| k != i).fold(T::one(), |square, k| {
+            let [on, zero] = self.factors(i, k, x);
+            square * (zero / on)
+        })
+    }
+
+    /// `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between contact k and contact i.
+    fn factors(&self, i: usize, k: usize, x: T) -> [T; 2] {
+        let (on, zero) = (self.on[k], self.zeros.get(if k < i { k } else { k - 1 }));
+        let square = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
+        [(x - on.left) * (x - on.right), square]
     }
 
     /// The same at the left or the right corner, without the factor that vanishes there.
     pub fn beside_corner(&self, side: Side) -> T {
-        let (first, last) = (self.on[0].left, self.on[self.on.len() - 1].right);
-        let (i, x, other, has_other) = match side {
-            Side::Left => (0, first, last, self.corners.right),
-            Side::Right => (self.on.len() - 1, last, first, self.corners.left),
-        };
-        let other = if has_other { x - other } else { T::one() };
-        self.smooth(i, 0..self.on.len(), x) * other
+        let i = self.outermost(side);
+        let corner = self.on[i][side];
+        self.smooth(i, 0..self.on.len(), corner) * self.corner_distance(side.other(), corner)
     }
 
     /// `S/p` at a place in gap k, without the zero of p in that gap, by the distances to both ends of the
     /// gap.
     pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
         let [left, right] = [self.on[k], self.on[k + 1]];
-        let mut square = T::one();
-        for (m, on) in self.on.iter().enumerate() {
-            if m == k || m == k + 1 {
-                continue;
-            }
-            let zero = self.zeros.get(if m < k { m } else { m - 1 });
-            let factor = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
-            square *= (x - on.left) * (x - on.right) / factor;
-        }
+        let others = (0..self.on.len()).filter(|&m| m != k && m != k + 1);
+        let square = others.fold(T::one(), |square, m| {
+            let [on, zero] = self.factors(k, m, x);
+            square * (on / zero)
+        });
         let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
         let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
-        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
-        sign * near * square.sqrt() / self.corner_factor(x)
+        Self::sign(flips) * near * square.sqrt() / self.corner_factor(x)
     }
 
     /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
     pub fn beyond(&self, side: Side, x: T, distance: T) -> T {
-        let (own, flips) = match side {
-            Side::Left => (0, self.on.len() + self.zeros.len()),
-            Side::Right => (self.on.len() - 1, 0),
+        let own = self.outermost(side);
+        let size = distance.sqrt() * (distance + (self.on[own].right - self.on[own].left)).sqrt();
+        let (outward, flips) = match side {
+            Side::Left => (-distance, self.on.len() + self.zeros.len()),
+            Side::Right => (distance, 0),
         };
-        let mut size = T::one();
-        for (k, on) in self.on.iter().enumerate() {
-            let [near, far] = if k == own {
-                [distance, distance + (on.right - on.left)]
-            } else {
-                [(x - on.left).abs(), (x - on.right).abs()]
-            };
-            size *= near.sqrt() * far.sqrt();
-            if let Some(&zero) = self.zeros.get(k) {
-                size /= (x - zero).abs();
-            }
-        }
-        let sign = if flips.is_multiple_of(2) { T::one() } else { -T::one() };
         // A corner on this side is as far as the limit is.
-        let outward = if side == Side::Left { -distance } else { distance };
-        let other = side.other();
-        let far = self.on[self.on.len() - 1 - own][other];
         let factor = if self.corners[side] { outward } else { T::one() };
-        let factor = if self.corners[other] { factor * (x - far) } else { factor };
-        sign * size / factor
+        let factor = factor * self.corner_distance(side.other(), x);
+        Self::sign(flips) * size / (self.square(own, 0..self.on.len(), x).sqrt() * factor)
+    }
+
+    /// The sign of a root after a number of branch points.
+    fn sign(flips: usize) -> T {
+        if flips.is_multiple_of(2) { T::one() } else { -T::one() }
     }
 }

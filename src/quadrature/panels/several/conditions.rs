@@ -1,0 +1,321 @@
+//! The conditions on the limits of several contacts, and their derivatives by the limits.
+
+use super::Several;
+use super::one_of_several::{OneOfSeveral, gauss};
+use crate::{Ends, Interval, Real, Side};
+use std::ops::Range;
+
+/// The longest span of the way through a gap that one Gauss rule takes, in the variable t of
+/// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
+const STRETCH: f64 = 2.0;
+
+/// More than those of any gap and contact whose widths are numbers.
+const MOST_STRETCHES: usize = 1000;
+
+/// The conditions on the free limits, from left to right, linearised.
+#[derive(Clone)]
+pub(crate) struct System<T> {
+    /// By how much each condition fails.
+    pub residual: Vec<T>,
+    /// How much of that the quadrature and rounding leave open.
+    pub open: Vec<T>,
+    /// The derivatives by the limits, a row for each condition.
+    pub jacobian: Vec<T>,
+    /// A gap so narrow that the rounding of the heights moves it by more than its width.
+    pub lost: Option<usize>,
+    /// Which of the conditions is that of the load.
+    pub load_row: usize,
+    /// The limits, from left to right.
+    pub(super) limits: Vec<T>,
+    /// V at the limits, and at the zeros of p.
+    pub(super) at_ends: Vec<T>,
+    at_zeros: Vec<T>,
+    /// `∫ S/p dx` over the last gap, where that has no zero of p.
+    over_last: T,
+    /// `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
+    sums: Vec<T>,
+}
+
+impl<T: Real> System<T> {
+    pub fn new() -> Self {
+        let [residual, open, jacobian, limits, at_ends, at_zeros, sums] = Default::default();
+        let (lost, load_row, over_last) = (None, 0, T::zero());
+        Self {
+            residual,
+            open,
+            jacobian,
+            lost,
+            load_row,
+            limits,
+            at_ends,
+            at_zeros,
+            over_last,
+            sums,
+        }
+    }
+
+    /// Adds a condition: by how much it fails, how much of that is open, and its derivative by each free limit.
+    fn add(&mut self, value: T, open: T, free: Range<usize>, by: impl Fn(&Self, usize) -> T) {
+        self.residual.push(value);
+        self.open.push(open);
+        for i in free {
+            self.jacobian.push(by(self, i));
+        }
+    }
+
+    /// The condition that does not hold where a gap has closed, and the pressure in its place is positive.
+    pub fn row_of_gap(&self, gap: usize) -> usize {
+        if gap < self.at_zeros.len() { gap } else { self.load_row }
+    }
+}
+
+impl<T: Real> Several<T> {
+    /// The conditions for a load, that is F/κ.
+    pub fn system(&self, load: T, system: &mut System<T>) {
+        let System { residual, open, jacobian, limits, at_ends, at_zeros, .. } = system;
+        for known in [residual, open, jacobian, limits, at_ends, at_zeros] {
+            known.clear();
+        }
+        (system.over_last, system.lost) = (T::zero(), None);
+        system.limits.extend(self.contacts().iter().flat_map(|on| [on.left, on.right]));
+        for i in 0..self.count {
+            system.at_ends.extend(Side::BOTH.map(|side| self.at_end(i, side)));
+        }
+        let at_zero = |&x: &T| self.outside(0..self.count, x, None);
+        system.at_zeros.extend(self.weight.zeros().iter().map(at_zero));
+        self.balance(load, system);
+        for k in 0..self.count - 1 {
+            self.close(k, system);
+        }
+    }
+
+    /// Adds the conditions of balance and that of the load.
+    fn balance(&self, load: T, system: &mut System<T>) {
+        let (one, half, pi) = (T::one(), T::of(0.5), T::pi());
+        let (hull, free, no_corners) = (self.hull(), self.free(), self.has_no_corners());
+        let centre = hull.plain().centre();
+        let moments =
+            |of: &dyn Fn(T, &OneOfSeveral<T>) -> T| self.parts().iter().fold(T::zero(), of);
+        let total = pi * moments(&|sum, part| sum + part.moments.m0);
+        for (k, &x) in self.weight.zeros().iter().enumerate() {
+            let value = system.at_zeros[k];
+            let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
+            system.add(value, self.moments_error(share), free.clone(), |known, i| {
+                half * (known.at_ends[i] - value) / (known.limits[i] - x)
+            });
+        }
+        let mut borne = total / pi;
+        if no_corners {
+            borne = moments(&|sum, OneOfSeveral { on, moments, .. }| {
+                sum + (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
+            });
+            let error = self.moments_error(|_| one);
+            system.add(total, error, free.clone(), |known, i| half * known.at_ends[i]);
+        }
+        system.load_row = system.residual.len();
+        let error = self.moments_error(|on| match no_corners {
+            true => (on.left - centre).abs().max((on.right - centre).abs()),
+            false => one,
+        });
+        system.add(borne - load, error / pi, free, |known, i| {
+            let value = known.at_ends[i];
+            let acting =
+                if no_corners { (known.limits[i] - centre) * value + total } else { value };
+            half * acting / pi
+        });
+    }
+
+    /// Adds the condition that a gap closes at both ends.
+    fn close(&self, k: usize, system: &mut System<T>) {
+        let (zero, pi) = (T::zero(), T::pi());
+        let [left, right] = [&self.parts[k], &self.parts[k + 1]];
+        let width = right.on.left - left.on.right;
+        let [mut closed, mut size, mut over] = [zero; 3];
+        let mut sums = std::mem::take(&mut system.sums);
+        sums.clear();
+        sums.resize(2 * self.count, zero);
+        self.through_gap(k, |x, [from_left, to_right], value, scale| {
+            let share = scale * self.without_zero(k, system, x, value);
+            closed -= share / pi;
+            size += share.abs() / pi;
+            over += scale;
+            let mut add = |ends: Range<usize>| {
+                for (sum, &end) in sums[ends.clone()].iter_mut().zip(&system.limits[ends]) {
+                    *sum += scale / (x - end);
+                }
+            };
+            add(0..2 * k + 1);
+            add(2 * k + 3..2 * self.count);
+            sums[2 * k + 1] += scale / from_left;
+            sums[2 * k + 2] -= scale / to_right;
+        });
+        system.sums = sums;
+        if k == self.weight.zeros().len() {
+            system.over_last = over;
+        }
+        let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
+        let heights = left.height_size(from) + right.height_size(to);
+        let rounding = T::of(4.0) * T::epsilon() * (heights + size);
+        let open = closed - (to - from);
+        // What dividing by w²/(w² + c²) adds to the derivatives, times that.
+        let known = (open.abs() - rounding).max(zero) * open.signum();
+        let square = left.on.half_width().min(right.on.half_width()).powi(2);
+        let by_width = (known + known) / width * square / (square + width * width);
+        let by_limit = |known: &System<T>, i: usize| {
+            let acting = self.without_zero(k, known, known.limits[i], known.at_ends[i]);
+            acting / (pi + pi) * known.sums[i]
+        };
+        let ends = [2 * k + 1, 2 * k + 2];
+        let [by_left, by_right] = ends.map(|i| by_limit(system, i).abs());
+        if (by_left + by_right) * width <= rounding {
+            system.lost.get_or_insert(k);
+        }
+        system.add(open, rounding, self.free(), |known, i| match i {
+            i if i == ends[0] => by_limit(known, i) + by_width,
+            i if i == ends[1] => by_limit(known, i) - by_width,
+            i => by_limit(known, i),
+        });
+    }
+
+    /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to the ends, V, and
+    /// `S/p dx` without the zero of p.
+    fn through_gap(&self, k: usize, mut show: impl FnMut(T, [T; 2], T, T)) {
+        let (one, half) = (T::one(), T::of(0.5));
+        let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
+        let width = right.left - left.right;
+        let near = k.saturating_sub(1)..(k + 3).min(self.count);
+        let apart = self.apart(near, Interval { left: left.right, right: right.left });
+        for (near, on, edge, sign) in [(k, left, left.right, one), (k + 1, right, right.left, -one)]
+        {
+            // Half the gap.
+            let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
+            let is_enough = |&n: &usize| T::of(STRETCH) * T::count(n) >= last;
+            let pieces = (1..MOST_STRETCHES).find(is_enough).unwrap_or(1);
+            let step = last / T::count(pieces);
+            for piece in 0..pieces {
+                let start = step * T::count(piece);
+                for (&node, &weight) in gauss().nodes.iter().zip(&gauss().weights).take(gauss().n) {
+                    let t = start + half * step * T::of(1.0 + node);
+                    let sinh = (half * t).sinh();
+                    let sinh_t = (sinh + sinh) * (one + sinh * sinh).sqrt();
+                    let distance = (on.half_width() + on.half_width()) * sinh * sinh;
+                    let x = edge + sign * distance;
+                    let dx = half * step * T::of(weight) * on.half_width() * sinh_t;
+                    let value = self.outside(apart.near.clone(), x, Some((near, distance)))
+                        + apart.far(x, T::zero());
+                    let mut distances = [distance, width - distance];
+                    if near > k {
+                        distances.reverse();
+                    }
+                    show(x, distances, value, self.weight.in_gap(k, x, distances) * dx);
+                }
+            }
+        }
+    }
+
+    /// `V_k`: V without its value at the zero of p in gap k, over the distance from there.
+    pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
+        let zero = self.weight.zeros().get(k);
+        zero.map_or(value, |&zero| (value - system.at_zeros[k]) / (x - zero))
+    }
+
+    /// π times the sum of the errors of all moments, each times a share.
+    fn moments_error(&self, share: impl Fn(Interval<T>) -> T) -> T {
+        let add = |sum, part: &OneOfSeveral<T>| sum + T::pi() * part.moments.error * share(part.on);
+        self.parts().iter().fold(T::zero(), add)
+    }
+
+    /// From the first limit to the last.
+    fn hull(&self) -> Interval<T> {
+        Interval { left: self.parts[0].on.left, right: self.parts[self.count - 1].on.right }
+    }
+
+    fn has_no_corners(&self) -> bool {
+        self.corners() == Ends::both(false)
+    }
+
+    /// `(1/π) ∫ w p (x - x₀)ⁱ g dx`, i from 0 to 2.
+    fn powers(&self, about: T) -> [T; 3] {
+        let (half, two) = (T::of(0.5), T::of(2.0));
+        let mut powers = [T::zero(); 3];
+        for OneOfSeveral { on, moments, .. } in self.parts() {
+            let (away, half_width) = (on.centre() - about, on.half_width());
+            let arm = half_width * moments.m1;
+            let second = moments.m2.unwrap_or(T::zero());
+            let square = half * half_width * half_width * (moments.m0 + second);
+            powers[0] += moments.m0;
+            powers[1] += away * moments.m0 + arm;
+            powers[2] += away * (away * moments.m0 + two * arm) + square;
+        }
+        powers
+    }
+
+    /// Far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from
+    /// x₀: the two numbers.
+    fn afar(&self, about: T) -> [T; 2] {
+        let (half, hull, corners) = (T::of(0.5), self.hull(), self.corners());
+        let limits = self.contacts().iter().flat_map(|on| [(on.left, half), (on.right, half)]);
+        let zeros = self.weight.zeros().iter().copied();
+        let corners = Side::BOTH.into_iter().filter(|&side| corners[side]).map(|side| hull[side]);
+        let all = limits.chain(zeros.chain(corners).map(|x| (x, -T::one())));
+        let [first, second] = all.fold([T::zero(); 2], |[first, second], (x, share)| {
+            let x = x - about;
+            [first + share * x, second + share * half * x * x]
+        });
+        [first, second + half * first * first]
+    }
+
+    /// The load as an unknown in place of the first or the last free limit, which stays where it is: its column
+    /// is the last.
+    pub fn by_load(&self, side: Side, system: &mut System<T>) {
+        let columns = system.residual.len();
+        for (i, row) in system.jacobian.chunks_mut(columns).enumerate() {
+            if side == Side::Left {
+                row.rotate_left(1);
+            }
+            row[columns - 1] = if i == system.load_row { -T::one() } else { T::zero() };
+        }
+    }
+
+    /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:
+    ///
+    /// ```text
+    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0        by a limit e:  (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
+    /// ```
+    ///
+    /// All conditions are linear in g, so the column of the tilt is what they are for g = 1 and a gap that
+    /// rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
+    pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
+        let (zero, half, pi) = (T::zero(), T::of(0.5), T::pi());
+        let (hull, no_corners) = (self.hull(), self.has_no_corners());
+        let (rows, columns) =
+            (system.residual.len(), system.jacobian.len() / system.residual.len());
+        let zeros = self.weight.zeros().len();
+        for row in (0..rows).rev() {
+            let by_tilt = if row == system.load_row {
+                self.afar(hull.plain().centre())[0]
+            } else if row < system.load_row {
+                if no_corners && row < zeros { zero } else { pi }
+            } else if row + 1 == rows {
+                -system.over_last
+            } else {
+                zero
+            };
+            system.jacobian.insert((row + 1) * columns, by_tilt);
+        }
+        let powers = self.powers(at);
+        let [first, second] = self.afar(at);
+        let reach = (hull.left - at).abs().max((hull.right - at).abs());
+        let (reach, borne, before, last) = match no_corners {
+            true => (reach * reach, powers[2], powers[1], powers[0]),
+            false => (reach, powers[1], powers[0], zero),
+        };
+        let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error) * reach;
+        system.add(borne - first * load, error, self.free(), |known, i| {
+            let away = known.limits[i] - at;
+            let acting = if no_corners { away * away } else { away } * known.at_ends[i] / pi;
+            half * (acting + away * last + before - load)
+        });
+        system.jacobian.push(second);
+    }
+}
