@@ -4,9 +4,9 @@ mod control;
 mod edge_pressure;
 pub(crate) mod edges;
 
+pub use crate::edge::Edge;
 pub use control::Control;
 pub use edge_pressure::EdgePressure;
-pub use edges::Edge;
 
 use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};

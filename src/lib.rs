@@ -33,8 +33,8 @@
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
-//! - [`contact`]: the scene, its edges, what is prescribed of it, and the search for its limits. The
-//!   number of contacts is found; [`Solution::report`] says from where, and what was checked.
+//! - [`contact`]: the scene, its edges, and the quantity prescribed. The number of contacts is found by
+//!   [`Contact::solve`]; [`Solution::report`] says from where, and the result of each check.
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Material`], [`Solution::approach`], [`Solution::stiffness`], [`SpringTable`]: how far the bodies come together.
@@ -84,6 +84,7 @@
 #[cfg(feature = "autodiff")]
 pub mod autodiff;
 pub mod contact;
+mod edge;
 mod ends;
 mod error;
 pub mod gap;
@@ -103,7 +104,8 @@ mod spring;
 #[cfg(feature = "rayon")]
 mod sweep;
 
-pub use contact::{Contact, Control, Edge, EdgePressure};
+pub use contact::{Contact, Control, EdgePressure};
+pub use edge::Edge;
 pub use ends::{Ends, Side};
 pub use error::{Body, ContactError, ErrorKind};
 pub use gap::{Cost, Gap};

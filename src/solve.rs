@@ -3,7 +3,7 @@
 //! Under a load the contacts are sought from a start, moved until they meet the conditions, checked, and revised
 //! ([`topology`]). A half-width is one of these conditions, and so is the place at which the load acts ([`moment`]); a peak
 //! pressure and an approach are sought [by the load](by_load). The paper's edges, Eq. (6), own strategies and
-//! own quadratures are served by a [search of one limit at a time](nested).
+//! own quadratures are served by a [search of one limit at a time](one_by_one).
 
 mod active_set;
 mod by_load;
@@ -11,9 +11,10 @@ mod capacity;
 mod equations;
 mod exterior_field;
 mod first_contact;
+mod found;
 mod moment;
-mod nested;
 mod newton;
+mod one_by_one;
 mod partial_slip;
 mod signorini_check;
 mod single_contact;
@@ -22,10 +23,8 @@ mod topology;
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
 use crate::gap::Cost;
 use crate::quadrature::{Integrator, panels};
-use crate::solution::{
-    ContactState, Outcome, PartialSlip, Report, Shear, Solution, Solved, Start, certify,
-};
-use crate::{ContactError, Edge, Ends, Real, Solver};
+use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
+use crate::{ContactError, Edge, Ends, Real};
 use by_load::{ByLoad, Quantity};
 use edges::{Conditions, Given};
 use equations::Equations;
@@ -67,23 +66,6 @@ impl<'b, T: Real> Contact<'b, T> {
             Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
         let found = find(self, control, &mut work)?;
         Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
-    }
-
-    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
-    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
-    /// for that. A corner that is [`Edge::Fixed`] may slip.
-    ///
-    /// # Errors
-    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
-    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
-    /// [`ContactError::UnlikeBodies`];
-    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
-    pub fn partial_slip(
-        &self,
-        control: Control<T>,
-        shear: Shear<T>,
-    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
-        Solver::new().partial_slip(self, control, shear)
     }
 
     /// The solution that was found.
@@ -211,7 +193,7 @@ fn by_edge_pressure<T: Real>(
     wanted.check()?;
     check_positive("load", load)?;
     let equations = Equations::Pressure { kappa, load, wanted };
-    let nested = nested::find(contact, equations, work.integrator, contact.start, work.cost)?;
+    let nested = one_by_one::find(contact, equations, work.integrator, contact.start, work.cost)?;
     let m = work.integrator.moments(&contact.gap, nested.on)?;
     let (edges, given) = (Ends::both(Edge::Fixed(load)), Given::Load(load));
     let conditions = Conditions { kappa, edges, given };

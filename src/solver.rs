@@ -159,3 +159,22 @@ impl<T: Real> std::fmt::Debug for Solver<T> {
         f.debug_struct("Solver").field("last", &self.last).finish_non_exhaustive()
     }
 }
+
+impl<'b, T: Real> Contact<'b, T> {
+    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
+    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
+    /// for that. A corner that is [`Edge::Fixed`](crate::Edge::Fixed) may slip.
+    ///
+    /// # Errors
+    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
+    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
+    /// [`ContactError::UnlikeBodies`];
+    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
+    pub fn partial_slip(
+        &self,
+        control: Control<T>,
+        shear: Shear<T>,
+    ) -> Result<PartialSlip<'b, T>, ContactError<T>> {
+        Solver::new().partial_slip(self, control, shear)
+    }
+}

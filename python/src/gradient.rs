@@ -1,9 +1,10 @@
 //! Derivatives of numbers of a solution by the numbers of its scene.
 
 use crate::call;
-use crate::lift::{AsTheyAre, Lift, Rate, Varied};
+use crate::control::{Prescribed, ReferenceRow, control_of, references_of};
+use crate::profile::{AsTheyAre, Lift, Rate, Varied};
 use crate::quantity::{Asked, Quantity};
-use crate::scene::{Prescribed, ReferenceRow, Scene, control_of, references_of};
+use crate::scene::Scene;
 use linecontact::{ContactError, Control, Real, References, Solution, Solver};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

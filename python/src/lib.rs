@@ -2,10 +2,10 @@
 //! and defaults are in `python/linecontact`.
 
 mod call;
+mod control;
 mod curve;
 mod errors;
 mod gradient;
-mod lift;
 mod profile;
 mod quantity;
 mod scene;

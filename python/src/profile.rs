@@ -1,9 +1,12 @@
 //! Bodies.
 
+mod lift;
+
+pub use lift::{AsTheyAre, Lift, Rate, Varied};
+
 use crate::call::{self, Array, Numbers};
 use crate::curve::Curve;
 use crate::errors::{self, Named};
-use crate::lift::{AsTheyAre, Lift};
 use linecontact::profile::{
     Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
     wedge,

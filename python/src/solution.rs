@@ -1,7 +1,7 @@
 //! What comes back.
 
 use crate::call::{self, Array, Numbers};
-use crate::scene::{ReferenceRow, references};
+use crate::control::{ReferenceRow, references};
 use linecontact::stress::{Stress, StressPeak};
 use linecontact::{
     Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start,

@@ -1,9 +1,10 @@
 //! Many solves in one call, over all cores.
 
 use crate::call::{self, Array, Numbers, Stop};
+use crate::control::{ReferenceRow, control, references};
 use crate::errors;
 use crate::quantity::{Asked, NAMES, Quantity};
-use crate::scene::{ReferenceRow, Scene, control, references};
+use crate::scene::Scene;
 use linecontact::{ContactError, Control, References, Solver};
 use numpy::PyArrayLike1;
 use pyo3::exceptions::{PyException, PyValueError};

@@ -1,60 +1,7 @@
 //! What has to hold at the edges of a contact.
 
 use crate::quadrature::Moments;
-use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real, Side};
-
-/// What becomes of one edge of the contact.
-///
-/// ```
-/// use linecontact::{Contact, Control, Edge, Flat};
-///
-/// // A flat punch from -1 to 1.
-/// let contact = Contact::new(&Flat, &Flat)?.edges(Edge::Fixed(-1.0f64), Edge::Fixed(1.0));
-/// let solution = contact.solve(Control::Load(0.3))?;
-/// // F/(π sqrt(1 - x²))
-/// let exact = 0.3 / (0.8 * std::f64::consts::PI);
-/// assert!((solution.pressure()?.at(0.6)? / exact - 1.0).abs() < 1e-14);
-/// # Ok::<(), linecontact::ContactError<f64>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub enum Edge<T> {
-    /// A smooth body: the limit is where the pressure ends at zero.
-    Free,
-    /// A sharp corner at this `x`, from which the contact does not part. The pressure may be
-    /// infinite there; where it would have to pull, or the contact ends before the corner, the body
-    /// lifts off ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such
-    /// corners the load must be positive, and the contacts may be several, unless [a single
-    /// interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
-    Fixed(T),
-    /// A smooth body with a sharp corner at this `x`: free as long as the contact does not reach
-    /// the corner, fixed from then on.
-    FreeUntil(T),
-    /// Adhesion over so short a range that it acts at the edge alone (Johnson, Kendall and
-    /// Roberts), with this work of adhesion w: energy per unit area, not negative.
-    Adhesive(T),
-}
-
-impl<T: Real> Edge<T> {
-    /// The limit, where it is known.
-    pub(crate) fn limit(&self) -> Option<T> {
-        match *self {
-            Self::Fixed(x) => Some(x),
-            _ => None,
-        }
-    }
-
-    /// Lets go of a corner where it does not press.
-    pub(crate) fn let_go(self) -> Self {
-        if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }
-    }
-
-    pub(crate) fn is_free(&self) -> bool {
-        matches!(self, Self::Free | Self::FreeUntil(_))
-    }
-}
+use crate::{Edge, Ends, Interval, Real, Side};
 
 impl<T: Real> Ends<Edge<T>> {
     /// Whether adhesion acts at either edge.
@@ -65,6 +12,17 @@ impl<T: Real> Ends<Edge<T>> {
     /// Whether either limit is to be found.
     pub(crate) fn are_sought(self) -> bool {
         self.into_iter().any(|edge| edge.limit().is_none())
+    }
+}
+
+impl<T> Ends<Option<T>> {
+    /// Returns the side of the only limit that is not given.
+    pub(crate) fn only_free(&self) -> Option<Side> {
+        match self {
+            Self { left: Some(_), right: None } => Some(Side::Right),
+            Self { left: None, right: Some(_) } => Some(Side::Left),
+            _ => None,
+        }
     }
 }
 
@@ -137,15 +95,6 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// Returns the only edge that is not fixed.
-    pub fn only_free(&self) -> Option<Side> {
-        match self.limits() {
-            Ends { left: Some(_), right: None } => Some(Side::Right),
-            Ends { left: None, right: Some(_) } => Some(Side::Left),
-            _ => None,
-        }
-    }
-
     /// Returns the load under which the edges that are not fixed are as they should be, on an average;
     /// `None` if both are fixed.
     pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
@@ -155,7 +104,7 @@ impl<T: Real> Conditions<T> {
             let sum = if side == Side::Left { m.m1 - m.m0 } else { m.m1 + m.m0 };
             self.kappa * half_width * sum - pulls[side] - pulls[side]
         };
-        match self.only_free() {
+        match self.limits().only_free() {
             Some(side) => Some(bears(side)),
             None if !self.edges.are_sought() => None,
             None => Some(T::of(0.5) * (bears(Side::Left) + bears(Side::Right))),
@@ -205,61 +154,5 @@ impl<T: Real> Conditions<T> {
             }
             _ => None,
         }
-    }
-}
-
-impl<T: Real> ContactState<T> {
-    pub(crate) fn new(
-        conditions: &Conditions<T>,
-        interval: Interval<T>,
-        load: T,
-        error: Option<T>,
-        m: &Moments<T>,
-    ) -> Self {
-        let kappa = conditions.kappa;
-        let mean_pressure = load / interval.half_width();
-        let tilt = conditions.tilt(interval, m);
-        let mean = m.m0 + tilt;
-        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
-        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
-        let free = conditions.edges.map(|edge| edge.is_free());
-        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
-        let ends = Ends { left: interval.left, right: interval.right };
-        Self {
-            interval,
-            load,
-            strengths,
-            free,
-            adhesive,
-            error,
-            error_by_load: None,
-            force: None,
-            trend: m.derivatives,
-            tilt,
-            ends,
-        }
-    }
-
-    /// Whether the contact ends at those corners that are said to hold it, to rounding.
-    pub(crate) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
-        let rounding = T::epsilon().sqrt() * self.interval.half_width();
-        let ends = Ends { left: self.interval.left, right: self.interval.right };
-        let is_near = |(edge, end): (Edge<T>, T)| {
-            edge.limit().is_none_or(|corner| (end - corner).abs() <= rounding)
-        };
-        edges.zip(ends).map(is_near)
-    }
-
-    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
-    pub(crate) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
-        let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
-        let mean = T::of(0.5) * load.abs() / interval.half_width();
-        let rounding = T::epsilon().sqrt() * mean;
-        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
-            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
-                Some(ContactError::LiftsOff { x, strength, interval, load })
-            }
-            _ => None,
-        })
     }
 }

@@ -15,7 +15,7 @@
 //! no load.
 
 use super::capacity::{Capacity, capacity};
-use super::edges::{Conditions, Edge, Given};
+use super::edges::{Conditions, Given};
 use super::{Contact, Work, topology};
 use crate::gap::Asked;
 use crate::material::Elasticity;
@@ -23,7 +23,7 @@ use crate::quadrature::complete;
 use crate::quadrature::panels::{self, Several};
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
-use crate::{ContactError, Ends, Interval, Real, References};
+use crate::{ContactError, Edge, Ends, Interval, Real, References};
 
 /// Loads tried before the value is given up.
 const MOST_LOADS: usize = 100;

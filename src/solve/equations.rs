@@ -155,7 +155,7 @@ impl<T: Real> Residual<T> {
         let pulls = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
         let needed = pulls.map(|pull| load + pull);
         // Beside a corner, where the free edge alone counts, the two moments may cancel, and little load be left.
-        let (missing, needed, borne, sum) = match conditions.only_free() {
+        let (missing, needed, borne, sum) = match conditions.limits().only_free() {
             Some(side) => {
                 let borne = if side == Side::Left { carried - balance } else { carried + balance };
                 let sum = m.m1.abs() + m.m0.abs();

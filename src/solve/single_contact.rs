@@ -6,7 +6,7 @@
 //! Newton's method finds the limits on that. Where it goes astray it starts again where the bodies [touch
 //! first](super::first_contact), with a width that may bear the load. Where that finds no contact either, or leads to
 //! an end of the bodies time and again, it is asked what they [bear](super::capacity). The [nested
-//! search](super::nested) serves strategies of the user's, and quadratures that know no derivatives.
+//! search](super::one_by_one) serves strategies of the user's, and quadratures that know no derivatives.
 
 mod guess;
 mod pull;
@@ -14,16 +14,16 @@ mod start;
 
 use super::Contact;
 use super::capacity::{Capacity, capacity};
-use super::edges::{Conditions, Edge, Given};
+use super::edges::{Conditions, Given};
 use super::equations::{Equations, relative_error};
-use super::nested;
 use super::newton::Stop;
 use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
+use super::one_by_one;
 use crate::gap::{Cost, Survey};
 use crate::quadrature::{Integrator, panels};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, ProfileError, Real, Side};
+use crate::{ContactError, Edge, Interval, ProfileError, Real, Side};
 
 /// More doubt than this, as a share of the half-width, is no contact found.
 pub(super) const MOST_DOUBT: f64 = 0.03;
@@ -246,7 +246,7 @@ impl<T: Real> Single<'_, '_, T> {
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
         let equations = Equations::Strength { conditions, load: conditions.load() };
         let start = self.start_if_known();
-        let nested = nested::find(contact, equations, self.integrator, start, self.cost)?;
+        let nested = one_by_one::find(contact, equations, self.integrator, start, self.cost)?;
         let on = nested.on;
         let m = self.integrator.moments(gap, on)?;
         let load = match conditions.given {

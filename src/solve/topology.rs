@@ -14,7 +14,7 @@ mod revise;
 mod workspace;
 
 use super::active_set::FIRST_CELLS;
-use super::edges::{Conditions, Edge, Given};
+use super::edges::{Conditions, Given};
 use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work};

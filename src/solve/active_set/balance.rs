@@ -1,7 +1,7 @@
 //! Forces that make up for what is missed of closed gaps, and add nothing to the load: what
 //! conjugate gradients go by.
 
-use super::{multiples, sum};
+use super::forces::{multiples, sum};
 use crate::Real;
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DVector, Dyn};

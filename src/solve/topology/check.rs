@@ -25,7 +25,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         panels::probe(self.work.integrator, gap, found.interval)
     }
 
-    /// What a solution fails by, if anything.
+    /// Returns the fault of a solution, if it has any.
     pub(super) fn checked(
         &mut self,
         found: &ContactState<T>,
@@ -40,10 +40,20 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if self.is_convex() {
             return Ok(lifts_off);
         }
-        let (gap, kappa) = (&self.contact.gap.tilted(found.tilt), self.contact.kappa);
+        let gap = &self.contact.gap.tilted(found.tilt);
         if self.touches_once(gap, found)? {
             return Ok(lifts_off);
         }
+        Ok(self.fault(gap, found)?.or(lifts_off))
+    }
+
+    /// Returns the pull inside the contacts, or the overlap outside, by which a solution fails.
+    fn fault(
+        &mut self,
+        gap: &Gap<'_, T>,
+        found: &ContactState<T>,
+    ) -> Result<Option<ContactError<T>>, ContactError<T>> {
+        let kappa = self.contact.kappa;
         // Where the integrator has no panels, the contact is looked at on some that are made for it.
         let mut own = None;
         if panels::several(self.work.integrator).is_none() {
@@ -90,8 +100,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let Some(own) = own {
             self.work.cost.heights += own.cost().evaluations;
         }
-        let overlap = overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load });
-        Ok(overlap.or(lifts_off))
+        Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
     }
 
     /// Looks for narrow features beside the contacts that were found.

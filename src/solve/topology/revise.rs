@@ -16,10 +16,10 @@ use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::capacity::capacity;
 use super::super::newton::Stop;
 use super::super::newton::several::{self, Besides, outermost, put};
-use super::{Conditions, Edge, FIRST_CELLS, Given, Search, Single, Work, Workspace, asked_by};
+use super::{Conditions, FIRST_CELLS, Given, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
 /// The share of F/κ by which heights may be uncertain, to tell by them alone where the bodies touch.
 const CLOSELY: f64 = 0.002;
@@ -347,12 +347,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
         workspace.look.refine(gap, asked_by(conditions), T::of(CLOSELY), cost)?;
-        let Workspace { look, newton, .. } = &**workspace;
+        let look = &workspace.look;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);
-        let (known, start) = (&turned[..], &newton.on[..]);
         let range = [ends.left, ends.right];
-        let scene = Scene { kappa, load, at: conditions.at(), range, cells, known, start };
+        let (at, known) = (conditions.at(), &turned[..]);
+        let scene = Scene { kappa, load, at, range, cells, known };
         let coarse = active_set(&scene, &mut |x| Ok(gap.turned(x, look.height(gap.nearest(x)))));
         coarse.map_err(|error| match error {
             NotFound::Height(error) => error,

@@ -1,8 +1,8 @@
 //! The numbers of a scene by their names: as they are, or with a derivative.
 
+use super::{Built, Profile};
 use crate::curve::Curve;
 use crate::errors::Named;
-use crate::profile::{Built, Profile};
 use linecontact::Real;
 use linecontact::autodiff::num_dual::Dual64;
 use pyo3::exceptions::PyValueError;

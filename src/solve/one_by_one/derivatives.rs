@@ -31,22 +31,15 @@ pub(super) fn differentiate<T: Real>(
     let size = found.half_width().component(0);
     let Ends { left: left_given, right: right_given } = equations.limits();
     let start = found.plain();
-    let start = match half_width {
-        Some(half_width) => {
-            let centre = start.centre();
-            Interval { left: centre - half_width, right: centre + half_width }
+    // Where the limits start, and what the unknowns do to them: inward, so as not to leave the bodies.
+    let (start, ways): (Interval<T>, [[T; 2]; 2]) = match (half_width, left_given, right_given) {
+        (Some(half_width), ..) => {
+            let (left, right) = (start.centre() - half_width, start.centre() + half_width);
+            (Interval { left, right }, [[-size, -size], [zero; 2]])
         }
-        None => Interval {
-            left: left_given.unwrap_or(start.left),
-            right: right_given.unwrap_or(start.right),
-        },
-    };
-    // What the unknowns do to the two limits: inward, so as not to leave the bodies.
-    let ways: [[T; 2]; 2] = match (half_width, left_given, right_given) {
-        (Some(_), ..) => [[-size, -size], [zero; 2]],
-        (None, Some(_), _) => [[zero, -size], [zero; 2]],
-        (None, _, Some(_)) => [[size, zero], [zero; 2]],
-        (None, None, None) => [[size, zero], [zero, -size]],
+        (None, Some(left), _) => (Interval { left, ..start }, [[zero, -size], [zero; 2]]),
+        (None, _, Some(right)) => (Interval { right, ..start }, [[size, zero], [zero; 2]]),
+        (None, None, None) => (start, [[size, zero], [zero, -size]]),
     };
     let moved = |on: Interval<T>, [one, other]: [T; 2]| Interval {
         left: on.left + one * ways[0][0] + other * ways[1][0],

@@ -4,7 +4,7 @@ use super::centre::Centred;
 use super::{NestedSearch, TrialContact, nearer};
 use crate::search::Bracket;
 use crate::solve::equations::{Equations, Residual};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: what halving takes from the
 /// largest number to the smallest.
@@ -34,8 +34,8 @@ impl<T: Real> NestedSearch<'_, T> {
     /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
     fn enclose(&mut self, guess: T) -> Result<[TrialContact<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        let given = self.equations.limits() != Ends::both(None);
         // Closer to a given limit the other is the same number.
+        let given = self.equations.limits() != Ends::both(None);
         let resolution = if given { self.resolution() } else { zero };
         let least = (half * self.equations.least_width()).max(resolution);
         let most = half * (self.range[1] - self.range[0]);
@@ -43,82 +43,62 @@ impl<T: Real> NestedSearch<'_, T> {
             (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
         let mut next_width = NextWidth::new();
-        // The least width known to have no balance.
-        let mut adrift: Option<T> = None;
-        let mut tries = 0;
-        loop {
-            tries += 1;
-            if tries > MOST_WIDTHS {
-                return Err(self.no_balance(half_width));
-            }
-            let trial = match (self.centre(half_width)?, narrow) {
-                (Centred::At(trial), _) => trial,
+        for _ in 0..MOST_WIDTHS {
+            let (trial, is_pinned) = match (self.centre(half_width)?, narrow) {
+                (Centred::At(trial), _) => (trial, self.is_at_end(trial.on)),
                 (Centred::Adrift(_), _) => {
-                    adrift = Some(half_width);
                     let from = narrow.map_or(zero, |narrow| narrow.on.half_width());
                     half_width = half * from + half * half_width;
                     if half_width - from <= T::of(1e-3) * from || half_width <= least {
-                        return Err(self.no_balance(half_width));
+                        break;
                     }
                     continue;
                 }
-                (Centred::Beyond(end), Some(narrow)) => {
-                    let trial = self.pin(end, narrow.on)?;
-                    if trial.residual.spread() > zero {
-                        return Err(self.too_short(trial.on));
-                    }
-                    trial
-                }
+                (Centred::Beyond(end), Some(narrow)) => (self.pin(end, narrow.on)?, true),
                 (Centred::Beyond(_), None) if half_width * half > least => {
                     half_width *= half;
                     continue;
                 }
-                (Centred::Beyond(_), None) => return Err(self.no_balance(half_width)),
+                (Centred::Beyond(_), None) => break,
             };
             let (last, spread) = (trial.on.half_width(), trial.residual.spread());
             if spread == zero {
                 return Ok([trial, trial]);
             }
-            if given && spread > zero {
-                let ends = Ends::from(self.range);
-                for end in Side::BOTH {
-                    let is_free = self.equations.limits()[end].is_none();
-                    if is_free && trial.on[end] == ends[end] {
-                        return Err(self.too_short(trial.on));
-                    }
-                }
+            if spread > zero && is_pinned {
+                return Err(self.too_short(trial.on));
             }
             half_width = next_width.after(last, trial.residual.growth, spread > zero);
             *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
-            match (narrow, wide) {
+            if let (Some(narrow), Some(wide)) = (narrow, wide) {
                 // A wide bracket is narrowed from the end last tried, as long as that helps.
-                (Some(narrow), Some(wide)) => {
-                    let (from, to) = (narrow.on.half_width(), wide.on.half_width());
-                    let inside = half_width > from && half_width < to;
-                    if !inside || to <= T::of(1.5) * from {
-                        return Ok([narrow, wide]);
-                    }
+                let (from, to) = (narrow.on.half_width(), wide.on.half_width());
+                let inside = half_width > from && half_width < to;
+                if !inside || to <= T::of(1.5) * from {
+                    return Ok([narrow, wide]);
                 }
-                _ if spread > zero => {
-                    half_width = half_width.min(most);
-                    if let Some(adrift) = adrift.filter(|&adrift| half_width >= adrift) {
-                        half_width = half * last + half * adrift;
-                    }
-                    if half_width <= last {
-                        return Err(match adrift {
-                            Some(_) => self.no_balance(last),
-                            None => self.too_short(trial.on),
-                        });
-                    }
+                continue;
+            }
+            if spread > zero {
+                half_width = half_width.min(most);
+                if half_width <= last {
+                    return Err(self.too_short(trial.on));
                 }
-                _ => {
-                    half_width = half_width.max(least * (T::one() + ulps()));
-                    if half_width >= last || half_width <= zero {
-                        return Err(self.no_balance(last));
-                    }
+            } else {
+                half_width = half_width.max(least * (T::one() + ulps()));
+                if half_width >= last || half_width <= zero {
+                    break;
                 }
             }
         }
+        Err(self.no_balance(half_width))
+    }
+
+    /// Tells whether the free limit of a contact whose other one is given is at an end of the bodies.
+    fn is_at_end(&self, on: Interval<T>) -> bool {
+        let ends = Ends::from(self.range);
+        let free = self.equations.limits().only_free();
+        free.is_some_and(|side| on[side] == ends[side])
     }
 
     /// The balanced contact that reaches just to one end of the bodies, wider than a given one.

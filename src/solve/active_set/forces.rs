@@ -1,0 +1,133 @@
+//! The forces that close the gap in a set of loaded cells.
+
+use super::ActiveSet;
+use super::balance::Balance;
+use crate::Real;
+use crate::numerics::dot;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Loaded cells up to which their equations are solved by elimination.
+const DENSE: usize = 120;
+
+/// Neighbours whose equations are solved together in each step of conjugate gradients.
+const NEIGHBOURS: usize = 32;
+
+/// The share of the forces that conjugate gradients may miss.
+const ENOUGH: f64 = 1e-4;
+
+/// Steps of conjugate gradients for one system.
+const MOST_STEPS: usize = 300;
+
+impl<T: Real> ActiveSet<T> {
+    /// Closes the gap in the loaded cells; returns how far off the forces may be.
+    pub(super) fn solve(&mut self) -> T {
+        self.solves += 1;
+        let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
+        on.iter().for_each(|&i| self.matrix.load(i));
+        let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
+        let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
+        let found = exact.is_some();
+        self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
+        let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
+        let mut all = vec![T::zero(); self.cells.len()];
+        let mut largest = T::zero();
+        for (&i, &force) in on.iter().zip(&forces) {
+            self.cells[i].force = force;
+            all[i] = force;
+            largest = largest.max(force.abs());
+        }
+        self.potential.clone_from(&all);
+        self.matrix.of(&all, |_| true, &mut self.potential);
+        let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
+        [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
+        let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
+        if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
+    }
+
+    /// Factors the matrix of some loaded cells.
+    fn factor(&self, on: &[usize]) -> Option<Cholesky<T, Dyn>> {
+        // The lower half is enough.
+        let entry = |i, j| if i < j { T::zero() } else { self.matrix.entry(on[i], on[j]) };
+        DMatrix::from_fn(on.len(), on.len(), entry).cholesky()
+    }
+
+    /// Returns the forces by elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
+    /// `Σ q arm = 0`.
+    fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
+        let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
+        let factor = self.factor(on)?;
+        let even = factor.solve(&DVector::from_element(on.len(), T::one()));
+        let arms = DVector::from_column_slice(arms);
+        let leaning = self.at.map_or_else(|| arms.clone(), |_| factor.solve(&arms));
+        let rise = factor.solve(&DVector::from_fn(on.len(), |i, _| self.rise[on[i]] - lowest));
+        let products = [even.sum(), even.dot(&arms), leaning.dot(&arms)];
+        let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
+        let forces = even * level + leaning * slope - rise;
+        forces.iter().all(|force| force.is_finite()).then(|| forces.data.into())
+    }
+
+    /// Returns the forces by conjugate gradients among forces of one sum, and one moment where the bodies turn. What is missed is
+    /// made up for in each contact as if it were alone.
+    fn iterate(&self, on: &[usize], arms: &[T]) -> Vec<T> {
+        let zero = T::zero();
+        let mut all = vec![zero; self.cells.len()];
+        let mut sunk = all.clone();
+        let mut times = |forces: &[T]| -> Vec<T> {
+            for (&i, &force) in on.iter().zip(forces) {
+                all[i] = force;
+            }
+            self.matrix.of(&all, |i| self.cells[i].loaded, &mut sunk);
+            on.iter().map(|&i| sunk[i]).collect()
+        };
+        let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
+        let alone = runs.map(|run| (run.len(), self.factor(run))).collect();
+        let balance = Balance::new(arms, alone);
+        let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
+        let excess = [sum(&forces) - T::one(), dot(&forces, arms)];
+        let mut forces = balance.without(forces, excess);
+        let sunk = times(&forces);
+        let mut missed: Vec<_> =
+            on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
+        let (mut next, mut size) = balance.step(&mut missed);
+        let mut way = next.clone();
+        for _ in 0..MOST_STEPS {
+            if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
+                break;
+            }
+            let product = times(&way);
+            let step = size / dot(&way, &product);
+            if !step.is_finite() {
+                break;
+            }
+            for i in 0..on.len() {
+                forces[i] += step * way[i];
+                missed[i] -= step * product[i];
+            }
+            let before = size;
+            (next, size) = balance.step(&mut missed);
+            for (way, &next) in way.iter_mut().zip(&next) {
+                *way = next + size / before * *way;
+            }
+        }
+        forces
+    }
+}
+
+pub(super) fn sum<T: Real>(values: &[T]) -> T {
+    values.iter().fold(T::zero(), |sum, &value| sum + value)
+}
+
+/// Returns the level and the slope of the line through values of which the sum and the moment are given; level where no
+/// arm is any but zero.
+pub(super) fn line<T: Real>(arms: &[T], of_values: [T; 2]) -> [T; 2] {
+    multiples([T::count(arms.len()), sum(arms), dot(arms, arms)], of_values)
+}
+
+/// Returns the multiples of two vectors with given products with both, from the products of the first with itself, with
+/// the second, and of that with itself. The second may be zero.
+pub(super) fn multiples<T: Real>([own, with, other]: [T; 3], [first, second]: [T; 2]) -> [T; 2] {
+    let share = with / own;
+    let rest = other - share * with;
+    let slope = if rest > T::zero() { (second - share * first) / rest } else { T::zero() };
+    [(first - with * slope) / own, slope]
+}

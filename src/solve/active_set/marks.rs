@@ -1,0 +1,203 @@
+//! The cells in which contacts are not yet seen well, and the contacts that cells show.
+
+use super::{ActiveSet, CELLS_OF_A_RUN, Coarse};
+use crate::{Ends, Interval, Real};
+
+/// How much finer than a contact the cells at a narrow gap in it may become.
+const FINEST: f64 = 1.0 / 40.0;
+
+/// The shortest cell that is cut for known heights, as a share of the distance between them.
+const CLOSEST: f64 = 1.0 / 16.0;
+
+/// The share of the wider of two runs that the gap between them must have.
+const LEAST_GAP: f64 = 1e-3;
+
+impl<T: Real> ActiveSet<T> {
+    /// Returns the first and last cell of each run of loaded cells.
+    pub(super) fn runs(&self) -> Vec<[usize; 2]> {
+        let mut runs: Vec<[usize; 2]> = Vec::new();
+        for (i, _) in self.cells.iter().enumerate().filter(|(_, cell)| cell.loaded) {
+            match runs.last_mut() {
+                Some(run) if run[1] + 1 == i => run[1] = i,
+                _ => runs.push([i, i]),
+            }
+        }
+        runs
+    }
+
+    /// Marks the cells in which the contact is not yet seen well.
+    pub(super) fn marks(&self, known: &[[T; 2]]) -> Vec<bool> {
+        let n = self.cells.len();
+        let mut marks = vec![false; n];
+        let width = |[from, to]: [usize; 2]| self.cells[to].right - self.cells[from].left;
+        let mut mark = |from: usize, to: usize| marks[from..=to.min(n - 1)].fill(true);
+        let runs = self.runs();
+        for &run in &runs {
+            let [from, to] = run;
+            if to + 1 - from < CELLS_OF_A_RUN {
+                mark(from.saturating_sub(1), to + 1);
+            }
+            // A valley of the pressure may be a gap.
+            for i in from + 1..to {
+                let [before, at, after] = [i - 1, i, i + 1].map(|i| self.cells[i].pressure());
+                let deep = T::of(3.0) * at < before.min(after);
+                if deep && self.cells[i].width() > T::of(FINEST) * width(run) {
+                    mark(i - 1, i + 1);
+                }
+            }
+        }
+        for pair in runs.windows(2) {
+            let [left, right] = [pair[0], pair[1]];
+            let (from, to) = (left[1] + 1, right[0] - 1);
+            let narrower = width(left).min(width(right));
+            if from == to && self.cells[from].width() > T::of(FINEST) * narrower {
+                mark(from - 1, to + 1);
+            }
+        }
+        // A minimum of the open gap that may close: lower than what it rises by to a neighbour.
+        let gap = |i: usize| self.gap(i);
+        for i in (0..n).filter(|&i| !self.cells[i].loaded) {
+            let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
+            let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
+            let minimum = |&(_, there, loaded): &(usize, T, bool)| !loaded && there >= gap(i);
+            if !beside.iter().flatten().all(minimum) {
+                continue;
+            }
+            let highest = beside.iter().flatten().fold(gap(i), |high, there| high.max(there.1));
+            if gap(i) <= highest - gap(i) {
+                let lower = match beside {
+                    [Some(one), Some(other)] => {
+                        if one.1 < other.1 {
+                            one.0
+                        } else {
+                            other.0
+                        }
+                    }
+                    _ => i,
+                };
+                mark(i.min(lower), i.max(lower));
+            }
+        }
+        self.mark_by(known, &mut marks);
+        marks
+    }
+
+    /// Marks cells with heights inside that their centres know nothing of.
+    fn mark_by(&self, known: &[[T; 2]], marks: &mut [bool]) {
+        let Some(lowest) = self.lowest().map(|lowest| self.cells[lowest].height) else { return };
+        let [first, end] = self.range;
+        let (mut i, mut before) = (0, None);
+        for (k, &[x, height]) in known.iter().enumerate() {
+            let [x, height] = [x, height].map(|value| value.component(0));
+            if !(x > first && x < end) {
+                continue;
+            }
+            while i + 1 < self.cells.len() && self.cells[i].right <= x {
+                i += 1;
+            }
+            let cell = &self.cells[i];
+            // Much closer together than they are nothing is known.
+            let beside = known[(k + 1).min(known.len() - 1)][0] - known[k.saturating_sub(1)][0];
+            if cell.width() < T::of(CLOSEST) * beside.component(0) {
+                continue;
+            }
+            let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);
+            let gap = self.rise_of(height, lowest) - sunk;
+            let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
+            let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));
+            if !cell.loaded {
+                marks[i] |= gap < -T::of(0.1) * pressure * cell.width();
+                before = None;
+                continue;
+            }
+            // In the centre the gap is closed.
+            for (there, gap_there) in before.into_iter().chain([(cell.centre(), T::zero())]) {
+                let (along, rise) = ((x - there).abs(), (gap - gap_there).abs());
+                // A wave of this slope has pressures of up to a πth of it.
+                marks[i] |= along > cell.width() / T::of(64.0)
+                    && rise > T::of(0.5) * T::pi() * pressure * along;
+            }
+            if before.is_none_or(|(there, _)| x - there > cell.width() / T::of(64.0)) {
+                before = Some((x, gap));
+            }
+        }
+    }
+
+    /// Returns the potential at a place in a cell, on a line between the centres.
+    fn potential_at(&self, x: T, i: usize) -> T {
+        let aside = x - self.cells[i].centre();
+        let beside = if aside < T::zero() { i.checked_sub(1) } else { Some(i + 1) };
+        match beside.and_then(|j| Some((j, self.cells.get(j)?))) {
+            Some((j, other)) => {
+                let share = aside / (other.centre() - self.cells[i].centre());
+                self.potential[i] + share * (self.potential[j] - self.potential[i])
+            }
+            None => self.potential[i],
+        }
+    }
+
+    /// Returns the contacts found.
+    pub(super) fn found(&self) -> Coarse<T> {
+        let (intervals, runs) = (self.intervals(), self.runs());
+        let last = self.cells.len().saturating_sub(1);
+        let reaches = Ends {
+            left: runs.first().is_some_and(|run| run[0] == 0),
+            right: runs.last().is_some_and(|run| run[1] == last),
+        };
+        let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
+        Coarse { intervals, tilt, reaches }
+    }
+
+    /// Returns the runs as intervals.
+    pub(super) fn intervals(&self) -> Vec<Interval<T>> {
+        let runs = self.runs();
+        let last = self.cells.len().saturating_sub(1);
+        let interval = |&[from, to]: &[usize; 2]| {
+            let run = &self.cells[from..=to];
+            let left = if from == 0 {
+                self.range[0]
+            } else {
+                -edge(run.iter().map(|cell| [-cell.right, -cell.left, cell.force]))
+            };
+            let right = if to == last {
+                self.range[1]
+            } else {
+                edge(run.iter().rev().map(|cell| [cell.left, cell.right, cell.force]))
+            };
+            Interval { left, right }
+        };
+        let mut intervals: Vec<_> = runs.iter().map(interval).collect();
+        // An edge is not further into the open cells than a third of the way to the next.
+        for (i, pair) in runs.windows(2).enumerate() {
+            let [from, to] = [self.cells[pair[0][1]].right, self.cells[pair[1][0]].left];
+            let third = (to - from) / T::of(3.0);
+            intervals[i].right = intervals[i].right.min(from + third);
+            intervals[i + 1].left = intervals[i + 1].left.max(to - third);
+        }
+        // Where the pressure all but vanishes rounding parts cells: as close as that, runs are one.
+        intervals.dedup_by(|next, on| {
+            let wider = (next.right - next.left).max(on.right - on.left);
+            let one = next.left - on.right < T::of(LEAST_GAP) * wider;
+            if one {
+                on.right = next.right;
+            }
+            one
+        });
+        intervals
+    }
+}
+
+/// Returns the right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
+/// beyond a place bear grows with the power 3/2 of its distance from the edge. Of cells of constant pressure
+/// that is not quite so: of Hertz's contact they have the edge at a quarter of the outermost cell and three
+/// quarters of this distance.
+fn edge<T: Real>(mut cells: impl Iterator<Item = [T; 3]>) -> T {
+    let Some([near, right, outermost]) = cells.next() else { return T::zero() };
+    let Some([far, _, next]) = cells.next() else { return right };
+    let ratio = (outermost / (outermost + next)).powf(T::of(2.0 / 3.0));
+    let extrapolated = (near - far) * ratio / (T::one() - ratio);
+    let edge = near + T::of(0.25) * (right - near) + T::of(0.75) * extrapolated;
+    // It is in the outermost cell, or not far into the next, which is open.
+    let furthest = right + T::of(0.5) * (right - near);
+    if edge.is_finite() { edge.max(near).min(furthest) } else { right }
+}

@@ -1,0 +1,62 @@
+//! A contact that was found, from its limits and moments.
+
+use super::edges::Conditions;
+use crate::quadrature::Moments;
+use crate::solution::ContactState;
+use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+
+impl<T: Real> ContactState<T> {
+    pub(crate) fn new(
+        conditions: &Conditions<T>,
+        interval: Interval<T>,
+        load: T,
+        error: Option<T>,
+        m: &Moments<T>,
+    ) -> Self {
+        let kappa = conditions.kappa;
+        let mean_pressure = load / interval.half_width();
+        let tilt = conditions.tilt(interval, m);
+        let mean = m.m0 + tilt;
+        let strength = |sum: T| (mean_pressure - kappa * sum) / T::pi();
+        let strengths = Ends { left: strength(m.m1 - mean), right: strength(m.m1 + mean) };
+        let free = conditions.edges.map(|edge| edge.is_free());
+        let adhesive = conditions.edges.map(|edge| matches!(edge, Edge::Adhesive(_)));
+        let ends = Ends { left: interval.left, right: interval.right };
+        Self {
+            interval,
+            load,
+            strengths,
+            free,
+            adhesive,
+            error,
+            error_by_load: None,
+            force: None,
+            trend: m.derivatives,
+            tilt,
+            ends,
+        }
+    }
+
+    /// Whether the contact ends at those corners that are said to hold it, to rounding.
+    pub(crate) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
+        let rounding = T::epsilon().sqrt() * self.interval.half_width();
+        let ends = Ends { left: self.interval.left, right: self.interval.right };
+        let is_near = |(edge, end): (Edge<T>, T)| {
+            edge.limit().is_none_or(|corner| (end - corner).abs() <= rounding)
+        };
+        edges.zip(ends).map(is_near)
+    }
+
+    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
+    pub(crate) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
+        let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
+        let mean = T::of(0.5) * load.abs() / interval.half_width();
+        let rounding = T::epsilon().sqrt() * mean;
+        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
+            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
+                Some(ContactError::LiftsOff { x, strength, interval, load })
+            }
+            _ => None,
+        })
+    }
+}
