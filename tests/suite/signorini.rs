@@ -692,7 +692,8 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
     let [mut worst, mut back] = [0.0f64; 2];
     let ([mut wrong, mut refused], mut not_back) = ([const { Vec::new() }; 2], Vec::new());
     let all = scenes(100);
-    for seed in all.clone() {
+    // By name, where cells that start anew do not find the load again.
+    for seed in all.clone().chain([297]) {
         let mut dice = Dice::new(seed + (1 << 40));
         let scene = Wavy::new(&mut dice);
         let ratio = dice.within(0.0, 0.5);

@@ -347,12 +347,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
         workspace.look.refine(gap, asked_by(conditions), T::of(CLOSELY), cost)?;
-        let look = &workspace.look;
+        let Workspace { look, newton, .. } = &**workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);
         let range = [ends.left, ends.right];
-        let (at, known) = (conditions.at(), &turned[..]);
-        let scene = Scene { kappa, load, at, range, cells, known };
+        let (at, known, start) = (conditions.at(), &turned[..], &newton.on[..]);
+        let scene = Scene { kappa, load, at, range, cells, known, start };
         let coarse = active_set(&scene, &mut |x| Ok(gap.turned(x, look.height(gap.nearest(x)))));
         coarse.map_err(|error| match error {
             NotFound::Height(error) => error,
