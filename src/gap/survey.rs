@@ -37,6 +37,7 @@ use series::Row;
 pub(super) use series::Series;
 /// Series of either body that say about where its parameters are, with the numbers of their pieces.
 pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
+use std::cmp::Ordering;
 
 /// Halvings after which a panel is as fine as it gets, and evaluations for one load.
 const MOST_ROUNDS: usize = 40;
@@ -50,9 +51,13 @@ pub(crate) struct Survey<T> {
     range: [T; 2],
     /// The gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
+    /// That before panels were refined last.
+    before: Vec<Node<T>>,
     /// Room for the rates at which slopes rise between two points.
     rates: Vec<T>,
     lowest: T,
+    /// A load, as F/κ, and about how far from the lowest place it reaches.
+    reach: Option<[T; 2]>,
     /// Where the gap was last seen to be convex.
     stretch: Option<Stretch<T>>,
     /// Whether that is as far as the load reaches that it was refined for last.
@@ -120,8 +125,10 @@ impl<T: Real> Survey<T> {
             bodies: [Body::new(), Body::new()],
             range: [zero; 2],
             nodes: Vec::new(),
+            before: Vec::new(),
             rates: Vec::new(),
             lowest: zero,
+            reach: None,
             stretch: None,
             is_one: false,
             spent: 0,
@@ -193,6 +200,7 @@ impl<T: Real> Survey<T> {
             if !presses {
                 break;
             }
+            self.reach = Some([load, self.reach_of(load)]);
             let on = self.around_lowest(Some(load));
             // Bodies that turn may touch anywhere.
             let touched = match asked {
@@ -287,21 +295,36 @@ impl<T: Real> Survey<T> {
         })
     }
 
-    /// Lists the gap at all points of either body, in the range of both and with its ends.
+    /// Lists the gap at all points of either body, in the range of both and with its ends. Where no panel is new it
+    /// is as it was.
     fn join(&mut self) {
-        let nodes = &mut self.nodes;
+        std::mem::swap(&mut self.nodes, &mut self.before);
+        let (nodes, before) = (&mut self.nodes, &self.before);
+        for body in &mut self.bodies {
+            body.fresh
+                .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
+        }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
         let [first, last] = self.range;
-        let (mut next, mut x) = ([0; 2], first);
+        let (mut next, mut fresh, mut known) = ([0; 2], [0; 2], 0);
+        let mut x = first;
         loop {
+            let mut is_fresh = false;
             let mut own = [&[][..]; 2];
             for (i, body) in self.bodies.iter().enumerate() {
                 let start = next[i];
                 advance(&mut next[i], &body.rows, |row| row.x <= x);
                 own[i] = &body.rows[start..next[i]];
+                advance(&mut fresh[i], &body.fresh, |span| span[1] < x);
+                is_fresh |= body.fresh.get(fresh[i]).is_some_and(|span| span[0] <= x);
             }
-            nodes.push(node([0, 1].map(|i| at(&self.bodies[i], x, own[i])), x));
+            advance(&mut known, before, |node| node.x < x);
+            let same = before.get(known).filter(|node| !is_fresh && node.x == x);
+            nodes.push(match same {
+                Some(node) => Node { is_open: false, is_void: false, ..*node },
+                None => node([0, 1].map(|i| at(&self.bodies[i], x, own[i])), x),
+            });
             if x >= last {
                 break;
             }
@@ -312,6 +335,7 @@ impl<T: Real> Survey<T> {
         for i in 1..nodes.len() {
             let [from, to] = [nodes[i - 1].x, nodes[i].x];
             let node = &mut nodes[i - 1];
+            node.after = T::zero();
             for (body, [start, end]) in self.bodies.iter().zip(&mut panels) {
                 let inner = &body.panels[..body.panels.len() - 1];
                 advance(start, inner, |panel| panel.x()[1] <= from);
@@ -328,7 +352,8 @@ impl<T: Real> Survey<T> {
         }
         convex_stretches(&mut self.nodes, &mut self.rates);
         self.lowest = self.find_lowest(&self.nodes);
-        self.stretch = None;
+        self.bodies.iter_mut().for_each(|body| body.fresh.clear());
+        (self.stretch, self.reach) = (None, None);
     }
 }
 

@@ -35,6 +35,8 @@ pub(super) struct Body<T> {
     pub series: Vec<Series<T>>,
     /// All points inside the common range and the ends of pieces, by rising x.
     pub rows: Vec<Row<T>>,
+    /// The spans of x of the panels that are new since the points were last joined with those of the other body.
+    pub fresh: Vec<[T; 2]>,
     /// Points of the curve that a series has missed.
     pub missed: Vec<Missed<T>>,
     pub scratch: Scratch<T>,
@@ -60,7 +62,7 @@ impl<T: Real> Body<T> {
             wanted: Vec::new(),
         };
         let (panels, series, rows) = (Vec::new(), Vec::new(), Vec::new());
-        Self { panels, series, rows, missed: Vec::new(), scratch }
+        Self { panels, series, rows, fresh: Vec::new(), missed: Vec::new(), scratch }
     }
 
     /// Takes a first look at a surface, over the range of x that both bodies cover.
@@ -87,6 +89,8 @@ impl<T: Real> Body<T> {
             let wanted = (0..self.panels.len()).filter(|&i| !self.panels[i].is_sampled);
             self.scratch.wanted.extend(wanted);
         }
+        self.fresh.clear();
+        self.fresh.push(range);
         self.rows.clear();
         // Room for each to be halved once.
         self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
@@ -115,6 +119,7 @@ impl<T: Real> Body<T> {
         self.series.reserve(few);
         self.missed.reserve(few);
         self.panels.reserve(few);
+        self.fresh.reserve(few);
         let Scratch { probes, k, points, panels, wanted } = &mut self.scratch;
         panels.reserve(few + self.panels.len());
         wanted.reserve(few);
@@ -163,6 +168,7 @@ impl<T: Real> Body<T> {
                 continue;
             };
             changes = true;
+            self.fresh.push(panel.x());
             let settled = if panel.is_sampled { None } else { panel.settled(surface) };
             match (settled, panel.series) {
                 (Some(settled), _) => self.panels.push(settled),

@@ -232,7 +232,10 @@ impl<T: Real> Survey<T> {
         let Some(load) = load.filter(|&load| load > T::zero()) else {
             return around(quarter * (to - from));
         };
-        around(self.reach_of(load))
+        match self.reach {
+            Some([known, reach]) if known == load => around(reach),
+            _ => around(self.reach_of(load)),
+        }
     }
 
     /// Returns the half-width of the narrowest interval about the lowest gap, of some each half as wide as the one
