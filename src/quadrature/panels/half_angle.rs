@@ -46,6 +46,17 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
+/// 1/k from k = 1 on.
+const SHARES: [f64; MOST + 1] = {
+    let mut shares = [0.0; MOST + 1];
+    let mut k = 0;
+    while k <= MOST {
+        shares[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    shares
+};
+
 /// The integrals of `cos kφ` over a span of φ; or over that from 0 to θ, which are `sin kθ/k`.
 pub(super) type Sines<T> = [T; MOST + 2];
 
@@ -68,8 +79,8 @@ impl<T: Real> HalfAngle<T> {
         let mut sines = [T::zero(); MOST + 2];
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
-        for (k, integral) in (1u8..).zip(&mut sines[1..count]) {
-            *integral = sine * T::of(1.0 / f64::from(k));
+        for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {
+            *integral = sine * T::of(share);
             (before, sine) = (sine, twice * sine - before);
         }
         sines

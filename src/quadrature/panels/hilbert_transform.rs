@@ -298,6 +298,11 @@ pub(super) struct Breakpoint<T> {
     closest: T,
 }
 
+/// The coefficients of artanh(r)/r in r².
+#[rustfmt::skip]
+const ARTANH: [f64; 9] =
+    [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
+
 impl<T: Real> Breakpoint<T> {
     pub fn new(panel: &Panel<T>, on: Interval<T>, x: T) -> Self {
         let roots = shares(on, x).map(|share| share.sqrt());
@@ -343,8 +348,7 @@ impl<T: Real> Breakpoint<T> {
             // 2 artanh, of which the logarithm would lose the digits.
             let ratio = m[i].min(n[i]) / m[i].max(n[i]);
             let square = ratio * ratio;
-            let add = |sum, k: u8| sum * square + T::of(1.0 / f64::from(2 * k + 1));
-            let series = (0..9).rev().fold(T::zero(), add);
+            let series = ARTANH.iter().rev().fold(T::zero(), |sum, &c| sum * square + T::of(c));
             change[i] * (ratio + ratio) * series
         })
     }
