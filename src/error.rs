@@ -8,7 +8,9 @@ use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use crate::{Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
-use advice::{SEVERAL, along, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place};
+use advice::{
+    SEVERAL, along, borne, hint, how_to_peak, how_to_press, how_to_touch, lost_digits, place,
+};
 use std::fmt;
 use thiserror::Error;
 
@@ -153,19 +155,18 @@ pub enum ContactError<T: Real> {
         /// The slope difference there.
         slope: [T; 2],
     },
-    /// The contact that carries the load reaches beyond a body; of several, the first or the last.
+    /// The contact that carries the load reaches beyond a body; of several, the first or the last. Or the bodies touch
+    /// at an end before any limit comes there.
     #[error(
-        "the contact would leave the bodies at x = {end}: up to there they carry {carried} of the \
-         load {load}, with half-width {half_width} and peak pressure {peak}; extend the domain \
-         or lower the load{}",
-        hint(*kappa_is_default), end = six(*end), carried = apart(*carried, &[*load]),
-        load = apart(*load, &[*carried]), half_width = six(*half_width), peak = six(*peak)
+        "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp \
+         corner there{}",
+        borne(*end, [*carried, *load], *half_width, *peak), hint(*kappa_is_default)
     )]
     DomainTooShort {
         /// The end that the contact reaches first.
         end: T,
         /// The load carried by the largest contact that stays on the bodies, or by several as wide as they
-        /// can be: the same whatever load is asked for.
+        /// can be: the same whatever load is asked for. Zero where the bodies touch at this end first.
         carried: T,
         /// The load asked for.
         load: T,
@@ -195,21 +196,6 @@ pub enum ContactError<T: Real> {
         load: T,
         /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
-        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
-        kappa_is_default: bool,
-    },
-    /// The contacts reach the end of the bodies, where nothing is said of a corner, and no load is known under
-    /// which one of them just comes there: as where the gap falls towards the end, which touches all at once.
-    #[error(
-        "under the load {load} the contact reaches the end of the bodies at x = {end}: extend the \
-         domain, lower the load, or give Edge::FreeUntil({:?}) if the bodies have a sharp corner there{}",
-        end, hint(*kappa_is_default), load = six(*load), end = six(*end)
-    )]
-    EndReached {
-        /// The end that it reaches.
-        end: T,
-        /// The load asked for.
-        load: T,
         /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
         kappa_is_default: bool,
     },
@@ -817,7 +803,7 @@ kinds! {
         InvalidReference InvalidFriction InvalidSlipFriction InvalidShear UnlikeBodies
         SlipNotSupported EdgePressureLoad;
     Solve: Cancelled OutsideBodies Inversion NoFirstContact DomainTooShort HalfWidthTooLarge
-        EndReached NoEquilibrium Overflow BudgetSpent LimitSearch EdgePressureNotMet Tension
+        NoEquilibrium Overflow BudgetSpent LimitSearch EdgePressureNotMet Tension
         LiftsOff Overlap FeatureMissed Unbalanced Undecided TiltNotFound PullOff PeakTooHigh NoPeak
         InJump ApproachTooLarge ApproachFalls SlipsEverywhere SticksEverywhere ReversedSlip;
     Evaluation: Singular AboveSurface OutsideTable InvalidPosition NoLoadDerivative LengthMismatch
@@ -829,7 +815,6 @@ impl<T: Real> ContactError<T> {
     pub(crate) fn with_stiffness(mut self, is_default: bool) -> Self {
         if let Self::DomainTooShort { kappa_is_default, .. }
         | Self::HalfWidthTooLarge { kappa_is_default, .. }
-        | Self::EndReached { kappa_is_default, .. }
         | Self::PeakTooHigh { kappa_is_default, .. } = &mut self
         {
             *kappa_is_default = is_default;

@@ -130,7 +130,6 @@ table! {
     NoFirstContact { x, slope };
     DomainTooShort { end, carried, load, half_width, peak, kappa_is_default };
     HalfWidthTooLarge { wanted, half_width, end, load, peak, kappa_is_default };
-    EndReached { end, load, kappa_is_default };
     NoEquilibrium { half_width, near };
     Overflow { interval };
     BudgetSpent { evaluations, budget, last };

@@ -370,8 +370,8 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     ),
     (
         lambda: lc.solve(FLAT, lc.Curve((-1, 2), dwindling), kappa=1.0, load=0.01),
-        "EndReachedError",
-        {"end": 2.0, "kappa_is_default": False},
+        "DomainTooShortError",
+        {"end": 2.0, "carried": 0.0, "kappa_is_default": False},
     ),
     (lambda: in_a_groove().solve(load=1.0), "NoEquilibriumError", {}),
     (

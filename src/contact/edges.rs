@@ -63,6 +63,16 @@ impl<T: Real> Conditions<T> {
         }
     }
 
+    /// The same under another load, where that is given.
+    pub fn under(&self, load: T) -> Self {
+        let given = match self.given {
+            Given::Load(_) => Given::Load(load),
+            Given::Centre { at, .. } => Given::Centre { load, at },
+            Given::HalfWidth(half_width) => Given::HalfWidth(half_width),
+        };
+        Self { given, ..*self }
+    }
+
     /// The limits that are given.
     pub fn limits(&self) -> Ends<Option<T>> {
         self.edges.map(|edge| edge.limit())

@@ -1,7 +1,7 @@
 //! What messages say of what helps.
 
 use crate::Real;
-use crate::rounded::{Rounded, six, span};
+use crate::rounded::{Rounded, apart, six, span};
 
 /// Whether a number is so small that it has fewer digits than others.
 pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
@@ -20,6 +20,21 @@ pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
 pub(super) fn place<T: Real>(x: T) -> Rounded {
     let endless = !(x * T::of(8.0)).is_finite();
     six(if endless { x * T::of(f64::INFINITY) } else { x })
+}
+
+/// Tells which part of a load the bodies carry up to an end of them, and the first things to do about it.
+pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, peak: T) -> String {
+    let (x, asked) = (six(end), apart(load, &[carried]));
+    if carried.is_zero() {
+        return format!(
+            "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain"
+        );
+    }
+    let (carried, half_width, peak) = (apart(carried, &[load]), six(half_width), six(peak));
+    format!(
+        "the contact would leave the bodies at x = {x}: up to there they carry {carried} of the load {asked}, with \
+         half-width {half_width} and peak pressure {peak}; extend the domain, lower the load"
+    )
 }
 
 /// Names the span between two places, or the place that they have in common.

@@ -10,6 +10,7 @@
 //!
 //! (Johnson, *Contact Mechanics*, 1985, Eqs. 2.24 and 2.25 for one half-plane, added up for two).
 
+use super::Solved;
 use super::pressure_integral::Integrals;
 use crate::gap::Sampler;
 use crate::{ContactError, Interval, Real, Solution};
@@ -26,18 +27,7 @@ impl<T: Real> Solution<'_, T> {
     /// either body, and for NaN; those of [`pressure`](Self::pressure), of sampling the gap, and
     /// [`ContactError::Integral`].
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
-        let (edge, _) = self.nearest_edge(x)?;
-        let beyond = x - edge;
-        if beyond.is_zero() {
-            return Ok(T::zero());
-        }
-        let mut sampler = Sampler::default();
-        let [from, to] = self.gap.range();
-        let at_edge = sampler.height(&self.gap, edge.max(from).min(to))?;
-        let bodies = sampler.height(&self.gap, x)? - at_edge;
-        let [pushed] = Integrals::new(self.solved())?
-            .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
-        Ok(bodies - pushed / self.kappa)
+        self.solved().gap_at(x)
     }
 
     /// The slope of that gap: how fast it opens towards larger x. Zero at a free edge, infinite at one
@@ -46,7 +36,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// As [`gap_at`](Self::gap_at), and [`ContactError::Singular`] at an edge that is not free.
     pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
-        let (edge, free) = self.nearest_edge(x)?;
+        let (edge, free) = self.solved().nearest_edge(x)?;
         if x == edge {
             return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
         }
@@ -55,15 +45,33 @@ impl<T: Real> Solution<'_, T> {
         let [pull] = Integrals::new(self.solved())?.over(x, pull)?;
         Ok(bodies - pull / self.kappa)
     }
+}
+
+impl<T: Real> Solved<'_, T> {
+    /// Returns the distance between the loaded bodies at a place outside the contacts.
+    pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
+        let (edge, _) = self.nearest_edge(x)?;
+        let beyond = x - edge;
+        if beyond.is_zero() {
+            return Ok(T::zero());
+        }
+        let mut sampler = Sampler::default();
+        let [from, to] = self.gap.range();
+        let at_edge = sampler.height(self.gap, edge.max(from).min(to))?;
+        let bodies = sampler.height(self.gap, x)? - at_edge;
+        let [pushed] = Integrals::new(*self)?
+            .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
+        Ok(bodies - pushed / self.kappa)
+    }
 
     /// The edge nearest to a point outside the contacts, and whether it is free.
     fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
-        let (contacts, range) = (self.intervals(), self.gap.range());
+        let (contacts, range) = (self.contacts(), self.gap.range());
         let (next, inside) = Interval::find(contacts, x);
         if let Some(interval) = inside {
             return Err(ContactError::InvalidPosition { x, inside: false, interval });
         }
-        let Interval { left, right } = self.hull();
+        let Interval { left, right } = self.found.interval;
         // An edge may have been rounded to beyond the end of a body that it lies at.
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });

@@ -323,7 +323,6 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 }
                 Bound::At(at, value)
             }
-            ContactError::EndReached { .. } => Bound::At(load, infinite),
             // A corner does not hold so small a load, or it does not close a hollow.
             ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
                 Bound::At(load, T::zero())

@@ -42,6 +42,12 @@ pub(super) struct Capacity<T> {
 }
 
 impl<T: Real> Capacity<T> {
+    /// Of bodies that touch at an end first, which bear nothing.
+    pub fn nothing(end: T) -> Self {
+        let zero = T::zero();
+        Self { on: Interval { left: end, right: end }, end, load: zero, peak: zero }
+    }
+
     /// The error for a load that is more than the bodies bear.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;

@@ -5,7 +5,8 @@
 //! of the tilt samples nothing.
 
 use super::edges::{Conditions, Given};
-use super::{Contact, Work, topology};
+use super::topology::{self, Borne};
+use super::{Contact, Work};
 use crate::quadrature::panels::{self, Several};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
@@ -72,7 +73,16 @@ pub(super) fn find<T: Real>(
     }
     let mut found = match topology::find(contact, conditions, work) {
         Err(error) if !given && may_be_beyond(&error) => {
-            return Err(nearest(contact, conditions, work).unwrap_or(error));
+            match topology::bears(contact, &conditions, work) {
+                Some(Borne::All(found)) => found,
+                bears => {
+                    let error = match bears {
+                        Some(Borne::UpTo(widest)) => widest.too_short(load),
+                        _ => error,
+                    };
+                    return Err(nearest(contact, conditions, work).unwrap_or(error));
+                }
+            }
         }
         found => found?,
     };
@@ -86,14 +96,13 @@ pub(super) fn find<T: Real>(
 
 /// Whether a search may fail like this because the contact would leave the bodies.
 fn may_be_beyond<T: Real>(error: &ContactError<T>) -> bool {
-    use ContactError::{EndReached, LiftsOff, Overlap, Tension};
-    let fails = matches!(error, EndReached { .. } | Tension { .. } | Overlap { .. });
+    use ContactError::{LiftsOff, Overlap, Tension};
+    let fails = matches!(error, Tension { .. } | Overlap { .. });
     fails || error.may_be_several() && !matches!(error, LiftsOff { .. })
 }
 
 /// How near to a place at which a load cannot act it can: between that and the middle of the bodies. Where it
-/// cannot act there either, what stands in its way where the bodies do not turn. None where no end of the bodies is
-/// near.
+/// cannot act there either, or no limit is near an end, none.
 fn nearest<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,
@@ -106,9 +115,7 @@ fn nearest<T: Real>(
     };
     let half = T::of(0.5);
     let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);
-    let Ok(mut found) = find(Given::Centre { load, at: reached }) else {
-        return find(Given::Load(load)).err();
-    };
+    let mut found = find(Given::Centre { load, at: reached }).ok()?;
     for _ in 0..MOST_HALVES {
         let at = half * reached + half * beyond;
         match find(Given::Centre { load, at }) {

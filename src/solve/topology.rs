@@ -22,6 +22,7 @@ use crate::gap::{Asked, Survey};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Interval, Real, Side};
+pub(super) use bears::{Borne, bears};
 pub(crate) use workspace::Workspace;
 
 /// Finds the contacts of two bodies.
@@ -133,6 +134,10 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if !self.contact.edges.are_sought() || !error.may_be_several() {
             return Ok(true);
         }
+        let is_shut = matches!(error, ContactError::NoFirstContact { .. });
+        if is_shut && self.end_touched_first().is_some() {
+            return Ok(true);
+        }
         // Of bodies that turn, one contact may be hard to find too; so it may among waves that nothing has shown yet.
         let is_lost = matches!(error, ContactError::NoEquilibrium { .. });
         Ok(!self.turns() && (self.is_convex() || !is_lost && self.look()?.bulges()))
@@ -184,7 +189,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if self.is_convex() || told || !self.may_be_several() {
             return Ok(false);
         }
-        Ok(!self.look()?.is_one_valley())
+        Ok(!self.look()?.is_one_valley() && self.end_touched_first().is_none())
     }
 
     /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.

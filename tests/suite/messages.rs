@@ -66,11 +66,6 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
             Solve,
         ),
         (
-            E::EndReached { end, load, kappa_is_default: yes },
-            &["FreeUntil(33.5)", "(κ is 1"],
-            Solve,
-        ),
-        (
             E::NoEquilibrium { half_width, near: 15.5 },
             &[
                 "near x = 15.5",
@@ -271,9 +266,13 @@ fn messages_have_the_digits_that_tell_something() {
     for words in ["carry 0.5 ", "load 0.500000001,", "half-width 0.123457 ", "pressure 5.41506;"] {
         assert!(message.contains(words), "{words}: {message}");
     }
-    let copied = E::EndReached { end, load, kappa_is_default: no }.to_string();
-    assert!(copied.contains("x = 0.987654:"), "{copied}");
-    assert!(copied.contains("FreeUntil(0.987654321012)"), "{copied}");
+    assert!(message.contains("x = 0.987654:"), "{message}");
+    assert!(message.contains("FreeUntil(0.987654321012)"), "{message}");
+    let [carried, half_width, peak] = [0.0; 3];
+    let error = E::DomainTooShort { end, carried, load, half_width, peak, kappa_is_default: no };
+    let message = error.to_string();
+    assert!(message.contains("touch first at their end x = 0.987654,"), "{message}");
+    assert!(message.contains("FreeUntil(0.987654321012)"), "{message}");
     let flats = Contact::new(&Flat, &Flat)
         .and_then(|contact| contact.solve(Control::Load(1.0)).map(|_| ()));
     let message = flats.unwrap_err().to_string();

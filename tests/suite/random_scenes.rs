@@ -258,9 +258,7 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let contact = contact.edges(edge(0), edge(1));
     let too_short = !cornered && reached != [false; 2];
     match contact.solve(Control::Load(scene.load)) {
-        Err(ContactError::DomainTooShort { .. } | ContactError::EndReached { .. }) if too_short => {
-            Outcome::Solved
-        }
+        Err(ContactError::DomainTooShort { .. }) if too_short => Outcome::Solved,
         Err(error) => Outcome::Refused(error.to_string()),
         Ok(_) if too_short => Outcome::Wrong("it is wider than the bodies".to_owned()),
         Ok(solution) => match fault(scene, oracle, &solution) {

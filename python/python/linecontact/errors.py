@@ -287,25 +287,6 @@ class HalfWidthTooLargeError(SolveError):
     kappa_is_default: bool
 
 
-class EndReachedError(SolveError):
-    """The contacts reach the end of the bodies, where nothing is said of a corner, and no load is known under
-    which one of them just comes there: as where the gap falls towards the end, which touches all at once.
-
-    Attributes
-    ----------
-    end : float
-        The end that it reaches.
-    load : float
-        The load asked for.
-    kappa_is_default : bool
-        Whether κ was left at its default of 1: then the stiffness may be what is missing.
-    """
-
-    end: float
-    load: float
-    kappa_is_default: bool
-
-
 class NoEquilibriumError(SolveError):
     """No position of a contact of some width balances the pressures at its two edges.
 

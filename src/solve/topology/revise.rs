@@ -13,10 +13,9 @@
 //! All faults of a kind are mended at once.
 
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
-use super::super::capacity::capacity;
 use super::super::newton::Stop;
 use super::super::newton::several::{self, Besides, outermost, put};
-use super::{Conditions, FIRST_CELLS, Given, Search, Single, Work, Workspace, asked_by};
+use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side};
@@ -57,14 +56,23 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let edges = self.contact.edges.map(Edge::let_go);
         let conditions = Conditions { edges, ..self.conditions };
         let last = &self.work.workspace.last;
-        let is_near = last.len() > 1 && self.end.is_none();
+        let is_near = last.len() > 1 || self.end.is_some() && !last.is_empty();
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
         self.work.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             let [left, right] = self.contact.gap.range();
             self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
-            if start == Start::ActiveSet && !self.take_cells(&conditions)? {
-                break;
+            if start == Start::ActiveSet {
+                if self.runs_out.is_some() {
+                    // More cells find no contact under more than the bodies bear.
+                    if std::mem::replace(&mut self.has_run_out, true) {
+                        break;
+                    }
+                    if let Some(found) = self.borne(&conditions)? {
+                        return Ok(found);
+                    }
+                }
+                self.take_cells(&conditions)?;
             }
             let (outcome, next) = match self.trial(&conditions)? {
                 Trial::Passed(found) => {
@@ -100,19 +108,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         first: Option<ContactError<T>>,
         fault: Option<ContactError<T>>,
     ) -> ContactError<T> {
-        let (load, ends) = (self.conditions.load(), self.contact.ends());
-        let runs_out = self.runs_out.map(|side| ContactError::EndReached {
-            end: ends[side],
-            load,
-            kappa_is_default: false,
-        });
         // The error of one contact alone says more, unless it is the load that this would bear.
         let says = |fault: &ContactError<T>| match fault {
             ContactError::NoEquilibrium { .. } => false,
-            ContactError::DomainTooShort { .. } => runs_out.is_none(),
+            ContactError::DomainTooShort { .. } => self.runs_out.is_none(),
             _ => true,
         };
-        first.filter(says).or(runs_out).or(fault).unwrap_or(self.no_balance())
+        let fault = first.filter(says).or(fault.filter(says));
+        fault.unwrap_or(self.no_balance())
     }
 
     /// Tries the contacts at hand.
@@ -210,7 +213,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Tells at which sides a corner ends the bodies.
-    fn corners(&self) -> Ends<bool> {
+    pub(super) fn corners(&self) -> Ends<bool> {
         self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)))
     }
 
@@ -242,7 +245,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         conditions: &Conditions<T>,
         corners: Ends<bool>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        if let [on] = self.work.workspace.newton.on[..] {
+        if let ([on], None) = (&self.work.workspace.newton.on[..], self.end) {
+            let on = *on;
             return self.one_of_set(conditions, on);
         }
         let (contact, ends) = (self.contact, self.contact.ends());
@@ -281,29 +285,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.converge_once(conditions, corners)
     }
 
-    /// Moves the only contact of a set to where it bears the load, or to an end of the bodies.
+    /// Moves the only contact of a set to where it bears the load.
     fn one_of_set(
         &mut self,
         conditions: &Conditions<T>,
         on: Interval<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let (contact, ends) = (self.contact, self.contact.ends());
-        let (mut start, mut conditions) = (on, *conditions);
-        if self.end.is_some() {
-            let mut widest = capacity(contact, &conditions, ends, self.work.cost);
-            // At a corner more is borne, up to the other end.
-            for side in Side::BOTH {
-                let (edge, end) = (&mut conditions.edges[side], ends[side]);
-                if matches!(edge, Edge::FreeUntil(_)) && widest.is_some_and(|at| at.end == end) {
-                    *edge = Edge::Fixed(end);
-                    widest = capacity(contact, &conditions, ends, self.work.cost);
-                    break;
-                }
-            }
-            let Some(widest) = widest else { return Ok(Err(Stop::Failed)) };
-            start = widest.on;
-            conditions.given = Given::HalfWidth(widest.on.half_width());
-        }
+        let (contact, conditions, start) = (self.contact, *conditions, on);
         let Work { integrator, workspace, cost } = &mut *self.work;
         let (look, bears, integrator) = (None, Some(None), &mut **integrator);
         let start = Some(start);
@@ -313,20 +301,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(Ok(found))
     }
 
-    /// Takes the contacts from a coarse active set, with a closer look where a check has failed. Returns false where
-    /// that has reached an end of the bodies before: more cells find no contact under more than the bodies bear.
-    fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<bool, ContactError<T>> {
-        if let Some(end) = self.runs_out {
-            if std::mem::replace(&mut self.has_run_out, true) {
-                return Ok(false);
-            }
-            // Turned, they bear another load.
-            let is_asked = self.end.is_none() && !self.turns();
-            let bears = if is_asked { self.bears(conditions, end) } else { None };
-            if let Some(bears) = bears.filter(|bears| bears.load < conditions.load()) {
-                return Err(bears.too_short(conditions.load()));
-            }
-        }
+    /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
+    fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         // As many cells as have not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(16 * FIRST_CELLS);
@@ -335,7 +311,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let tilt = self.contact.gap.tilt() + coarse.tilt;
         let newton = &mut self.work.workspace.newton;
         (newton.on, newton.tilt) = (coarse.intervals, tilt);
-        Ok(true)
+        Ok(())
     }
 
     pub(super) fn coarse(

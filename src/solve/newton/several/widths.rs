@@ -90,6 +90,10 @@ impl<T: Real> NewtonSeveral<T> {
             };
             let left = room(i.checked_sub(1), self.held.left);
             let right = room((i + 2 < count).then_some(i + 1), self.held.right);
+            // Between two limits that are held.
+            if (left + right).is_zero() {
+                continue;
+            }
             let share = right / (left + right);
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
