@@ -149,10 +149,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// the one that is asked for.
     fn until_closed(&mut self, conditions: &Conditions<T>, low: T) -> Option<Borne<T>> {
         let (half, asked, mut was_near) = (T::of(0.5), conditions.load(), false);
-        let (mut load, (_, mut gaps)) = (0..=MOST_SHARES as i32).find_map(|i| {
-            let load = low * T::of(LESS).powi(i);
-            Some((load, self.gaps_at_ends(&conditions.under(load))?))
-        })?;
+        let mut shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
+        let (mut load, mut gaps) = shares
+            .by_ref()
+            .take(MOST_SHARES)
+            .find_map(|load| Some((load, self.gaps_at_ends(&conditions.under(load))?.1)))?;
         let mut step = T::of(FIRST_STEP) * load;
         for _ in 0..MOST_LOADS {
             if step <= T::of(LAST_STEP) * T::epsilon() * load {
