@@ -233,7 +233,8 @@ class NoFirstContactError(SolveError):
 
 
 class DomainTooShortError(SolveError):
-    """The contact that carries the load reaches beyond a body; of several, the first or the last.
+    """The contact that carries the load reaches beyond a body; of several, the first or the last. Or the bodies touch
+    at an end before any limit comes there.
 
     Attributes
     ----------
@@ -241,7 +242,7 @@ class DomainTooShortError(SolveError):
         The end that the contact reaches first.
     carried : float
         The load carried by the largest contact that stays on the bodies, or by several as wide as they can be:
-        the same whatever load is asked for.
+        the same whatever load is asked for. Zero where the bodies touch at this end first.
     load : float
         The load asked for.
     half_width : float
