@@ -21,10 +21,11 @@ mod single_contact;
 mod topology;
 
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
-use crate::gap::Cost;
-use crate::quadrature::{Integrator, panels};
+use crate::gap::{Cost, Gap};
+use crate::quadrature::panels::{self, Several};
+use crate::quadrature::{Integrator, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
-use crate::{ContactError, Edge, Ends, Real};
+use crate::{ContactError, Edge, Ends, Interval, Real};
 use by_load::{ByLoad, Quantity};
 use edges::{Conditions, Given};
 use equations::Equations;
@@ -36,6 +37,20 @@ pub(crate) struct Work<'s, T: Real> {
     pub integrator: &'s mut dyn Integrator<T>,
     pub workspace: &'s mut Workspace<T>,
     pub cost: &'s mut Cost,
+}
+
+impl<T: Real> Work<'_, T> {
+    /// Makes the contacts found ready for their pressures, and keeps them for the next search.
+    fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Result<(), ContactError<T>> {
+        let Self { integrator, workspace, cost } = self;
+        if panels::several(*integrator).is_none() {
+            integrator.prepare(gap, hull)?;
+        }
+        complete(*integrator, gap, hull, cost)?;
+        let contacts = panels::several(*integrator).map(Several::contacts);
+        workspace.keep(contacts.unwrap_or(std::slice::from_ref(&hull)));
+        Ok(())
+    }
 }
 
 impl<'b, T: Real> Contact<'b, T> {

@@ -19,8 +19,7 @@ use super::edges::{Conditions, Given};
 use super::{Contact, Work, topology};
 use crate::gap::Asked;
 use crate::material::Elasticity;
-use crate::quadrature::complete;
-use crate::quadrature::panels::{self, Several};
+use crate::quadrature::panels;
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
 use crate::{ContactError, Edge, Ends, Interval, Real, References};
@@ -254,13 +253,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let Self { contact, work, .. } = self;
         work.workspace.report = Report::new();
         let found = topology::find(contact, conditions, work)?;
-        let Work { integrator, workspace, cost } = &mut **work;
-        if panels::several(*integrator).is_none() {
-            integrator.prepare(&contact.gap, found.interval)?;
-        }
-        complete(*integrator, &contact.gap, found.interval, cost)?;
-        let one = std::slice::from_ref(&found.interval);
-        workspace.keep(panels::several(*integrator).map_or(one, Several::contacts));
+        work.keep(&contact.gap, found.interval)?;
         Ok(found)
     }
 

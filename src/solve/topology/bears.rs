@@ -10,8 +10,8 @@ use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
 use super::super::edges::Conditions;
 use super::{Contact, Search, Work};
+use crate::quadrature::LoadCase;
 use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{LoadCase, complete};
 use crate::solution::{ContactState, Solved, largest_pressure};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -35,9 +35,11 @@ const LAST_STEP: f64 = 1e4;
 /// The share of the half-width that a limit leaves of its way to the end when Newton's method takes it there.
 const NEAR_END: f64 = 0.05;
 
-/// What the bodies bear of a load.
+/// The part of a load that the bodies bear.
 pub(in super::super) enum Borne<T: Real> {
+    /// All of it, in these contacts.
     All(ContactState<T>),
+    /// Less, in contacts that reach an end.
     UpTo(Capacity<T>),
 }
 
@@ -149,9 +151,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// the one that is asked for.
     fn until_closed(&mut self, conditions: &Conditions<T>, low: T) -> Option<Borne<T>> {
         let (half, asked, mut was_near) = (T::of(0.5), conditions.load(), false);
-        let mut shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
+        let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
         let (mut load, mut gaps) = shares
-            .by_ref()
             .take(MOST_SHARES)
             .find_map(|load| Some((load, self.gaps_at_ends(&conditions.under(load))?.1)))?;
         let mut step = T::of(FIRST_STEP) * load;
@@ -194,15 +195,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let found = search.find().ok()?;
         let (gap, ends, at_corner) =
             (&self.contact.gap.tilted(found.tilt), self.contact.ends(), self.corners());
-        let Work { integrator, workspace, cost } = &mut *self.work;
-        if panels::several(*integrator).is_none() {
-            integrator.prepare(gap, found.interval).ok()?;
-        }
-        complete(*integrator, gap, found.interval, cost).ok()?;
-        let one = std::slice::from_ref(&found.interval);
-        workspace.keep(panels::several(*integrator).map_or(one, Several::contacts));
-        let solved =
-            Solved { gap, integrator: &**integrator, kappa: conditions.kappa, found: &found };
+        self.work.keep(gap, found.interval).ok()?;
+        let integrator = &*self.work.integrator;
+        let solved = Solved { gap, integrator, kappa: conditions.kappa, found: &found };
         let gap_at = |side: Side| match at_corner[side] {
             true => Ok(T::one() / T::zero()),
             // By rounding.
