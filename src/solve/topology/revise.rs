@@ -8,7 +8,7 @@
 //! | a contact vanishes | the others |
 //! | a limit passes a corner | it is put there |
 //! | a limit passes the other end of the bodies, where one end is to be reached | it is put there |
-//! | nothing of use, or the same set again | that of the cells |
+//! | nothing of use, or the set before the last again | that of the cells |
 //!
 //! All faults of a kind are mended at once.
 
@@ -25,6 +25,12 @@ const CLOSELY: f64 = 0.002;
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
+
+/// The share of its width that a gap keeps at most, when another one closes, to be closed with it.
+const CLOSING: f64 = 0.1;
+
+/// Doublings of the cells.
+const MOST_DOUBLINGS: usize = 6;
 
 /// The share of a contact by which a limit leaves a corner that does not hold it; its square is the share of the
 /// bodies that a contact has at first where they would overlap.
@@ -58,6 +64,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let last = &self.work.workspace.last;
         let is_near = last.len() > 1 || self.end.is_some() && !last.is_empty();
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
+        let mut earlier = Vec::new();
         self.work.workspace.newton.on.clone_from(last);
         for _ in 0..MOST_TRIALS {
             let [left, right] = self.contact.gap.range();
@@ -83,7 +90,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 Trial::Fails(error) => {
                     let outcome = Outcome::of(&error);
                     fault = Some(error);
-                    (outcome, self.mend(start))
+                    (outcome, self.mend())
                 }
                 Trial::NotFound(error) => {
                     fault = Some(error);
@@ -92,7 +99,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 Trial::Stops(stop) => self.revise(stop, start),
             };
             self.report(start, outcome);
-            start = next;
+            let Workspace { newton, before, .. } = &*self.work.workspace;
+            // One revision undoes the other.
+            let is_undone = is_alike(&newton.on, &earlier);
+            start = if is_undone { Start::ActiveSet } else { next };
+            earlier.clone_from(before);
         }
         Err(self.not_found(first, fault))
     }
@@ -144,12 +155,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
         {
             self.closed.push(newton.closed_gap(i));
         }
-        let on = &mut newton.on;
         // Where the search has led without an end says little.
-        on.clone_from(before);
+        let led_to = std::mem::replace(&mut newton.on, before.clone());
+        let on = &mut newton.on;
         let outcome = match stop {
-            Stop::Closed(i) => {
-                on[i].right = on.remove(i + 1).right;
+            Stop::Closed(closed) => {
+                let gap = |on: &[Interval<T>], i: usize| on[i + 1].left - on[i].right;
+                for i in (0..on.len() - 1).rev() {
+                    if i == closed || gap(&led_to, i) < T::of(CLOSING) * gap(on, i) {
+                        on[i].right = on.remove(i + 1).right;
+                    }
+                }
                 Outcome::Merged
             }
             Stop::Lost(i) if on.len() > 1 => {
@@ -181,7 +197,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Parts the contacts at hand where they would pull, or puts some where the bodies would overlap. Returns the next
     /// start.
-    fn mend(&mut self, start: Start) -> Start {
+    fn mend(&mut self) -> Start {
         let ends = self.contact.ends();
         let Workspace { newton, before, tension_spans, overlaps, .. } = &mut *self.work.workspace;
         let on = &mut newton.on;
@@ -207,9 +223,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 on.insert(at, seed);
             }
         }
-        // Where one overlap follows another, cells see all of them at once; nor is a trial made twice.
-        let again = start == Start::Attempt && tension_spans.spans.is_empty() || on == before;
-        if on.is_empty() || again { Start::ActiveSet } else { Start::Attempt }
+        if on.is_empty() || on == before { Start::ActiveSet } else { Start::Attempt }
     }
 
     /// Tells at which sides a corner ends the bodies.
@@ -305,7 +319,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         // As many cells as have not failed yet.
         let cells = self.cells;
-        self.cells = (cells + cells).min(16 * FIRST_CELLS);
+        self.cells = (cells + cells).min(FIRST_CELLS << MOST_DOUBLINGS);
         let coarse = self.coarse(conditions, cells)?;
         self.runs_out = self.end_reached(&coarse);
         let tilt = self.contact.gap.tilt() + coarse.tilt;
@@ -344,4 +358,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let at_corner = self.corners();
         Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !at_corner[side])
     }
+}
+
+/// Tells whether two sets of contacts are as many, each at the place of one of the other.
+fn is_alike<T: Real>(one: &[Interval<T>], other: &[Interval<T>]) -> bool {
+    let meet = |(one, other): (&Interval<T>, &Interval<T>)| {
+        one.left < other.right && other.left < one.right
+    };
+    one.len() == other.len() && one.iter().zip(other).all(meet)
 }

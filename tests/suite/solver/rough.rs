@@ -106,9 +106,10 @@ fn a_search_that_is_made_again_is_the_one_from_scratch() {
         let body = rough(seed, wave, noise);
         let scene = contact(&body);
         for [from, to] in [
-            [14.893891324884002, 500.0],
-            [40.6440777168445, 14.893891324884002],
-            [110.91399939872747, 500.0],
+            [25.57240289336707, 139.8296379291401],
+            [500.0, 213.82385585336573],
+            [16.219135082380877, 46.187721501625326],
+            [46.187721501625326, 16.219135082380877],
         ] {
             let mut solver = Solver::new();
             let load = Control::Load(to);
