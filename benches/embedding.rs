@@ -136,7 +136,7 @@ fn repeat<T: Real>(case: &str, pieces: usize, times: usize) {
     });
 }
 
-fn main() {
+pub(crate) fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     if let [word, case, scalar, pieces, times] = &arguments[..]
         && word == "repeat"

@@ -8,8 +8,8 @@
 # A compiler other than the one that the counts kept are of makes other counts: --check says so and compares
 # nothing.
 #
-# Each case of benches/embedding.rs, benches/several.rs and benches/default.rs is run few and many times, and the
-# difference divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
+# Each case of benches/embedding.rs, benches/several.rs and benches/default.rs, compiled as one in benches/counted.rs, is
+# run few and many times, and the difference divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
 cd "$(dirname "$0")/.."
@@ -21,17 +21,15 @@ if [ "$way" = --check ] && [ "$compiler" != "$(head -n 1 "$kept")" ]; then
     echo "instructions: kept are those of $(head -n 1 "$kept"), not of $compiler: nothing compared"
     exit 0
 fi
-built() {
-    cargo bench --bench "$1" --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$/\1/p'
-}
-bench=$(built embedding)
-several=$(built several)
-default=$(built default)
-[ -x "$bench" ] && [ -x "$several" ] && [ -x "$default" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
+bench=$(cargo bench --bench counted --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$/\1/p')
+[ -x "$bench" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
 
+# Those of a bench.
 instructions() {
+    BENCH=$1 && shift
+    export BENCH
     valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null \
-        "$@" 2>&1 | sed -n 's/.*I *refs: *//p' | tr -d ,
+        "$bench" "$@" 2>&1 | sed -n 's/.*I *refs: *//p' | tr -d ,
 }
 
 counts() {
@@ -42,8 +40,8 @@ counts() {
             for case in cold load body moment turned P1 P100 P10k; do
                 few=3 many=33
                 [ "$case" = P10k ] && few=1 many=2
-                less=$(instructions "$bench" repeat "$case" "$scalar" "$pieces" "$few")
-                more=$(instructions "$bench" repeat "$case" "$scalar" "$pieces" "$many")
+                less=$(instructions embedding repeat "$case" "$scalar" "$pieces" "$few")
+                more=$(instructions embedding repeat "$case" "$scalar" "$pieces" "$many")
                 printf '\t%s' $(((more - less) / (many - few)))
             done
             echo
@@ -56,8 +54,8 @@ counts() {
         for start in cold warm; do
             few=5 many=25
             [ "$scene" = rough ] && few=1 many=2
-            less=$(instructions "$several" repeat "$scene" "$start" "$few")
-            more=$(instructions "$several" repeat "$scene" "$start" "$many")
+            less=$(instructions several repeat "$scene" "$start" "$few")
+            more=$(instructions several repeat "$scene" "$start" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo
@@ -69,8 +67,8 @@ counts() {
         for case in cold bare-cold next bare-next; do
             # An even number, as two loads take turns.
             few=4 many=24
-            less=$(instructions "$default" repeat "$scene" "$case" "$few")
-            more=$(instructions "$default" repeat "$scene" "$case" "$many")
+            less=$(instructions default repeat "$scene" "$case" "$few")
+            more=$(instructions default repeat "$scene" "$case" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo

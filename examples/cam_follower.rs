@@ -19,7 +19,7 @@ use std::error::Error;
 use std::f64::consts::{PI, TAU};
 
 #[global_allocator]
-static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+pub(crate) static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 const MODULUS: f64 = 115e3;
 const BASE: f64 = 20.0;
@@ -133,7 +133,7 @@ fn energy(angle: f64, speed: f64) -> f64 {
     0.5 * moving * speed * speed + PRELOAD * lift + 0.5 * SPRING * lift * lift
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::new();
     // In the first revolution the solver's memory grows to what the steps need.
     for step in 0..STEPS / 2 {

@@ -38,7 +38,7 @@ impl ParametricProfile<f64> for Flank {
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let pitch = 93.0 / 256.0; // tan 19.97°
     let pinion = Flank { base_radius: 37.5e-3, pitch, side: -1.0 };
     let wheel = Flank { base_radius: 112.5e-3, pitch, side: 1.0 };

@@ -69,7 +69,7 @@ struct Row {
     hertz: [f64; 2],
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::new();
     let mut solver = Solver::new();
     let (mut rows, mut off, mut least) = (Vec::new(), [0.0f64; 2], f64::INFINITY);

@@ -29,7 +29,7 @@ const POINTS: i32 = 2000; // on either side, a micrometre apart
 const SIZES: [(f64, i32); 6] =
     [(0.02, 401), (0.02, 4001), (0.1, 401), (0.1, 4001), (0.22, 401), (0.22, 4001)];
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     fs::create_dir_all("target")?;
     fs::write("target/measured_profile.txt", measurement(&mut Random(1))?)?;
     let points = read(&fs::read_to_string("target/measured_profile.txt")?)?;

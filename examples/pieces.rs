@@ -23,7 +23,7 @@ const HALF_WIDTHS: [f64; 2] = [0.25, 0.26];
 /// Pressures asked for, one by one.
 const POINTS: u32 = 16;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     measure(10)?; // The tables of the quadrature are made once.
     println!("            evaluations               microseconds");
     println!("    pieces  first  next  |   make   first    next   P(x)  |  error of a");

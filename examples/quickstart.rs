@@ -19,7 +19,7 @@ const LOAD: f64 = 500.0;
 const ROLLER: f64 = 10.0; // radius
 const GROOVE: f64 = 40.0;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     // The lower part of a circle, by the angle k from its lowest point.
     let arc = |r: f64| {
         Curve::new([-1.5, 1.5], move |k: f64| {

@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const MODULUS: f64 = 115e3;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", drawing::save("roller_and_wheel", vec![roller()?, wheel()?])?);
     Ok(())
 }

@@ -36,7 +36,7 @@ struct Pressed {
     pressures: Vec<(f64, f64)>,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let body = Spline::fitted(&measurement(), Fit { noise: NOISE, ..Fit::default() })?;
     let contact = Contact::new(&Flat, &body)?.contact_modulus(MODULUS);
     let mut solver = Solver::new();

@@ -42,7 +42,7 @@ fn weber_banaschek(load: f64) -> f64 {
     body(DEPTH) + body(RADIUS)
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let roller = Ellipse::circle(RADIUS, [-0.5, 0.5])?;
     let steel = Material::elastic(YOUNGS_MODULUS, POISSON_RATIO);
     let contact = Contact::new(&Flat, &roller)?.materials(steel, steel, PlaneState::Strain);

@@ -19,7 +19,7 @@ use std::error::Error;
 
 const L: f64 = 0.1;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     // A roller of radius 1 as the parabola that Hertz takes it for.
     let roller =
         Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });

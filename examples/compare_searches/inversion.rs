@@ -1,7 +1,7 @@
 //! Part 1: inverting `X(k) = x`, each time from the whole domain and without a guess.
 
-use crate::curves::{self, Profile};
-use crate::{NAMES, Tally, searches};
+use super::curves::{self, Profile};
+use super::{NAMES, Tally, searches};
 use linecontact::search::{Bracket, LimitSearch, SearchError};
 use linecontact::{Curve, CurvePoint, ParametricProfile};
 use std::f64::consts::FRAC_PI_2;

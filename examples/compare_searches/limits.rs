@@ -1,7 +1,7 @@
 //! Parts 2 and 3: a search for the limits `a` and `b`, and one for the inversions it needs.
 
-use crate::scenes::{self, Scene};
-use crate::{NAMES, Tally, searches};
+use super::scenes::{self, Scene};
+use super::{NAMES, Tally, searches};
 use linecontact::{Contact, ContactError, Control, Cost, Interval};
 use std::f64::consts::PI;
 

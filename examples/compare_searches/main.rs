@@ -51,7 +51,7 @@ impl Tally {
     }
 }
 
-fn main() -> Result<(), ContactError<f64>> {
+pub(crate) fn main() -> Result<(), ContactError<f64>> {
     let cold = inversion::cold();
     let limits = limits::limits()?;
     let poor = limits::poor_starts()?;

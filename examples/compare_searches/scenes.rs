@@ -1,6 +1,6 @@
 //! Contacts whose limits are known.
 
-use crate::curves::{self, Example, Profile};
+use super::curves::{self, Example, Profile};
 use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Piecewise};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -43,7 +43,7 @@ Written by `cargo run --release --example hard_scenes -- --update`; CI compares 
 /// The error of the limits that passes, by the condition times the rounding of numbers.
 const MARGIN: f64 = 8.0;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let lines = scenes::all().iter().map(line).collect::<Result<Vec<_>, _>>()?;
     let text = format!("{HEADING}{}\n", lines.join("\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/hard_scenes.md");

@@ -1,6 +1,6 @@
 //! The scenes: bodies as pieces whose slopes can be changed a little, and what is known of them.
 
-use crate::common;
+use super::common;
 use linecontact::reference::{ClosedForm, Ellipse, Hertz, PowerLaw, RoundedPunch, UnequalRadii};
 use linecontact::{Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise};
 use std::f64::consts::{FRAC_PI_2, PI};

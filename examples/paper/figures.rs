@@ -1,8 +1,8 @@
 //! Figures 2 to 7: the solids and the pressures of Examples 3 to 5, as SVG.
 
-use crate::curves::Example;
-use crate::drawing::{self, BLUE, Panel, Points, RED, SeriesLabelPosition};
-use crate::limits::{Case, Solved};
+use super::curves::Example;
+use super::drawing::{self, BLUE, Panel, Points, RED, SeriesLabelPosition};
+use super::limits::{Case, Solved};
 use linecontact::search::{Bracket, LimitSearch, Newton, SearchError};
 use linecontact::{Interval, ParametricProfile};
 use std::error::Error;

@@ -1,6 +1,6 @@
 //! Examples 3 to 5: curves without an inverse in closed form, limits sought.
 
-use crate::curves::{self, Example};
+use super::curves::{self, Example};
 use linecontact::{Contact, ContactError, Control, Cost, EdgePressure, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;

@@ -13,7 +13,7 @@ mod tables;
 use limits::{CASES, Solved, Zero};
 use std::error::Error;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("# Tables 1 and 2, known limits: x, N, ET, |P - exact|, the same in the paper");
     let mut entries = tables::table1()?;
     entries.extend(tables::table2()?);

@@ -1,6 +1,6 @@
 //! Tables 1 and 2: the absolute errors of the paper's quadrature, known limits.
 
-use crate::curves::{self, Example};
+use super::curves::{self, Example};
 use linecontact::{Contact, ContactError, Control, Edge, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;

@@ -1,6 +1,6 @@
 //! A case: a scene, and what is known of it.
 
-use crate::precise::Precise;
+use super::precise::Precise;
 use std::error::Error;
 
 /// Half a unit of the fifteenth digit, of the number that it is largest for.

@@ -1,7 +1,7 @@
 //! Contacts without a closed form: from the files in `tests/data`.
 
-use crate::case::{AT, Case, FIFTEEN_DIGITS, LEFT, Made, PEAK, Place, RIGHT};
-use crate::paper::{Example, five, four, three};
+use super::case::{AT, Case, FIFTEEN_DIGITS, LEFT, Made, PEAK, Place, RIGHT};
+use super::paper::{Example, five, four, three};
 use linecontact::profile::{Involute, Placed, Placement};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, ParametricProfile};
 use serde_json::Value;

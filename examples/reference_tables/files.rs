@@ -1,6 +1,6 @@
 //! The files: all in one as JSON, and two tables.
 
-use crate::case::{Case, Parameter, Row};
+use super::case::{Case, Parameter, Row};
 use serde_json::Value;
 
 fn text(text: &str) -> String {

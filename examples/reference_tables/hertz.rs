@@ -1,10 +1,10 @@
 //! Cylinders: Hertz's contact, and that of exact circles.
 
-use crate::case::{
+use super::case::{
     AT, Case, FORCE, Given, HALF_WIDTH, LENGTH, MEAN, MODULUS, Made, PEAK, PRESSURE, Place,
     STIFFNESS,
 };
-use crate::precise::{PI, Precise, greatest, n, root};
+use super::precise::{PI, Precise, greatest, n, root};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References, Solution};
 use std::error::Error;

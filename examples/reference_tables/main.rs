@@ -57,7 +57,7 @@ fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
     .collect()
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let check = match std::env::args().nth(1).as_deref() {
         Some("--check") => true,
         Some(other) => return Err(format!("{other}: give --check or nothing").into()),

@@ -1,6 +1,6 @@
 //! Which mesh has which error: plain boundary elements against closed forms.
 
-use crate::elements::{Found, Kind, Scene, solve};
+use super::elements::{Found, Kind, Scene, solve};
 use std::error::Error;
 use std::f64::consts::PI;
 

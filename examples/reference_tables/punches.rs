@@ -1,11 +1,11 @@
 //! Rigid punches and wedges on steel, and a punch of steel with rounded edges.
 
-use crate::case::{
+use super::case::{
     AT, Case, FORCE, Given, HALF_WIDTH, LEFT, LENGTH, MEAN, Made, PEAK, PRESSURE, Place, RIGHT,
     STICK, STIFFNESS, STRENGTH, TRACTION,
 };
-use crate::hertz::{STEEL, compliance, like_steel, material, steel_on_steel};
-use crate::precise::{PI, Precise, greatest, n, root};
+use super::hertz::{STEEL, compliance, like_steel, material, steel_on_steel};
+use super::precise::{PI, Precise, greatest, n, root};
 use linecontact::profile::rounded_punch;
 use linecontact::reference::{FlatPunch, PowerLaw, Wedge, body};
 use linecontact::{

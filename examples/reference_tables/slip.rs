@@ -1,8 +1,8 @@
 //! Hertz's contact with a force along it.
 
-use crate::case::{Case, Given, HALF_WIDTH, LENGTH, Made, PEAK, Place, STICK, TRACTION};
-use crate::hertz::{hertz, like_steel, steel_on_steel};
-use crate::precise::n;
+use super::case::{Case, Given, HALF_WIDTH, LENGTH, Made, PEAK, Place, STICK, TRACTION};
+use super::hertz::{hertz, like_steel, steel_on_steel};
+use super::precise::n;
 use linecontact::profile::Parabola;
 use linecontact::{Contact, Control, Flat, PartialSlip, Shear};
 use std::error::Error;

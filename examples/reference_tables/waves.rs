@@ -1,8 +1,8 @@
 //! Contact in several places: a row of crests without end, two bumps, three.
 
-use crate::case::{AT, HALF_WIDTH, LEFT, LENGTH, LOAD, MEAN, Made, PEAK, Place, RIGHT};
-use crate::hertz::{hertz, like_steel, steel_on_steel};
-use crate::precise::{PI, Precise, n, root};
+use super::case::{AT, HALF_WIDTH, LEFT, LENGTH, LOAD, MEAN, Made, PEAK, Place, RIGHT};
+use super::hertz::{hertz, like_steel, steel_on_steel};
+use super::precise::{PI, Precise, n, root};
 use linecontact::reference::{Hertz, PolynomialMap, Quartic, Westergaard, body};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 

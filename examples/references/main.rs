@@ -169,7 +169,7 @@ fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
     boundary_elements::solve(&gap, wanted.kappa, wanted.c / PI, range, &wanted.breakpoints)
 }
 
-fn main() -> Result<ExitCode, Box<dyn Error>> {
+pub(crate) fn main() -> Result<ExitCode, Box<dyn Error>> {
     let given = std::env::args_os().nth(1).map(PathBuf::from);
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let folders = match given {

@@ -1,8 +1,8 @@
 //! Compares what the solver returns with the reference, and says it in a line.
 
-use crate::boundary_elements::Oracle;
-use crate::noise::Noise;
-use crate::reference::{Kind, Point, Reference, Several};
+use super::boundary_elements::Oracle;
+use super::noise::Noise;
+use super::reference::{Kind, Point, Reference, Several};
 use linecontact::{Cost, Interval};
 use std::f64::consts::PI;
 

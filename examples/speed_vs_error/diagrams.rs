@@ -1,8 +1,8 @@
 //! Error against work, a diagram for each scene, as SVG.
 
-use crate::drawing::{self, Panel, Points, RGBColor, SeriesLabelPosition};
-use crate::methods::{DEFAULT, METHODS};
-use crate::table::Row;
+use super::drawing::{self, Panel, Points, RGBColor, SeriesLabelPosition};
+use super::methods::{DEFAULT, METHODS};
+use super::table::Row;
 use std::error::Error;
 use std::path::Path;
 

@@ -47,7 +47,7 @@ use std::path::Path;
 use std::time::Instant;
 use table::Row;
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().skip(1).find(|argument| argument != "--docs");
     let timed = argument.is_none();
     let rows = rows(timed);

@@ -1,8 +1,8 @@
 //! One contact, solved one way: what it costs, and how far off it is.
 
-use crate::common::NanSafe;
-use crate::methods::{self, Way};
-use crate::scenes::Scene;
+use super::common::NanSafe;
+use super::methods::{self, Way};
+use super::scenes::Scene;
 use linecontact::{Contact, ContactError, Cost, Solution};
 use std::hint::black_box;
 use std::time::Instant;

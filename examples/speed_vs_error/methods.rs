@@ -4,7 +4,7 @@
 //! searches, one at a time, with the default quadrature. The paper's rule inverts the curves at
 //! each of its points, so the searches that invert are tried with it, too.
 
-use crate::scenes::Scene;
+use super::scenes::Scene;
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
 use linecontact::{EdgePressure, Exponents, Interval, Midpoint, Panels};

@@ -1,6 +1,6 @@
 //! The contacts, and what is known of them.
 
-use crate::common::{self, Profile, paper, reference};
+use super::common::{self, Profile, paper, reference};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,7 +1,7 @@
 //! Who needs the fewest evaluations for an error, and by how much the next one needs more.
 
-use crate::methods::{DEFAULT, METHODS, PANELS, SEARCHES};
-use crate::table::Row;
+use super::methods::{DEFAULT, METHODS, PANELS, SEARCHES};
+use super::table::Row;
 
 const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 

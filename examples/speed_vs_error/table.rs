@@ -1,9 +1,9 @@
 //! The table of counts and errors: written, and compared with the one kept in `tests/data`.
 
-use crate::kept::{counts_agree, errors_agree};
-use crate::measure::Outcome;
-use crate::methods::Way;
-use crate::scenes::Scene;
+use super::kept::{counts_agree, errors_agree};
+use super::measure::Outcome;
+use super::methods::Way;
+use super::scenes::Scene;
 
 /// A line of the table.
 pub struct Row {

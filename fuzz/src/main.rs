@@ -49,7 +49,7 @@ impl Rng {
     }
 }
 
-fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     let mut numbers = std::env::args().skip(1).map(|word| word.parse::<u64>().ok());
     let (Some(Some(from)), Some(Some(to))) = (numbers.next(), numbers.next()) else {
         eprintln!("two seeds, please: FROM TO");

@@ -1,6 +1,6 @@
 //! Numbers without sense, wherever numbers are asked for: an error or an answer, in bounded time.
 
-use crate::Rng;
+use super::Rng;
 use linecontact::{
     Contact, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Exponents, Flat, Interval,
     Midpoint, Panels, Piecewise,

@@ -10,9 +10,9 @@
 //!
 //! with `-π ln 2` and `π (ξ - ln 2)` for k = 0.
 
-use crate::Rng;
-use crate::oracle::{Term, sum};
-use crate::scene::body;
+use super::Rng;
+use super::oracle::{Term, sum};
+use super::scene::body;
 use linecontact::{Contact, Control, Cost, Edge, Interval};
 use std::f64::consts::{LN_2, PI};
 

@@ -1,7 +1,7 @@
 //! A convex gap whose contact is known beforehand, solved in some way or other.
 
-use crate::Rng;
-use crate::oracle::{On, Term, sum};
+use super::Rng;
+use super::oracle::{On, Term, sum};
 use linecontact::search::Brent;
 use linecontact::{
     Contact, Control, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval, Midpoint, Panels,

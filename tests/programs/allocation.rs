@@ -2,16 +2,13 @@
 //!
 //! The count is that of the whole program. So this is one without a test harness, which has threads
 //! that allocate when they like.
-#![allow(missing_docs)]
 
+// A program has one allocator.
+use super::cam_follower::ALLOCATOR;
 use linecontact::{
     Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Solver,
 };
-use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
-use std::alloc::System;
-
-#[global_allocator]
-static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+use stats_alloc::Region;
 
 /// How often something allocates.
 fn allocations(work: impl FnOnce()) -> usize {
@@ -72,7 +69,7 @@ fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
     assert!(pressure.at(on.centre()).unwrap() > 0.0);
 }
 
-fn main() {
+pub(crate) fn main() {
     several_contacts();
     nothing_is_allocated_after_the_first_solve();
     if std::env::args().any(|argument| argument == "--ignored") {
