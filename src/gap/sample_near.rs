@@ -174,15 +174,6 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         (curve_sample.x - self.targets[i]).abs() <= self.room[i]
     }
 
-    /// A point, or the end of the piece, where rounding has put it there and it has no slope of its own.
-    fn or_end(&self, curve_sample: CurveSample<T>) -> CurveSample<T> {
-        if is_finite(curve_sample.slope) {
-            return curve_sample;
-        }
-        let end = self.ends.iter().find(|end| end.k == curve_sample.k && is_finite(end.slope));
-        end.copied().unwrap_or(curve_sample)
-    }
-
     /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
     fn batch(
         &self,
@@ -234,8 +225,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             curve_samples[i] = curve_sample;
         }
         if !sound {
-            for (i, curve_sample) in curve_samples.iter_mut().enumerate() {
-                *curve_sample = self.or_end(*curve_sample);
+            for (i, curve_sample) in curve_samples.iter().enumerate() {
                 self.check(i, curve_sample)?;
             }
         }
@@ -301,7 +291,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
                 break;
             }
             cost.evaluations += 1;
-            let curve_sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
+            let curve_sample = CurveSample::new(k, self.piece.curve.at(k));
             self.check(i, &curve_sample)?;
             if self.is_near(i, &curve_sample) {
                 return Ok(curve_sample);
@@ -330,7 +320,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         let mut best = None;
         let function = |k: T| {
             cost.evaluations += 1;
-            let sample = self.or_end(CurveSample::new(k, self.piece.curve.at(k)));
+            let sample = CurveSample::new(k, self.piece.curve.at(k));
             self.check(i, &sample)?;
             best = Some(sample);
             let off = if self.is_near(i, &sample) { T::zero() } else { sample.x - target };
@@ -344,7 +334,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             return Ok(sample);
         }
         cost.evaluations += 1;
-        let sample = self.or_end(CurveSample::new(root.x, self.piece.curve.at(root.x)));
+        let sample = CurveSample::new(root.x, self.piece.curve.at(root.x));
         self.check(i, &sample).map(|()| sample)
     }
 

@@ -5,7 +5,7 @@
 //! two or three evaluations each.
 
 use super::{Cost, Gap};
-use crate::profile::{Convexity, Piece};
+use crate::profile::Piece;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 
@@ -100,10 +100,6 @@ impl<T: Real> Sampler<T> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
-            if is_level(piece, x) {
-                *height = piece.ends[0].y;
-                continue;
-            }
             let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
             // What the inversion has left, and what it may have left at an end.
             let missed = x - point.x;
@@ -124,12 +120,9 @@ impl<T: Real> Sampler<T> {
         let (x, mut sum) = (gap.nearest(x), T::zero());
         for body in [Body::Lower, Body::Upper] {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
-            if !is_level(piece, x) {
-                let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
-                let evaluations = &mut self.cost.evaluations;
-                let noise = gap.noise(body, &piece, k, evaluations);
-                sum += noise.of_height(point.dy / point.dx);
-            }
+            let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+            let noise = gap.noise(body, &piece, k, &mut self.cost.evaluations);
+            sum += noise.of_height(point.dy / point.dx);
         }
         Ok(sum)
     }
@@ -169,7 +162,10 @@ impl<T: Real> Sampler<T> {
         x: T,
     ) -> Result<Near<T>, ContactError<T>> {
         let ends = piece.x();
-        let near = self.near[body as usize].filter(|near| near.piece == index);
+        let guess = match self.near[body as usize].filter(|near| near.piece == index) {
+            Some(Near { k, point, .. }) => k + (x - point.x) / point.dx,
+            None => piece.k[0] + (x - ends[0]) / (ends[1] - ends[0]) * (piece.k[1] - piece.k[0]),
+        };
         let rises = piece.k[0] < piece.k[1];
         let turns =
             |near: &Near<T>| (near.point.dx < T::zero()) == rises && !near.point.dx.is_zero();
@@ -183,16 +179,8 @@ impl<T: Real> Sampler<T> {
         } else if x >= ends[1] {
             piece.k[1]
         } else {
-            let guess = match near {
-                Some(Near { k, point, .. }) => k + (x - point.x) / point.dx,
-                None => {
-                    let along = (x - ends[0]) / (ends[1] - ends[0]);
-                    piece.k[0] + along * (piece.k[1] - piece.k[0])
-                }
-            };
-            let ends = [(piece.k[0], ends[0] - x), (piece.k[1], ends[1] - x)];
-            let [(lo, f_lo), (hi, f_hi)] =
-                if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] };
+            let order = if rises { [0, 1] } else { [1, 0] };
+            let [(lo, f_lo), (hi, f_hi)] = order.map(|i| (piece.k[i], ends[i] - x));
             let function = |k: T| {
                 let here = at(k);
                 last = Some(here);
@@ -201,16 +189,7 @@ impl<T: Real> Sampler<T> {
             };
             let bracket = Bracket::new(lo, hi).values(f_lo, f_hi).guess(guess);
             let root = try_find_with_slope(gap.inversion(), function, &bracket);
-            let root = root.map_err(|error| {
-                error.or_else(|source| match source {
-                    SearchError::NotFinite { x: k, value } => {
-                        let source = ProfileError::NotFinite { quantity: "X", k, value };
-                        ContactError::Profile { body, source }
-                    }
-                    source => ContactError::Inversion { body, x, source },
-                })
-            });
-            root?.x
+            root.map_err(|error| error.or_else(|source| not_inverted(body, x, source)))?.x
         };
         let mut found = last.filter(|last| last.k == k).unwrap_or_else(|| at(k));
         for _ in 0..T::DERIVATIVE_ORDER {
@@ -235,7 +214,13 @@ impl<T: Real> Sampler<T> {
     }
 }
 
-/// Tells whether a piece is level.
-fn is_level<T: Real>(piece: Piece<'_, T>, x: T) -> bool {
-    piece.curve.convexity() == Convexity::Straight && piece.curve.slope_at(x) == Some(T::zero())
+/// Makes the error of an inversion.
+fn not_inverted<T: Real>(body: Body, x: T, source: SearchError<T>) -> ContactError<T> {
+    match source {
+        SearchError::NotFinite { x: k, value } => {
+            let source = ProfileError::NotFinite { quantity: "X", k, value };
+            ContactError::Profile { body, source }
+        }
+        source => ContactError::Inversion { body, x, source },
+    }
 }

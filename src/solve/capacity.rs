@@ -13,10 +13,6 @@ use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// Shares of the bodies that are left out at their ends where the slope is no number there, or too
-/// large for one.
-const LEFT_OUT: [f64; 4] = [0.0, 4.0, 4e3, 4e6];
-
 /// The error, as a share, to which contacts are sampled until the largest is between two of them: the whole of the
 /// bodies may be hard to sample, and all that counts is which way it would move.
 const ROUGH: f64 = 3e-2;
@@ -90,11 +86,8 @@ pub(super) fn capacity<T: Real>(
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
     let (full, rough) = (&mut *integrator, &mut *rough);
     let mut pinned = Pinned { contact, equations, full, rough };
-    let found = LEFT_OUT.into_iter().find_map(|share| {
-        let out = T::of(share) * T::epsilon() * (right - left);
-        let (left, right) = (fixed.left.unwrap_or(left + out), fixed.right.unwrap_or(right - out));
-        pinned.largest_contact(Interval { left, right })
-    });
+    let (left, right) = (fixed.left.unwrap_or(left), fixed.right.unwrap_or(right));
+    let found = pinned.largest_contact(Interval { left, right });
     let capacity = found.and_then(|(on, side)| {
         let m = integrator.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;

@@ -17,17 +17,11 @@ const APART: f64 = 4.5;
 /// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
 const AHEAD: f64 = 1.05;
 
-/// Times the distance of points that serves as well, of those at hand.
-const KEPT: f64 = 2.0;
-
 /// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
 const EXACT: f64 = 1e-3;
 
 /// The share of F/κ by which panels beside a contact may be uncertain: crests of that height may hide.
 pub(crate) const VAGUE: f64 = 0.1;
-
-/// The share of F/κ by which a point may be missed besides, as where formulas cancel.
-const FOOT: f64 = 1e-7;
 
 /// Times the uncertainty of a panel by which a point may miss it.
 const MISSED: f64 = 8.0;
@@ -47,8 +41,6 @@ const MOST_HALVES: usize = 60;
 pub(super) struct Stretch<T> {
     x: [T; 2],
     apart: T,
-    /// The distance of points at hand that serves as well.
-    kept: T,
     /// Whether a point there is missed.
     is_missed: bool,
 }
@@ -80,7 +72,7 @@ impl<T: Real> Stretch<T> {
     /// Tells whether another one has points about as close all over this one.
     fn is_seen_by(&self, other: &Self) -> bool {
         let [from, to] = other.x;
-        from <= self.x[0] && to >= self.x[1] && other.apart <= self.kept
+        from <= self.x[0] && to >= self.x[1] && other.apart <= self.apart
     }
 }
 
@@ -135,16 +127,9 @@ impl<T: Real> Survey<T> {
             if self.refine_stretches(gap, stretches, load, cost)? {
                 continue;
             }
-            let least = T::of(FOOT) * load;
             for which in [Which::Lower, Which::Upper] {
                 let surface = &gap.bodies[which as usize];
-                self.bodies[which as usize].probe(
-                    gap,
-                    surface,
-                    stretches,
-                    least,
-                    &mut cost.heights,
-                );
+                self.bodies[which as usize].probe(gap, surface, stretches, &mut cost.heights);
             }
             for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
                 self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
@@ -260,10 +245,9 @@ impl<T: Real> Survey<T> {
                     && let Some(x) = within(gap, pair, [from, end], level + pair[0].after)
                     && (is_wide(x) || is_asked)
                 {
-                    let kept = if is_asked { apart } else { T::of(KEPT) * apart };
                     // Where a panel is void it takes more of them first.
                     let is_missed = !pair[0].after.is_finite();
-                    let next = Stretch { x, apart, kept, is_missed };
+                    let next = Stretch { x, apart, is_missed };
                     // Points in a longer one are placed in each by itself.
                     if is_wide(x) { found.push(next) } else { add(found, next) }
                 }
@@ -277,7 +261,6 @@ impl<T: Real> Survey<T> {
         if times > T::one() && !is_asked {
             for stretch in found.iter_mut() {
                 stretch.apart *= times;
-                stretch.kept *= times;
             }
             found.retain(|Stretch { x, apart, .. }| x[1] - x[0] > *apart);
         }
@@ -330,7 +313,6 @@ impl<T: Real> Body<T> {
         gap: &Gap<'_, T>,
         surface: &Surface<'_, T>,
         stretches: &mut [Stretch<T>],
-        least: T,
         heights: &mut usize,
     ) {
         let mut probes = std::mem::take(&mut self.scratch.probes);
@@ -358,7 +340,7 @@ impl<T: Real> Body<T> {
                 let Some(number) = panel.series else { continue };
                 let series = &self.series[number];
                 let by = series.miss(t, &point);
-                let is_met = by <= least + T::of(MISSED) * series.doubt;
+                let is_met = by <= T::of(MISSED) * series.doubt;
                 if !is_met {
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
                     (panel.doubt, panel.since, panel.is_void) =

@@ -32,9 +32,6 @@ const MOST_LOADS: usize = 100;
 /// The last step of the load, as a share of it, in units of rounding.
 const LAST_STEP: f64 = 1e4;
 
-/// The share of the half-width that a limit leaves of its way to the end when Newton's method takes it there.
-const NEAR_END: f64 = 0.05;
-
 /// The part of a load that the bodies bear.
 pub(in super::super) enum Borne<T: Real> {
     /// All of it, in these contacts.
@@ -150,7 +147,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Raises the load from one that leaves the gap open at the ends of the bodies, until it is closed there or the load is
     /// the one that is asked for.
     fn until_closed(&mut self, conditions: &Conditions<T>, low: T) -> Option<Borne<T>> {
-        let (half, asked, mut was_near) = (T::of(0.5), conditions.load(), false);
+        let (half, asked) = (T::of(0.5), conditions.load());
         let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
         let (mut load, mut gaps) = shares
             .take(MOST_SHARES)
@@ -167,14 +164,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
             };
             if next.load() >= asked {
                 return Some(Borne::All(found));
-            }
-            let side = lower(closer);
-            let room = self.room(found.interval)[side] / found.interval.half_width();
-            if room <= T::of(NEAR_END) && !std::mem::replace(&mut was_near, true) {
-                let exact = self.up_to_end(&next, side);
-                if let Some(exact) = exact.filter(|exact| exact.load < asked) {
-                    return Some(Borne::UpTo(exact));
-                }
             }
             step = (next.load() - load)
                 * secant(gaps.left, closer.left).min(secant(gaps.right, closer.right));
@@ -218,8 +207,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn capacity(&mut self, found: &ContactState<T>, side: Side) -> Option<Capacity<T>> {
         let ContactState { interval: on, load, free, .. } = *found;
         let (integrator, gap) = (&*self.work.integrator, &self.contact.gap.tilted(found.tilt));
-        let one: [Interval<T>; 1] = [on];
-        let contacts = panels::several(integrator).map_or(&one[..], Several::contacts);
+        let several = panels::several(integrator).map(Several::contacts);
+        let contacts = several.unwrap_or(std::slice::from_ref(&on));
         let load_case = LoadCase { kappa: self.contact.kappa, load, free };
         let mut peak = if free == Ends::both(true) { T::zero() } else { T::one() / T::zero() };
         for contact in contacts.iter().copied().enumerate() {

@@ -87,11 +87,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     return Ok(found);
                 }
                 Trial::Fails(error @ ContactError::LiftsOff { .. }) => return Err(error),
-                Trial::Fails(error) => {
-                    let outcome = Outcome::of(&error);
-                    fault = Some(error);
-                    (outcome, self.mend())
-                }
+                Trial::Fails(error) => (Outcome::of(fault.insert(error)), self.mend()),
                 Trial::NotFound(error) => {
                     fault = Some(error);
                     (Outcome::NotFound, Start::ActiveSet)
@@ -259,8 +255,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         conditions: &Conditions<T>,
         corners: Ends<bool>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        if let ([on], None) = (&self.work.workspace.newton.on[..], self.end) {
-            let on = *on;
+        if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
             return self.one_of_set(conditions, on);
         }
         let (contact, ends) = (self.contact, self.contact.ends());
@@ -305,10 +300,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         conditions: &Conditions<T>,
         on: Interval<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let (contact, conditions, start) = (self.contact, *conditions, on);
+        let (contact, conditions, start) = (self.contact, *conditions, Some(on));
         let Work { integrator, workspace, cost } = &mut *self.work;
         let (look, bears, integrator) = (None, Some(None), &mut **integrator);
-        let start = Some(start);
         let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
         let found = single.find(start)?;
         (workspace.newton.on[0], workspace.newton.tilt) = (found.interval, found.tilt);
