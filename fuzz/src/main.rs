@@ -49,6 +49,9 @@ impl Rng {
     }
 }
 
+/// Seeds that have failed, each run with all others: panels were halved until there was no memory left.
+const FAILED: [u64; 1] = [102_129];
+
 pub(crate) fn main() -> ExitCode {
     let mut numbers = std::env::args().skip(1).map(|word| word.parse::<u64>().ok());
     let (Some(Some(from)), Some(Some(to))) = (numbers.next(), numbers.next()) else {
@@ -57,7 +60,7 @@ pub(crate) fn main() -> ExitCode {
     };
     std::panic::set_hook(Box::new(|_| {}));
     let (mut findings, mut solved) = (0, 0);
-    for seed in from..to {
+    for seed in FAILED.into_iter().chain(from..to) {
         let run = || match seed % 10 {
             9 => nonsense::run(Rng::new(seed)),
             8 => rough::run(Rng::new(seed)),

@@ -21,6 +21,9 @@ const MOST_PARTS: usize = 16;
 /// The most windows by which a long body is narrowed to the other one.
 const MOST_WINDOWS: usize = 8;
 
+/// Series of a body after which no panel of it is refined: tens of megabytes.
+const MOST_SERIES: usize = 1 << 15;
+
 /// The share of a panel up to which what is asked for of it is cut out of it as a window; for more it is halved.
 const WINDOW: f64 = 0.25;
 
@@ -161,9 +164,9 @@ impl<T: Real> Body<T> {
         std::mem::swap(&mut old, &mut self.panels);
         self.panels.clear();
         self.scratch.wanted.clear();
-        let mut changes = false;
+        let (mut changes, is_full) = (false, self.series.len() > MOST_SERIES);
         for panel in &old {
-            let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else {
+            let Some(hull) = hull_in(spans, panel).filter(|_| !is_full && is_marked(panel)) else {
                 self.panels.push(*panel);
                 continue;
             };

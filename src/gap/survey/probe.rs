@@ -119,7 +119,9 @@ impl<T: Real> Survey<T> {
     ) -> Result<(), ContactError<T>> {
         for _ in 0..MOST_ROUNDS {
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
-            stretches.retain(|stretch| !self.is_seen(stretch));
+            let is_seen =
+                |stretch: &_| self.seen.iter().any(|seen| Stretch::is_seen_by(stretch, seen));
+            stretches.retain(|stretch| !is_seen(stretch));
             if stretches.is_empty() {
                 break;
             }
@@ -198,10 +200,6 @@ impl<T: Real> Survey<T> {
         let spans = std::slice::from_ref(span);
         let mut inside = panels.filter(|panel| hull_in(spans, panel).is_some());
         inside.all(|panel| panel.doubt <= tolerance || panel.converges())
-    }
-
-    fn is_seen(&self, stretch: &Stretch<T>) -> bool {
-        self.seen.iter().any(|seen| stretch.is_seen_by(seen))
     }
 
     /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
