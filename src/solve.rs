@@ -115,7 +115,7 @@ fn find_checked<T: Real>(
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<ContactState<T>, ContactError<T>> {
-    work.workspace.report = Report::new();
+    (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
     let mut found = find_under(contact, control, work)?;
     // A width may be less than the rounding of x, and its load less than any number.
     check(found.interval)?;

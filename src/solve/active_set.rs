@@ -50,7 +50,7 @@ const MOST_CHANGES: usize = 400;
 /// Changes of all wrong cells that may leave as many wrong ones, before only one is changed.
 const MOST_IN_VAIN: usize = 4;
 
-/// Cells times steps in all systems of equations before the search is given up: half a minute at worst.
+/// Cells times steps in all systems of equations of a search before it is given up: half a minute at worst.
 const MOST_WORK: usize = 200_000_000;
 
 /// Two bodies and a load.
@@ -95,12 +95,16 @@ pub(super) enum NotFound<T: Real> {
 
 type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
 
-/// Finds the contacts of a scene, with the height of the gap at any x of the range.
+/// Finds the contacts of a scene, with the height of the gap at any x of the range; `work` is that of the search so far.
 pub(super) fn active_set<T: Real>(
     scene: &Scene<'_, T>,
+    work: &mut usize,
     height: Height<'_, T>,
 ) -> Result<Coarse<T>, NotFound<T>> {
-    Ok(ActiveSet::of(scene, height)?.found())
+    let mut set = ActiveSet { work: *work, ..ActiveSet::new(scene, height)? };
+    let settled = set.settle(scene, height);
+    *work = set.work;
+    settled.map(|()| set.found())
 }
 
 #[derive(Clone, Copy)]
@@ -151,20 +155,16 @@ struct ActiveSet<T> {
 
 impl<T: Real> ActiveSet<T> {
     /// Loads the cells in which the bodies touch, cut as far as it takes to see them.
-    fn of(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
-        let mut set = Self::new(scene, height)?;
-        set.take_up(scene.start, height)?;
+    fn settle(&mut self, scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<(), NotFound<T>> {
+        self.take_up(scene.start, height)?;
         for _ in 0..MOST_CUTS {
-            set.converge()?;
-            let (marks, intervals) = (set.marks(scene.known), set.intervals());
-            if !set.cut(&marks, &intervals, height)? {
+            self.converge()?;
+            let (marks, intervals) = (self.marks(scene.known), self.intervals());
+            if !self.cut(&marks, &intervals, height)? {
                 break;
             }
         }
-        if set.changed {
-            set.converge()?;
-        }
-        Ok(set)
+        if self.changed { self.converge() } else { Ok(()) }
     }
 
     fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
@@ -409,9 +409,9 @@ impl<T: Real> ActiveSet<T> {
         for _ in 0..MOST_CHANGES {
             if !self.bears() {
                 self.rest();
-                if !self.bears() {
-                    break;
-                }
+            }
+            if !self.bears() || self.work > MOST_WORK {
+                break;
             }
             let rounding = self.solve();
             let wrong: Vec<_> = (0..self.cells.len())
@@ -430,9 +430,6 @@ impl<T: Real> ActiveSet<T> {
             };
             if wrong.iter().all(is_limit) {
                 return Ok(());
-            }
-            if self.work > MOST_WORK {
-                break;
             }
             in_vain = if wrong.len() < least { 0 } else { in_vain + 1 };
             least = least.min(wrong.len());
@@ -462,7 +459,8 @@ mod tests {
         scene: &Scene<'_, f64>,
         h: impl Fn(f64) -> f64,
     ) -> Result<ActiveSet<f64>, NotFound<f64>> {
-        ActiveSet::of(scene, &mut |x| Ok(h(x)))
+        let mut set = ActiveSet::new(scene, &mut |x| Ok(h(x)))?;
+        set.settle(scene, &mut |x| Ok(h(x))).map(|()| set)
     }
 
     fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Result<Coarse<f64>, NotFound<f64>> {
@@ -699,7 +697,7 @@ mod tests {
                 known: &[],
                 start: &[],
             };
-            let found = active_set(&scene, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
+            let found = active_set(&scene, &mut 0, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
             let half = f64::from(4.0 * load / std::f32::consts::PI).sqrt();
             // What 3 has cost of the heights shows under light loads.
             for Interval { left, right } in &found.intervals {
@@ -735,7 +733,7 @@ mod tests {
         let refused = find(&scene(0.1, [-1.0, 1.0]), hole);
         assert!(matches!(refused, Err(NotFound::NotFinite { x, .. }) if x > 0.3), "{refused:?}");
         let outside = ContactError::OutsideBodies { x: 0.0, range: [0.0, 1.0] };
-        let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut |_| Err(outside.clone()));
+        let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut 0, &mut |_| Err(outside.clone()));
         assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
         // Noise, from cell to cell: whatever comes, it ends.
         let noise = |x: f64| (x.to_bits().wrapping_mul(0x9e3779b97f4a7c15) >> 11) as f64 * 1e-16;

@@ -331,14 +331,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
         workspace.look.refine(gap, asked_by(conditions), T::of(CLOSELY), cost)?;
-        let Workspace { look, newton, .. } = &**workspace;
+        let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);
         let range = [ends.left, ends.right];
         let (at, known, start) = (conditions.at(), &turned[..], &newton.on[..]);
         let scene = Scene { kappa, load, at, range, cells, known, start };
-        let coarse = active_set(&scene, &mut |x| Ok(gap.turned(x, look.height(gap.nearest(x)))));
-        coarse.map_err(|error| match error {
+        let mut height = |x: T| Ok(gap.turned(x, look.height(gap.nearest(x))));
+        active_set(&scene, cell_work, &mut height).map_err(|error| match error {
             NotFound::Height(error) => error,
             _ => ContactError::NoEquilibrium {
                 half_width: T::of(0.5) * (ends.right - ends.left),

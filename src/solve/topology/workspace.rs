@@ -28,6 +28,8 @@ pub(crate) struct Workspace<T> {
     pub(super) tension_spans: TensionSpans<T>,
     /// Dips in which they would overlap.
     pub(super) overlaps: Overlaps<T>,
+    /// What the search has spent on cells.
+    pub cell_work: usize,
     pub report: Report,
 }
 
@@ -44,6 +46,7 @@ impl<T: Real> Workspace<T> {
             passed: Passed::new(),
             tension_spans: TensionSpans::new(),
             overlaps: Overlaps::new(),
+            cell_work: 0,
             report: Report::new(),
         }
     }
