@@ -9,7 +9,8 @@
 # nothing.
 #
 # Each case of benches/embedding.rs, benches/several.rs and benches/default.rs, compiled as one in benches/counted.rs, is
-# run few and many times, and the difference divided, so that neither starting up nor making the bodies counts. Without AVX-512, which valgrind does not know:
+# run few and many times, and the difference divided, so that neither starting up nor making the bodies counts.
+# Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
 cd "$(dirname "$0")/.."
@@ -24,7 +25,7 @@ fi
 bench=$(cargo bench --bench counted --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))$/\1/p')
 [ -x "$bench" ] || { echo "the benches do not build: cargo bench --no-run"; exit 1; }
 
-# Those of a bench.
+# Prints the instructions of one run of a bench.
 instructions() {
     BENCH=$1 && shift
     export BENCH

@@ -48,7 +48,7 @@ use std::process::{Command, ExitCode, Termination};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// A program with its name and the arguments that it is tested with.
+/// A program: its name, its main function and its arguments in the test.
 type Program = (&'static str, fn() -> ExitCode, &'static [&'static str]);
 
 macro_rules! program {
@@ -79,7 +79,7 @@ const PROGRAMS: [Program; 18] = [
     program!(stress_field),
 ];
 
-/// The variable by which this program knows which of them it is.
+/// The environment variable that names the program to run.
 const NAME: &str = "LINECONTACT_PROGRAM";
 
 fn main() -> ExitCode {

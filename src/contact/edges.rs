@@ -63,7 +63,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The same under another load, where that is given.
+    /// Returns the conditions under another load, where a load is given.
     pub fn under(&self, load: T) -> Self {
         let given = match self.given {
             Given::Load(_) => Given::Load(load),

@@ -735,6 +735,10 @@ mod tests {
         let outside = ContactError::OutsideBodies { x: 0.0, range: [0.0, 1.0] };
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut 0, &mut |_| Err(outside.clone()));
         assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
+        // The search has spent all it may before.
+        let mut spent = MOST_WORK + 1;
+        let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut spent, &mut |x| Ok(x * x));
+        assert_eq!(refused.map(|_| ()), Err(NotFound::Unsettled { solves: 0 }));
         // Noise, from cell to cell: whatever comes, it ends.
         let noise = |x: f64| (x.to_bits().wrapping_mul(0x9e3779b97f4a7c15) >> 11) as f64 * 1e-16;
         for load in [1e-6, 1e-2, 1.0] {

@@ -38,7 +38,7 @@ pub(super) struct Capacity<T> {
 }
 
 impl<T: Real> Capacity<T> {
-    /// Of bodies that touch at an end first, which bear nothing.
+    /// Returns the capacity of bodies that touch at an end first: nothing.
     pub fn nothing(end: T) -> Self {
         let zero = T::zero();
         Self { on: Interval { left: end, right: end }, end, load: zero, peak: zero }

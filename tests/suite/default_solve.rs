@@ -28,3 +28,27 @@ fn counts_are_those_of_the_table_of_times() {
         assert!(!is_in_readme || include_str!("../../README.md").contains(&row), "{row}");
     }
 }
+
+/// `benches/instructions.sh` prints the counts.
+#[test]
+fn instructions_are_those_kept() {
+    let kept = include_str!("../../benches/instructions.tsv");
+    let counts = |first: &[&str], columns: &[usize]| {
+        let row = kept.lines().find(|line| line.starts_with(&first.join("\t"))).unwrap();
+        let cells: Vec<&str> = row.split('\t').collect();
+        let thousands = |&column: &usize| match cells[column].parse::<f64>().unwrap() / 1e3 {
+            count if count < 10.0 => format!("{count:.1}"),
+            count if count < 1e3 => format!("{count:.0}"),
+            count => format!("{:.0} {:03.0}", (count / 1e3).floor(), count % 1e3),
+        };
+        columns.iter().map(thousands).collect::<Vec<_>>()
+    };
+    let text = include_str!("../../docs/speed.md");
+    for scalar in ["f64", "f32"] {
+        let row =
+            format!("|`{scalar}`|{}|", counts(&[scalar, "1", ""], &[2, 3, 4, 7, 8, 9]).join("|"));
+        assert!(text.contains(&row), "{row}");
+    }
+    let unknown = format!("(of unknown shape: {} for", counts(&["one", ""], &[1, 2]).join(" and "));
+    assert!(text.contains(&unknown), "{unknown}");
+}

@@ -28,7 +28,7 @@ pub(crate) struct Workspace<T> {
     pub(super) tension_spans: TensionSpans<T>,
     /// Dips in which they would overlap.
     pub(super) overlaps: Overlaps<T>,
-    /// What the search has spent on cells.
+    /// Cells times steps of the active sets of the search so far.
     pub cell_work: usize,
     pub report: Report,
 }
