@@ -21,7 +21,7 @@ mod single_contact;
 mod topology;
 
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
-use crate::gap::{Cost, Gap};
+use crate::gap::{Asked, Cost, Gap};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
@@ -157,7 +157,7 @@ fn find_under<T: Real>(
             let (kappa, edges) = (contact.kappa, contact.checked_edges()?);
             let conditions = Conditions { kappa, edges, given: Given::HalfWidth(half_width) };
             match topology::find(contact, conditions, work) {
-                Err(error) if may_have_several(contact, &error, work) => {
+                Err(error) if may_have_several(contact, &error, work)? => {
                     ByLoad::find(contact, Quantity::HalfWidth, half_width, work)
                 }
                 found => found,
@@ -189,12 +189,22 @@ fn find_under<T: Real>(
 fn may_have_several<T: Real>(
     contact: &Contact<'_, T>,
     error: &ContactError<T>,
-    work: &Work<'_, T>,
-) -> bool {
-    use ContactError::{NoEquilibrium, Overlap, Tension};
-    let fails = matches!(error, NoEquilibrium { .. } | Overlap { .. } | Tension { .. });
+    work: &mut Work<'_, T>,
+) -> Result<bool, ContactError<T>> {
+    use ContactError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
     let serves = panels::is_panels(work.integrator) && contact.search.is_none();
-    fails && serves && !contact.single_interval && !contact.edges.are_adhesive()
+    if !serves || contact.single_interval || contact.edges.are_adhesive() {
+        return Ok(false);
+    }
+    match *error {
+        NoEquilibrium { .. } | Overlap { .. } | Tension { .. } => Ok(true),
+        // The widest of several is another one.
+        HalfWidthTooLarge { wanted, .. } if !contact.gap.is_convex() => {
+            let look = work.workspace.look(&contact.gap, Asked::HalfWidth(wanted), work.cost)?;
+            Ok(!look.bulges())
+        }
+        _ => Ok(false),
+    }
 }
 
 /// Finds the contact with edges by the paper's Eq. (6), under a given load.

@@ -14,12 +14,11 @@
 //! half-width where a contact is born outside the others, the peak where a corner is reached. A value inside a jump has
 //! no load.
 
-use super::capacity::{Capacity, capacity};
+use super::capacity::Capacity;
 use super::edges::{Conditions, Given};
 use super::{Contact, Work, topology};
 use crate::gap::Asked;
 use crate::material::Elasticity;
-use crate::quadrature::panels;
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
 use crate::{ContactError, Edge, Ends, Interval, Real, References};
@@ -197,12 +196,18 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
 
     /// Finds the contact under a load, with its quantity.
     fn at(&mut self, load: T) -> Result<Trial<T>, ContactError<T>> {
-        let conditions = self.contact.under(load)?;
+        let (contact, conditions) = (self.contact, self.contact.under(load)?);
         let found = self.solve(conditions)?;
-        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        let (gap, kappa) = (&contact.gap, contact.kappa);
         let solved = Solved { gap, integrator: &*self.work.integrator, kappa, found: &found };
         let (at, doubt) = match self.quantity {
             Quantity::HalfWidth => {
+                let (on, wanted, peak) = (found.interval, self.wanted, T::one() / T::zero());
+                // From corner to corner no load makes it wider.
+                if found.free == Ends::both(false) && on.half_width() < wanted {
+                    let widest = Capacity { on, end: on.right, load, peak };
+                    return Err(widest.too_wide(wanted));
+                }
                 let rates = LoadRates::new(solved)?;
                 let half = T::of(0.5);
                 ([found.interval.half_width(), half * (rates.a + rates.b)], T::zero())
@@ -216,7 +221,9 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                     ([top.value, rate], top.error / top.value.abs())
                 }
                 Err(ContactError::Singular { .. }) => {
-                    if let Some(widest) = self.up_to_corner(&found) {
+                    let widest =
+                        topology::up_to_corner(contact, &conditions, found.free, self.work);
+                    if let Some(widest) = widest {
                         return Err(widest.too_short(load));
                     }
                     ([T::one() / T::zero(), T::zero()], T::zero())
@@ -235,17 +242,6 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         // The half-width goes with the peak, and is known no better.
         let error = found.error.map(|error| error + doubt);
         Ok((ContactState { error, ..found }, at))
-    }
-
-    /// Returns the widest contact that no corner holds, where a corner holds the one that was found.
-    fn up_to_corner(&mut self, found: &ContactState<T>) -> Option<Capacity<T>> {
-        if found.free == Ends::both(true) || panels::several(&*self.work.integrator).is_some() {
-            return None;
-        }
-        let (contact, edges) = (self.contact, Ends::both(Edge::Free));
-        let conditions = Conditions { edges, ..contact.under(found.load).ok()? };
-        let widest = capacity(contact, &conditions, contact.ends(), self.work.cost)?;
-        (widest.load <= found.load).then_some(widest)
     }
 
     /// Finds the contacts under some conditions, ready for their pressures.

@@ -10,7 +10,7 @@
 //! Values at 32 angles are enough for rounding where the pressure is smooth, and for a thousandth of it
 //! elsewhere; more are taken where it turns on that.
 
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -29,6 +29,8 @@ pub(crate) struct ExteriorField<T> {
     q: [T; POINTS],
     /// More coefficients in place of q, if any.
     finer: Vec<T>,
+    /// The limits at which the pressure is zero.
+    free: Ends<bool>,
     doubt: T,
 }
 
@@ -44,11 +46,17 @@ impl<T: Real> ExteriorField<T> {
     }
 
     /// From the pressures at those places.
-    pub fn new(on: Interval<T>, x: &[T; POINTS], pressures: &[T; POINTS]) -> Self {
+    pub fn new(
+        on: Interval<T>,
+        free: Ends<bool>,
+        x: &[T; POINTS],
+        pressures: &[T; POINTS],
+    ) -> Self {
         let bounded: [T; POINTS] =
             std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
         let q = std::array::from_fn(|n| coefficient(n, &bounded, &*COSINES));
-        Self { on, pressures: *pressures, q, finer: Vec::new(), doubt: tail(&q) }
+        let doubt = tail(&q, free);
+        Self { on, pressures: *pressures, q, finer: Vec::new(), free, doubt }
     }
 
     /// From the pressures at more places.
@@ -58,7 +66,7 @@ impl<T: Real> ExteriorField<T> {
         let cosines: Vec<_> = (0..4 * count).map(|m| (m as f64 * step).cos()).collect();
         pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.chebyshev_weight(x));
         self.finer = (0..count).map(|n| coefficient(n, &pressures, &cosines)).collect();
-        self.doubt = tail(&self.finer);
+        self.doubt = tail(&self.finer, self.free);
     }
 
     /// q₀, q₁, ...
@@ -124,14 +132,24 @@ impl<T: Real> ExteriorField<T> {
 ///
 /// Where they fall with 1/n², as those of a kink beside a limit, all of them add as much as the last quarter of those that
 /// are known, and these are off by about as much. Of the first few nobody knows whether they fall yet.
-fn tail<T: Real>(q: &[T]) -> T {
+///
+/// At a free limit `P w` is zero: what the series leaves of it there falls within the last half step of the angle, δ, and
+/// takes `(2/π) h δ` off each coefficient up to n = 1/δ, where h is that rest.
+fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
+    let zero = T::zero();
+    let [even, odd] =
+        [0, 1].map(|from| q.iter().skip(from).step_by(2).fold(zero, |sum, &q| sum + q));
+    let rest = |is_free: bool, rest: T| if is_free { rest.abs() } else { zero };
+    let missed = rest(free.left, even - odd) + rest(free.right, even + odd);
+    let half_step = T::of(0.5) * T::pi() / T::count(q.len());
+    let beside = T::of(-2.0) * missed * half_step * half_step.ln();
     if q.len() == POINTS {
-        let last = q[POINTS - 4..].iter().fold(T::zero(), |max, q| max.max(q.abs()));
-        return T::of(16.0) * T::pi() * last;
+        let last = q[POINTS - 4..].iter().fold(zero, |max, q| max.max(q.abs()));
+        return T::of(16.0) * T::pi() * last + beside;
     }
     let first = q.len() - q.len() / 4;
-    let last = (first..q.len()).fold(T::zero(), |sum, n| sum + q[n].abs() / T::count(n));
-    T::of(4.0) * T::pi() * last
+    let last = (first..q.len()).fold(zero, |sum, n| sum + q[n].abs() / T::count(n));
+    T::of(4.0) * T::pi() * last + beside
 }
 
 /// Number n of the coefficients of a cosine series, from its values, the number of which is a power of two.
@@ -157,7 +175,7 @@ mod tests {
         let on = Interval { left: -0.3, right: 0.3 };
         let x = ExteriorField::places(on);
         let pressures = x.map(|x: f64| (0.09 - x * x).sqrt() / PI);
-        let field = ExteriorField::new(on, &x, &pressures);
+        let field = ExteriorField::new(on, Ends::both(true), &x, &pressures);
         assert!((field.load() / 0.045 - 1.0).abs() < 1e-14);
         for x in [0.3001f64, 0.4, 1.0, 30.0, -0.31, -2.0] {
             let pushed = field.potential(x) - field.potential(0.3);

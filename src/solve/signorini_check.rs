@@ -89,11 +89,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// The pressures in each contact.
     pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
         fields.clear();
+        let Interval { left, right } = self.found.interval;
         for &on in self.contacts() {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
-            fields.push(ExteriorField::new(on, &x, &pressures));
+            let outer = self.found.free;
+            let free = Ends {
+                left: on.left != left || outer.left,
+                right: on.right != right || outer.right,
+            };
+            fields.push(ExteriorField::new(on, free, &x, &pressures));
         }
         Ok(())
     }

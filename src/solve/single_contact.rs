@@ -21,7 +21,7 @@ use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use super::one_by_one;
 use crate::gap::{Cost, Survey};
-use crate::quadrature::{Integrator, panels};
+use crate::quadrature::{Integrator, Moments, panels};
 use crate::solution::ContactState;
 use crate::{ContactError, Edge, Interval, ProfileError, Real, Side};
 
@@ -250,7 +250,10 @@ impl<T: Real> Single<'_, '_, T> {
         let on = nested.on;
         let m = self.integrator.moments(gap, on)?;
         let load = match conditions.given {
-            Given::HalfWidth(_) => conditions.balance(on, &m).unwrap_or(T::zero()),
+            Given::HalfWidth(_) => {
+                let load = conditions.balance(on, &m).unwrap_or(T::zero());
+                self.known(on, load, &m)?
+            }
             Given::Load(load) | Given::Centre { load, .. } => load,
         };
         let error = nested.error;
@@ -296,12 +299,25 @@ impl<T: Real> Single<'_, '_, T> {
         let m = self.integrator.moments(&self.contact.gap, on)?;
         let load = match conditions.given {
             Given::Load(_) | Given::Centre { .. } => load,
-            Given::HalfWidth(_) => load_of(conditions, on, load, &m),
+            Given::HalfWidth(_) => self.known(on, load_of(conditions, on, load, &m), &m)?,
         };
         Ok(ContactState {
             force: Some(force),
             ..ContactState::new(conditions, on, load, Some(error), &m)
         })
+    }
+
+    /// Returns the load of a contact of given width, where it is more than the rounding of the limits makes of it: on a flat
+    /// such a contact lies anywhere, and bears nothing.
+    fn known(&self, on: Interval<T>, load: T, m: &Moments<T>) -> Result<T, ContactError<T>> {
+        let (half_width, stiffness) = (on.half_width(), self.conditions.kappa * on.half_width());
+        let rate = m.derivatives.map(|rates| rates.by_1.abs() + rates.by_2.abs());
+        let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
+        let unknown = stiffness * rate.unwrap_or(T::zero()) * rounding;
+        if load.abs() <= unknown && !self.conditions.edges.are_adhesive() {
+            return Err(ContactError::NoEquilibrium { half_width, near: on.centre() });
+        }
+        Ok(load)
     }
 
     /// Samples a span around a contact that is nearly right, and finds the limits on that.

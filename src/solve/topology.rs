@@ -22,7 +22,7 @@ use crate::gap::{Asked, Survey};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Interval, Real, Side};
-pub(super) use bears::{Borne, bears};
+pub(super) use bears::{Borne, bears, up_to_corner};
 pub(crate) use workspace::Workspace;
 
 /// Finds the contacts of two bodies.

@@ -231,7 +231,11 @@ impl<T: Real> Body<T> {
             self.scratch.wanted.push(self.panels.len());
             self.panels.push(part);
         } else {
-            self.panels.push(Panel { doubt: self.series[number].doubt, is_void: false, ..part });
+            // Nothing says yet that it would be as uncertain by points of its own.
+            let since =
+                if part.since.is_finite() { (part.k[1] - part.k[0]).abs() } else { part.since };
+            let doubt = self.series[number].doubt;
+            self.panels.push(Panel { doubt, since, is_void: false, ..part });
         }
     }
 

@@ -22,8 +22,10 @@ const STEP: f64 = 0.01;
 /// Refinements of the survey for one check.
 const MOST_ROUNDS: usize = 40;
 
-/// How often a span between two heights is halved in search of its lowest place.
+/// How often a span between two heights is halved in search of its lowest place; and cut where the chord of the slope is
+/// zero, which leaves a thousandth of the distance each time: a contact is born there with as little as a millionth.
 const MOST_HALVES: usize = 8;
+const MOST_CHORDS: usize = 2;
 
 /// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
@@ -57,18 +59,21 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> T {
         let half = T::of(0.5);
         let (mut falls, mut rises) = (None, None);
-        for _ in 0..MOST_HALVES {
-            let x = half * (left + right);
+        let mut share = half;
+        for step in 1..=MOST_HALVES + MOST_CHORDS {
+            let x = left + share * (right - left);
             let slope = look.slope(x) + self.gap.tilt() - self.rate(fields, x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
                 (left, falls) = (x, Some(-slope));
             }
+            // The slope is all but straight once the span is short, where it is finite.
+            if step >= MOST_HALVES {
+                let crossing = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
+                share = crossing.filter(|share| share.is_finite()).unwrap_or(half);
+            }
         }
-        // The slope is all but straight by now, where it is finite.
-        let share = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
-        let share = share.filter(|share| share.is_finite()).unwrap_or(half);
         left + share * (right - left)
     }
 
@@ -116,8 +121,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.map_or([low.x; 2], |ends| ends.map(|end| end[0]));
-            let after = closed_before.partition_point(|on| on.right <= from);
-            self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left < to)
+            let after = closed_before.partition_point(|on| on.right < from);
+            self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left <= to)
         };
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
@@ -274,7 +279,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Option<(T, Verdict)> {
         let (hidden, potential) = (doubt + from.hidden, total(fields, x));
         let judged = |height: T| self.verdict(from, [height, hidden], potential);
-        let Some(ends) = between else { return Some((x, judged(height))) };
+        let Some(ends) = between else {
+            let verdict = judged(height);
+            // By the height at the limit, as that at the place is known.
+            if verdict == Verdict::Hidden {
+                open.push([from.edge; 2]);
+            }
+            return Some((x, verdict));
+        };
         let verdict = judged(self.floor(fields, [x, height], ends, rate));
         if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));

@@ -49,6 +49,23 @@ pub(in super::super) fn bears<T: Real>(
     Search::new(contact, *conditions, work).bears(conditions)
 }
 
+/// Returns the widest contacts that only reach the corners which hold others under some load.
+pub(in super::super) fn up_to_corner<T: Real>(
+    contact: &Contact<'_, T>,
+    conditions: &Conditions<T>,
+    free: Ends<bool>,
+    work: &mut Work<'_, T>,
+) -> Option<Capacity<T>> {
+    let held = Side::BOTH.into_iter().filter(|&side| !free[side]);
+    let reached = held.filter_map(|side| {
+        Search::new(contact, *conditions, &mut *work).up_to_end(conditions, side)
+    });
+    let lighter =
+        |one: Capacity<T>, other: Capacity<T>| if other.load < one.load { other } else { one };
+    let is_free = |found: &Capacity<T>| found.peak.is_finite() && found.load <= conditions.load();
+    reached.filter(is_free).reduce(lighter)
+}
+
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Returns the contacts under a load that the bodies bear, where that is known.
     pub(super) fn borne(

@@ -222,9 +222,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if on.is_empty() || on == before { Start::ActiveSet } else { Start::Attempt }
     }
 
-    /// Tells at which sides a corner ends the bodies.
+    /// Tells at which sides a corner may hold the contacts.
     pub(super) fn corners(&self) -> Ends<bool> {
-        self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)))
+        let mut corners =
+            self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
+        if let Some(side) = self.end {
+            corners[side] = false;
+        }
+        corners
     }
 
     /// Moves the contacts at hand to where they bear the load, again as long as their panels miss narrow features.

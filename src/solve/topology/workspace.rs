@@ -89,7 +89,7 @@ impl<T: Real> Workspace<T> {
     }
 
     /// Surveys the bodies, once for a pair of them and as closely as is asked for.
-    pub(super) fn look(
+    pub fn look(
         &mut self,
         gap: &Gap<'_, T>,
         asked: Asked<T>,
