@@ -95,7 +95,7 @@ pub(super) enum NotFound<T: Real> {
 
 type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
 
-/// Finds the contacts of a scene, with the height of the gap at any x of the range; `work` is that of the search so far.
+/// Finds the contacts of a scene, with the height of the gap at any x of the range; adds to the `work` of the search.
 pub(super) fn active_set<T: Real>(
     scene: &Scene<'_, T>,
     work: &mut usize,

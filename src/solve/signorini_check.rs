@@ -89,16 +89,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// The pressures in each contact.
     pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
         fields.clear();
-        let Interval { left, right } = self.found.interval;
-        for &on in self.contacts() {
+        let (contacts, free) = (self.contacts(), self.found.free);
+        for (i, &on) in contacts.iter().enumerate() {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
-            let outer = self.found.free;
-            let free = Ends {
-                left: on.left != left || outer.left,
-                right: on.right != right || outer.right,
-            };
+            let free = free.of_contact(i, contacts.len() - 1);
             fields.push(ExteriorField::new(on, free, &x, &pressures));
         }
         Ok(())

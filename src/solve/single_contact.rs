@@ -307,7 +307,7 @@ impl<T: Real> Single<'_, '_, T> {
         })
     }
 
-    /// Returns the load of a contact of given width, where it is more than the rounding of the limits makes of it: on a flat
+    /// Returns the load of a contact of given width, if rounding of the limits changes it by less than itself: on a flat
     /// such a contact lies anywhere, and bears nothing.
     fn known(&self, on: Interval<T>, load: T, m: &Moments<T>) -> Result<T, ContactError<T>> {
         let (half_width, stiffness) = (on.half_width(), self.conditions.kappa * on.half_width());

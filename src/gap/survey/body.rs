@@ -231,7 +231,7 @@ impl<T: Real> Body<T> {
             self.scratch.wanted.push(self.panels.len());
             self.panels.push(part);
         } else {
-            // Nothing says yet that it would be as uncertain by points of its own.
+            // Only points of its own can show that it is noise.
             let since =
                 if part.since.is_finite() { (part.k[1] - part.k[0]).abs() } else { part.since };
             let doubt = self.series[number].doubt;

@@ -49,7 +49,7 @@ pub(in super::super) fn bears<T: Real>(
     Search::new(contact, *conditions, work).bears(conditions)
 }
 
-/// Returns the widest contacts that only reach the corners which hold others under some load.
+/// Returns the widest contacts that only just reach a corner, where one holds the contacts under some load.
 pub(in super::super) fn up_to_corner<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
