@@ -13,6 +13,7 @@
 // Loops over lanes index several arrays at once, which is what the compiler vectorises.
 #![allow(clippy::needless_range_loop)]
 
+mod cauchy_transform;
 mod edge_integrals;
 mod half_angle;
 mod hilbert_transform;
@@ -28,6 +29,7 @@ use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap, Guides};
 use crate::numerics::chebyshev::{MOST, SIZES};
 use crate::{ContactError, Ends, Interval, Real, Side};
+pub(crate) use cauchy_transform::{CauchyTransform, cauchy_transform};
 pub(crate) use edge_integrals::rise as rises_over;
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;

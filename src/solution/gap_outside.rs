@@ -41,8 +41,7 @@ impl<T: Real> Solution<'_, T> {
             return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
         }
         let bodies = Sampler::default().slope(&self.gap, x)?;
-        let pull = |distance: T, strength: T| [strength / distance];
-        let [pull] = Integrals::new(self.solved())?.over(x, pull)?;
+        let pull = self.pressure()?.cauchy_transform()?.at(x, T::zero())[0].re;
         Ok(bodies - pull / self.kappa)
     }
 }

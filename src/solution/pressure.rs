@@ -4,6 +4,7 @@ use super::pressure_integral::Density;
 use super::solved::Solved;
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
+use crate::quadrature::panels::{self, CauchyTransform};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -207,6 +208,12 @@ impl<T: Real> Pressure<'_, T> {
             estimate.error += T::of(0.5) * held * share * share.sqrt();
         }
         Ok(estimate)
+    }
+
+    /// The Cauchy transform of the pressure.
+    pub(crate) fn cauchy_transform(&self) -> Result<CauchyTransform<T>, ContactError<T>> {
+        let Self { gap, integrator, load_case, on, .. } = self;
+        panels::cauchy_transform(*integrator, gap, *on, load_case)
     }
 
     /// What making ready has cost.

@@ -85,11 +85,6 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         Self { density, load: T::one(), contacts }
     }
 
-    /// The breakpoints inside the contacts, rising.
-    pub fn breakpoints(&self) -> impl Iterator<Item = T> {
-        self.contacts.iter().flat_map(|one| one.breakpoints.iter().copied())
-    }
-
     /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
     pub fn over<const N: usize>(
         &self,

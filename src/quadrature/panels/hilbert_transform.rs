@@ -30,7 +30,7 @@
 //! edges: R keeps its relative accuracy up to a free edge.
 
 use super::half_angle::Sines;
-use super::near_far_sum::{Distance, NearFarSum};
+use super::near_far_sum::{Distance, NearFarSum, Seen};
 use super::panel::{Panel, Series, within};
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
@@ -127,7 +127,7 @@ impl<T: Real> HilbertTransform<T> {
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
         self.is_far = panels.len() > MOST_CHANGES || !self.reexpanded(panels, over, on);
         if self.is_far {
-            self.far.set(panels, on);
+            self.far.set(panels, on, Seen::Inside);
         }
     }
 

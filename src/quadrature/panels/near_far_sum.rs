@@ -5,6 +5,7 @@
 //! around it, as far as the polynomial can be continued without losing digits; from further away the
 //! panel is summed up by Gauss's rule, and from far away many panels at once (`treecode.rs`).
 
+use super::cauchy_transform::{WithDerivative, inverse, length, ln, sqrt};
 use super::half_angle::{Arc, HalfAngle};
 use super::hilbert_transform::{Breakpoint, Rounding, shares};
 use super::panel::{Panel, spans};
@@ -13,6 +14,7 @@ use crate::numerics::CompensatedSum;
 use crate::numerics::chebyshev::{MOST, Row, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
+use nalgebra::Complex;
 
 /// How far from the middle of its panel, in half-lengths, a polynomial is used whatever its terms: from closer by, the
 /// finest Gauss rule, of 64 nodes, leaves more than rounding, 1.32^-128 of the integral here.
@@ -20,6 +22,20 @@ const LEAST_REACH: f64 = 1.04;
 
 /// How far it may be used.
 const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
+
+/// How far at most off the surface, where the terms of a polynomial cancel: Gauss's rule does from here.
+const REACH_IN_PLANE: f64 = 3.0;
+
+/// Where the points are that see the panels.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Seen {
+    /// In the contact.
+    Inside,
+    /// On the surface outside it: no panel is near to all of them.
+    Outside,
+    /// Anywhere below the surface.
+    Below,
+}
 
 /// The panels of a contact.
 #[derive(Clone)]
@@ -47,20 +63,11 @@ impl<T: Real> NearFarSum<T> {
     }
 
     /// Sets it to the panels of a contact.
-    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>) {
-        self.set_within(panels, on, false);
-    }
-
-    /// The same for points outside the contact: no panel is near to all of them.
-    pub fn set_seen_from_outside(&mut self, panels: &[Panel<T>], on: Interval<T>) {
-        self.set_within(panels, on, true);
-    }
-
-    fn set_within(&mut self, panels: &[Panel<T>], on: Interval<T>, outside: bool) {
+    pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, seen: Seen) {
         self.parts.clear();
         self.nodes.clear();
         for (panel, x) in spans(panels, on) {
-            self.parts.push(FarPanel::new(clip(panel, x), on, outside, &mut self.nodes));
+            self.parts.push(FarPanel::new(clip(panel, x), on, seen, &mut self.nodes));
         }
         self.groups.clear();
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
@@ -71,11 +78,17 @@ impl<T: Real> NearFarSum<T> {
         self.groups.first().map_or(([T::zero(); MOST], 0), Group::cosines)
     }
 
-    /// Shows what a point sees of the panels, from left to right.
-    pub fn seen_from(&self, x: T, mut show: impl FnMut(Distance<'_, T>)) {
+    /// Shows what a point of the surface sees of the panels, from left to right.
+    pub fn seen_from(&self, x: T, show: impl FnMut(Distance<'_, T>)) {
+        self.seen_at(|from, to| (x - from).abs() + (x - to).abs(), show);
+    }
+
+    /// The same for any point, by the sum of its distances from two others.
+    fn seen_at(&self, distances: impl Fn(T, T) -> T, mut show: impl FnMut(Distance<'_, T>)) {
         let mut number = 0;
         while let Some(group) = self.groups.get(number) {
-            if !group.is_near(x) {
+            let [from, to] = group.ends();
+            if distances(from, to) >= group.around {
                 show(Distance::Group(group));
                 number = group.next;
                 continue;
@@ -151,6 +164,54 @@ impl<T: Real> NearFarSum<T> {
         });
         sum.value()
     }
+
+    /// `∫ g(t)/(t - ζ) dθ` at a place below the surface, with its derivative by ζ: distances from ζ, and the unit of length,
+    /// are in these widths.
+    pub fn in_plane(
+        &self,
+        place: &impl Fn(T) -> Complex<T>,
+        on: Interval<T>,
+        width: T,
+    ) -> WithDerivative<T> {
+        let zero = Complex::new(T::zero(), T::zero());
+        let (by_width, mut sum) = (T::one() / width, [zero; 2]);
+        let mut add = |term: WithDerivative<T>| sum = [0, 1].map(|j| sum[j] + term[j]);
+        self.seen_at(
+            |from, to| (length(place(from)) + length(place(to))) * width,
+            |seen| match seen {
+                Distance::Group(group) => {
+                    add(pulls(place(group.ends()[0]), group.charges(), by_width));
+                }
+                Distance::FarPanel(_, part) => {
+                    let [from, to] = part.panel.x.map(place);
+                    if (length(from) + length(to)) * width > part.around() {
+                        let nodes = self.nodes[part.nodes.clone()].iter().copied();
+                        add(pulls(from, nodes, by_width));
+                    } else {
+                        add(part.below(place, on, width));
+                    }
+                }
+            },
+        );
+        sum
+    }
+}
+
+/// `Σ g/(t - ζ)` over nodes `[t - t_left, g]`, with its derivative, by the distance of ζ from t_left.
+fn pulls<T: Real>(
+    from: Complex<T>,
+    nodes: impl Iterator<Item = [T; 2]>,
+    by_width: T,
+) -> WithDerivative<T> {
+    let zero = Complex::new(T::zero(), T::zero());
+    let square = from.im * from.im;
+    nodes.fold([zero; 2], |[sum, slope], [along, weighted]| {
+        let distance = along * by_width - from.re;
+        let share = T::one() / (distance * distance + square);
+        let pull = Complex::new(distance * share, from.im * share);
+        let weighted = pull * weighted;
+        [sum + weighted, slope + weighted * pull]
+    })
 }
 
 /// What a point sees: panels one by one, by their numbers, or many as one.
@@ -168,17 +229,18 @@ fn clip<T: Real>(panel: &Panel<T>, x: [T; 2]) -> Panel<T> {
 }
 
 impl<T: Real> FarPanel<T> {
-    fn new(panel: Panel<T>, on: Interval<T>, outside: bool, nodes: &mut Vec<[T; 2]>) -> Self {
+    fn new(panel: Panel<T>, on: Interval<T>, seen: Seen, nodes: &mut Vec<[T; 2]>) -> Self {
         const W: usize = 8;
         let [from, to] = panel.x;
         let width = on.right - on.left;
         let arc = Arc::new(to - from, HalfAngle::of(on, from), HalfAngle::of(on, to), width);
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
-        let reach = reach(panel.coefficients(), farthest);
-        let is_near = reach >= farthest && !outside;
+        let most = if seen == Seen::Below { T::of(REACH_IN_PLANE) } else { farthest };
+        let reach = reach(panel.coefficients(), most);
+        let is_near = reach >= farthest && seen == Seen::Inside;
         // From outside no point comes closer than the ends of the contact.
         let closest = (-panel.local(on.left)).min(panel.local(on.right));
-        let closest = if outside { closest } else { T::one() };
+        let closest = if seen == Seen::Outside { closest } else { T::one() };
         let rule = if reach < T::of(3.0) && !is_near && closest < T::of(3.0) {
             GaussLegendre::finest()
         } else {
@@ -213,13 +275,11 @@ impl<T: Real> FarPanel<T> {
         Self { panel, breakpoint, integrals, reach, nodes: start..nodes.len() }
     }
 
-    /// The span on which its polynomial is used.
-    pub fn reached(&self) -> [T; 2] {
-        let [from, to] = self.panel.x;
+    /// The sum of the distances from both ends up to which its polynomial is used.
+    pub fn around(&self) -> T {
         // Without nodes it is used everywhere, however x is rounded.
         let reach = if self.nodes.is_empty() { self.reach + self.reach } else { self.reach };
-        let beyond = (reach - T::one()) * self.panel.half();
-        [from - beyond, to + beyond]
+        (reach + reach) * self.panel.half()
     }
 
     /// `∫ q dθ` and the polynomial itself at a place near the panel; of one far off, all of the integral.
@@ -237,6 +297,49 @@ impl<T: Real> FarPanel<T> {
             sum += self.integrals[k - 1] * b1;
         }
         (sum, Some(s * b1 + (series[0] - b2)))
+    }
+
+    /// All of the integral at a place near the panel but below the surface, with its derivative.
+    fn below(
+        &self,
+        place: &impl Fn(T) -> Complex<T>,
+        on: Interval<T>,
+        width: T,
+    ) -> WithDerivative<T> {
+        let zero = Complex::new(T::zero(), T::zero());
+        let (one, half) = (Complex::new(T::one(), T::zero()), T::of(0.5));
+        let by_half = width / self.panel.half();
+        let [from, to] = self.panel.x;
+        let (s, series) = ((place(from) + place(to)) * (half * by_half), self.panel.coefficients());
+        // The numbers b and the polynomial, with their derivatives by s.
+        let ([mut b1, mut b2, mut c1, mut c2], mut smooth) = ([zero; 4], [zero; 2]);
+        for k in (1..series.len()).rev() {
+            let twice = s + s;
+            (c1, c2) = (twice * c1 + (b1 + b1) - c2, c1);
+            (b1, b2) = (twice * b1 + (one * series[k] - b2), b1);
+            smooth[0] += b1 * self.integrals[k - 1];
+            smooth[1] += c1 * self.integrals[k - 1];
+        }
+        let value = [s * b1 + (one * series[0] - b2), (b1 + s * c1 - c2) * by_half];
+        let smooth = [smooth[0] * width, smooth[1] * (width * by_half)];
+        let limits = [on.left, on.right].map(place);
+        let [a, b] = limits.map(sqrt);
+        let by_root = inverse(a) * inverse(b);
+        // Λ, and w/(ζ - t), at both ends.
+        let [from, to] = [from, to].map(|t| {
+            let root = |from: T, to: T| {
+                if to > from { ((to - from) / width).sqrt() } else { T::zero() }
+            };
+            let [to_left, to_right] = [root(on.left, t), root(t, on.right)];
+            let (m, n) = (a * to_right, b * to_left);
+            let log = ln(Complex::new(m.re + n.im, m.im - n.re));
+            [log + log - ln(place(t)), inverse(place(t)) * (to_left * to_right)]
+        });
+        let turn = to[0] - from[0];
+        let arc = Complex::new(turn.im, -turn.re) * by_root;
+        let bend = (inverse(limits[0]) + inverse(limits[1])) * half;
+        let by_arc = -(arc * bend) - (to[1] - from[1]) * by_root * by_root;
+        [smooth[0] + value[0] * arc, smooth[1] + value[1] * arc + value[0] * by_arc]
     }
 }
 

@@ -41,6 +41,7 @@ mod one_of_several;
 mod pressure;
 mod weight;
 
+use super::cauchy_transform::CauchyTransform;
 use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -166,6 +167,14 @@ impl<T: Real> Several<T> {
         let far = || (0..near.start).chain(near.end..self.count);
         let value = |x| self.outside(far(), x, None);
         DistantContacts::new(near.clone(), self.count, on, self.tolerance, value)
+    }
+
+    /// The Cauchy transform of the pressure for κ and F.
+    pub fn cauchy_transform(&self, kappa: T, load: T) -> CauchyTransform<T> {
+        let contacts = self.parts().iter().map(OneOfSeveral::in_plane).collect();
+        let (zeros, corners) = (self.weight.zeros().to_vec(), self.corners());
+        let (strengths, far_away, constant) = (Ends::both(T::zero()), T::zero(), self.constant);
+        CauchyTransform { contacts, zeros, corners, constant, strengths, far_away, kappa, load }
     }
 
     /// Whether the outermost limits are corners.

@@ -28,8 +28,8 @@ const FEW: usize = 8;
 pub(super) struct Group<T> {
     /// Their numbers.
     pub parts: Range<usize>,
-    /// The span in which they are to be looked at one by one.
-    near: [T; 2],
+    /// The sum of the distances from both ends up to which they are to be looked at one by one.
+    pub around: T,
     /// The left end and half the length.
     left: T,
     half: T,
@@ -53,16 +53,16 @@ pub(super) fn group<T: Real>(
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
     let (left, right) = (first.panel.x[0], last.panel.x[1]);
     let length = right - left;
-    let (mut near, mut tail) = ([left - length, right + length], T::zero());
+    let (mut around, mut tail) = (T::of(3.0) * length, T::zero());
     for part in within {
-        tail += part.panel.tail * (part.panel.half() + part.panel.half());
-        let [from, to] = part.reached();
-        near = [near[0].min(from), near[1].max(to)];
+        let own = part.panel.half() + part.panel.half();
+        tail += part.panel.tail * own;
+        around = around.max(part.around() + (length - own));
     }
     let half = T::of(0.5) * length;
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
     let (parts_of, next) = (numbers.clone(), number + 1);
-    groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
+    groups.push(Group { parts: parts_of, around, left, half, weights, tail, next });
     let mut sums = GroupMoments { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] };
     if numbers.len() <= FEW {
         for part in within {
@@ -125,9 +125,14 @@ impl<T: Real> Group<T> {
         std::array::from_fn(|m| self.half * T::of(1.0 + z[m]))
     }
 
-    /// Whether the parts are to be looked at one by one.
-    pub fn is_near(&self, x: T) -> bool {
-        x > self.near[0] && x < self.near[1]
+    /// Both ends.
+    pub fn ends(&self) -> [T; 2] {
+        [self.left, self.left + (self.half + self.half)]
+    }
+
+    /// The points that stand for it, by their distances from its left end, and its integral of g that each has.
+    pub fn charges(&self) -> impl Iterator<Item = [T; 2]> + use<'_, T> {
+        self.points().into_iter().zip(self.weights).map(|(along, weight)| [along, weight])
     }
 
     /// Whether it has no groups of its own.
@@ -137,8 +142,8 @@ impl<T: Real> Group<T> {
 
     /// What the errors of the panels make of the integral at most, but for the factor of dθ.
     pub fn doubt(&self, x: T) -> T {
-        let away = (self.left - x).max(x - (self.left + self.half + self.half));
-        self.tail / away
+        let [left, right] = self.ends();
+        self.tail / (left - x).max(x - right)
     }
 
     /// The cosine series of g, where the group is all of a contact, and its terms.

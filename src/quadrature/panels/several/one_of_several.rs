@@ -2,7 +2,7 @@
 
 use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
-use super::super::near_far_sum::NearFarSum;
+use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{Panel, Series, spans, within};
 use super::super::panel_set::{MOST_MISSED, PanelSet};
 use super::distant_contacts::DistantContacts;
@@ -188,7 +188,7 @@ impl<T: Real> OneOfSeveral<T> {
         let mut over = None;
         self.moments = edge_integrals::moments(&self.panels, on, false, &mut over);
         self.series = over.unwrap_or_else(|| {
-            self.far.set_seen_from_outside(&self.panels, on);
+            self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
         });
     }
@@ -225,6 +225,13 @@ impl<T: Real> OneOfSeveral<T> {
     /// The same at a place that is not next to this contact.
     pub fn seen_from(&self, x: T) -> T {
         self.outside(x, (self.on.left - x).max(x - self.on.right))
+    }
+
+    /// Its panels as seen from below the surface.
+    pub fn in_plane(&self) -> (Interval<T>, NearFarSum<T>) {
+        let mut sum = NearFarSum::new();
+        sum.set(&self.panels, self.on, Seen::Below);
+        (self.on, sum)
     }
 
     /// V at one end of the contact, without what is infinite there.
