@@ -8,6 +8,8 @@
 mod default;
 #[path = "embedding.rs"]
 mod embedding;
+#[path = "questions.rs"]
+mod questions;
 #[path = "several.rs"]
 mod several;
 
@@ -15,8 +17,9 @@ fn main() {
     match std::env::var("BENCH").as_deref() {
         Ok("default") => default::main(),
         Ok("embedding") => embedding::main(),
+        Ok("questions") => questions::main(),
         Ok("several") => several::main(),
         // `cargo bench` alone, which runs each of them by itself.
-        _ => println!("BENCH: give default, embedding or several"),
+        _ => println!("BENCH: give default, embedding, questions or several"),
     }
 }

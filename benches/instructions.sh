@@ -8,7 +8,7 @@
 # A compiler other than the one that the counts kept are of makes other counts: --check says so and compares
 # nothing.
 #
-# Each case of benches/embedding.rs, benches/several.rs and benches/default.rs, compiled as one in benches/counted.rs, is
+# Each case of benches/embedding.rs, several.rs, default.rs and questions.rs, compiled as one in benches/counted.rs, is
 # run few and many times, and the difference divided, so that neither starting up nor making the bodies counts.
 # Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
@@ -70,6 +70,19 @@ counts() {
             few=4 many=24
             less=$(instructions default repeat "$scene" "$case" "$few")
             more=$(instructions default repeat "$scene" "$case" "$many")
+            printf '\t%s' $(((more - less) / (many - few)))
+        done
+        echo
+    done
+
+    printf '\nscene\tready\tstress\tshear\tapproach\tby-approach\tcertify\n'
+    for scene in parabola circle example3 example4 wave; do
+        printf '%s' "$scene"
+        for case in ready stress shear approach by-approach certify; do
+            few=2 many=6
+            [ "$case" = shear ] && few=1 many=2
+            less=$(instructions questions repeat "$scene" "$case" "$few")
+            more=$(instructions questions repeat "$scene" "$case" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
         done
         echo

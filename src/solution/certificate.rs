@@ -26,7 +26,10 @@ use series_bounds::extremes;
 const MOST_EVALUATIONS: usize = 1 << 20;
 
 /// The share of the bodies' range that a cell may be long, and have no fewer than eight nodes.
-const SHARE: f64 = 1.0 / 4096.0;
+const SHARE: f64 = 1.0 / 400.0;
+
+/// The length of a cell in widths of the narrowest feature that is sure to be seen in it.
+const WIDTHS: f64 = 4.0;
 
 /// Points at which the pressure of one of several contacts is summed up.
 const POINTS: usize = 512;
@@ -64,7 +67,8 @@ pub struct Certificate<T> {
     /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
     /// contacts has but one largest value.
     pub gap: Option<Extremum<T>>,
-    /// The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
+    /// The longest cell, a length: a feature at least a quarter as wide cannot have passed unseen. A 400th of the bodies,
+    /// or four times the [resolution](crate::Contact::resolution) if that is shorter.
     pub spacing: T,
     /// What it has cost.
     pub cost: Cost,
@@ -97,7 +101,9 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     let within = |on: &Interval<T>| Interval { left: on.left.max(from), right: on.right.min(to) };
     let contacts: Vec<_> = solved.contacts().iter().map(within).collect();
 
-    let mut cells = Cells::new(gap, (ends.right - ends.left) * T::of(SHARE));
+    let by_default = (ends.right - ends.left) * T::of(SHARE);
+    let spacing = gap.resolution().map_or(by_default, |w| by_default.min(T::of(WIDTHS) * w));
+    let mut cells = Cells::new(gap, spacing);
     let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());
     for (i, on) in contacts.iter().enumerate() {
         let row = cells.over(&cells.places(on.left, on.right, on.half_width()))?;

@@ -66,7 +66,7 @@ fn a_certificate_in_a_line() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let certificate = contact.solve(Control::Load(0.02)).unwrap().certify().unwrap();
     let text = certificate.to_string();
-    assert!(text.starts_with("no tension, no overlap, in cells of 4.88281e-4: "), "{text}");
+    assert!(text.starts_with("no tension, no overlap, in cells of 0.005: "), "{text}");
     assert!(text.ends_with(&certificate.cost.to_string()));
 }
 

@@ -524,6 +524,30 @@ fn waves_touch_as_bodies_do() {
     tally.finish();
 }
 
+/// A right answer is certified, at whatever load.
+#[test]
+fn waves_are_certified() {
+    let (mut evaluations, mut most, mut refused) = (0, 0, Vec::new());
+    let seeds = scenes(100);
+    for seed in seeds.clone() {
+        let scene = Wavy::new(&mut Dice::new(seed));
+        let body = scene.body(1.0);
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(scene.kappa);
+        let solution = contact.solve(Control::Load(scene.kappa * scene.load)).unwrap();
+        match solution.certify() {
+            Ok(certificate) => {
+                let cost = certificate.cost;
+                evaluations += cost.evaluations.max(cost.samples);
+                most = most.max(cost.evaluations.max(cost.samples));
+            }
+            Err(error) => refused.push(format!("{seed}: {error}")),
+        }
+    }
+    let mean = evaluations / (seeds.end - seeds.start) as usize;
+    println!("{mean} evaluations a certificate, {most} at most; refused {refused:#?}");
+    assert!(refused.is_empty());
+}
+
 /// Points measured on a parabola from -1 to 1.
 struct Measured {
     name: String,

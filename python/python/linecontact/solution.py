@@ -132,7 +132,8 @@ class Certificate(NamedTuple):
     gap : Extremum or None
         The least gap where the bodies approach each other again: a length. None where they do not.
     spacing : float
-        The longest cell, a length: what is a quarter as wide, or more, cannot have passed unseen.
+        The longest cell, a length: a feature at least a quarter as wide cannot have passed unseen. A 400th of the
+        bodies, or four times the resolution of the contact if that is shorter.
     cost : Cost
         What it has taken.
     """

@@ -7,7 +7,7 @@
 //! stops growing.
 
 use super::cells::Cells;
-use super::series_bounds::{above, below, integral, least, truncation_error};
+use super::series_bounds::{above, below, extremes, integral, least, truncation_error};
 use super::{ContactState, Extremum, nearer, undecided};
 use crate::gap::Cost;
 use crate::numerics::chebyshev::Table;
@@ -21,6 +21,9 @@ const NODES: usize = 24;
 const MOST_LEVELS: usize = 40;
 /// Those cells on one side.
 const MOST_CELLS: usize = 1 << 16;
+
+/// The share of the rise at the largest slope from which on cells resolve nothing.
+const VAGUE: f64 = 1e-2;
 
 /// Contacts under load.
 pub(super) struct Loaded<'c, T: Real> {
@@ -102,8 +105,15 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         if self.side == Side::Left {
             row.panels.reverse();
         }
-        let mut left_out = T::zero();
-        row.panels.iter().try_for_each(|panel| self.take(panel, &mut left_out, cells.cost()))
+        let (mut left_out, [least, most]) = (T::zero(), extremes(&row.panels));
+        let vague = T::of(VAGUE) * most.max(-least);
+        for panel in &row.panels {
+            self.take(panel, &mut left_out, cells.cost())?;
+            if left_out > vague * self.distance(panel.x[0]).max(self.distance(panel.x[1])) {
+                return Err(undecided(panel.x[0], cells.cost()));
+            }
+        }
+        Ok(())
     }
 
     /// The next panel outward.
