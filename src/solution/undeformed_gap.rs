@@ -13,7 +13,7 @@ use super::pressure_integral::add;
 use super::solved::Solved;
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
+use crate::search::{Bracket, Brent, SearchError, StoppingCriteria, TryFindError, try_find};
 use crate::{ContactError, Interval, Real};
 
 /// Spans of θ beyond those between the breakpoints before an integral is given up.
@@ -99,7 +99,10 @@ impl<T: Real> Slopes<'_, T> {
             return Ok(());
         }
         let bracket = Bracket::new(from, to).values(falls, rises);
-        let lowest = match try_find(&Brent::DEFAULT, |x| self.at(x), &bracket) {
+        // The height is off by the square of the slope that is left.
+        let residual = (T::epsilon().sqrt() * (rises - falls)).to_subset_unchecked();
+        let brent = Brent { tolerance: StoppingCriteria { residual, ..StoppingCriteria::FULL } };
+        let lowest = match try_find(&brent, |x| self.at(x), &bracket) {
             Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => root.x,
             Err(TryFindError::Function(error)) => return Err(error),
             // A bracket of two neighbouring numbers: either will do.

@@ -169,6 +169,39 @@ impl<T: Real> CauchyTransform<T> {
         [pull + more - self.far_away, (slope + steeper) * y]
     }
 
+    /// Returns `∫ P ln|ζ - s| ds` of a single contact, unless ζ is too near for Gauss's rule on its panels. With the
+    /// Joukowski variable u, |u| < 1, it is the real part of
+    ///
+    /// ```text
+    /// F ln(L/(2 u)) + L (κ/π ∫ g (i sin θ ln((1 - u exp(iθ))/(1 - u exp(-iθ))) - u) dθ - π/2 (K_a - K_b) u)
+    /// ```
+    ///
+    /// which is the integral of W.
+    pub fn potential(&self, x: T, depth: T) -> Option<T> {
+        let [(on, sum)] = &self.contacts[..] else { return None };
+        if self.corners != Ends::both(false) {
+            return None;
+        }
+        let (half, half_width) = (T::of(0.5), on.half_width());
+        let place = |t: T| Complex::new(x - t, depth) * (half / half_width);
+        let [left, right] = [place(on.left), place(on.right)];
+        let u = inverse(left + right + sqrt(left) * sqrt(right) * T::of(2.0));
+        let mut total = Complex::new(T::zero(), T::zero());
+        for [s, weighted] in
+            sum.nodes_seen_from(|t| length(place(t)) * (half_width + half_width))?
+        {
+            let sine = on.chebyshev_weight(s) / half_width;
+            let turn = Complex::new((s - on.centre()) / half_width, sine);
+            let [one, other] = [turn, turn.conj()].map(|turn| -(u * turn) + T::one());
+            let log = ln(one * inverse(other));
+            total += (Complex::new(-log.im, log.re) * sine - u) * weighted;
+        }
+        let Ends { left, right } = self.strengths;
+        let regular =
+            total.re * self.kappa * T::frac_1_pi() - T::frac_pi_2() * (right - left) * u.re;
+        Some(self.load * (half * half_width / length(u)).ln() + half_width * regular)
+    }
+
     /// The part of given strengths, by the distances from both limits.
     fn of_strengths(&self, limits: [Complex<T>; 2]) -> WithDerivative<T> {
         let Ends { left, right } = self.strengths;

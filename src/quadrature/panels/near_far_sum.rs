@@ -73,6 +73,21 @@ impl<T: Real> NearFarSum<T> {
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
+    /// Lists the nodes of all panels with the slope there times the weight; nothing where a point, given its distances
+    /// from others, is near to a panel.
+    pub fn nodes_seen_from(&self, distance: impl Fn(T) -> T) -> Option<Vec<[T; 2]>> {
+        let mut nodes = Vec::with_capacity(self.nodes.len());
+        for part in &self.parts {
+            let [from, to] = part.panel.x;
+            if distance(from) + distance(to) <= part.around() {
+                return None;
+            }
+            let own = &self.nodes[part.nodes.clone()];
+            nodes.extend(own.iter().map(|&[along, weighted]| [from + along, weighted]));
+        }
+        Some(nodes)
+    }
+
     /// The cosine series of all panels, as far as groups know it.
     pub fn cosines(&self) -> (Row<T>, usize) {
         self.groups.first().map_or(([T::zero(); MOST], 0), Group::cosines)
