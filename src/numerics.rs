@@ -1,4 +1,4 @@
-//! Mathematics without contact.
+//! Numerical methods that know nothing of contact.
 
 pub(crate) mod chebyshev;
 mod compensated_sum;
@@ -11,7 +11,7 @@ pub(crate) use linear_system::LinearSystem;
 
 use crate::Real;
 
-/// `Σ a b`, in four sums that a machine can add up at once.
+/// Returns `Σ a b`, in four sums that a machine can add up at once.
 pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sums = [T::zero(); 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));

@@ -1,4 +1,4 @@
-//! From the slope of the gap to edge strengths and pressure.
+//! Edge strengths and pressure from the slope of the gap.
 //!
 //! With κ = 1 and `g` the slope of the gap, a contact `[-b, a]` of half-width `L` and centre
 //! `c` carries, for every pair of edge conditions,
@@ -17,8 +17,8 @@
 //! ```
 //!
 //! A [`Quadrature`] provides `m₀`, `m₁` and the pressure. It knows a gap, but neither profiles nor
-//! how limits are found. There are two: [`Panels`], the default, and the paper's rule,
-//! [`Midpoint`]. They share no code, and either checks the other.
+//! the search for limits. There are two: [`Panels`], the default, and the paper's rule,
+//! [`Midpoint`]. They share no code, and each checks the other.
 
 mod midpoint;
 pub(crate) mod panels;
@@ -31,13 +31,13 @@ use crate::{ContactError, Ends, Interval, Real};
 use panels::PanelIntegrator;
 use std::any::Any;
 
-/// How many times the budget of a search may be spent where no samples are kept.
+/// Factor on the budget of a search whose quadrature keeps no samples.
 const UNKEPT: usize = 16;
 
-/// How often in one search all may be sampled for a pressure.
+/// Number of times, beyond its budget, that a search may take all samples for a pressure.
 const MOST_PRESSURES: usize = 4096;
 
-/// Samples what is still missing for the pressure, as part of a search that has cost so much.
+/// Takes the samples still missing for the pressure, as part of a search that has spent `cost`.
 pub(crate) fn complete<T: Real>(
     integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
@@ -50,37 +50,40 @@ pub(crate) fn complete<T: Real>(
     if pressures > 0 { gap.check_budget(*cost, UNKEPT, pressures, on) } else { Ok(()) }
 }
 
-/// A way to integrate the slope of a gap.
+/// Method to integrate the slope of a gap.
 pub trait Quadrature<T: Real>: Send + Sync {
-    /// Sets it up for work.
+    /// Creates an integrator with these settings.
     ///
     /// # Errors
-    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for settings that cannot be used.
+    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for settings that
+    /// cannot be used.
     fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>>;
 
-    /// Whether an integrator is one of this quadrature, with these settings, so that a
-    /// [`Solver`](crate::Solver) may go on with it. By default none is, and each solve takes a new one.
+    /// Tells whether an integrator belongs to this quadrature with these settings, so that a
+    /// [`Solver`](crate::Solver) may reuse it. By default none does, and each solve creates a new
+    /// one.
     ///
-    /// An integrator is known by its type: `(integrator as &dyn Any).downcast_ref::<MyIntegrator>()`.
+    /// An integrator is recognised by its type:
+    /// `(integrator as &dyn Any).downcast_ref::<MyIntegrator>()`.
     fn serves(&self, _integrator: &dyn Integrator<T>) -> bool {
         false
     }
 }
 
-/// A [`Quadrature`] at work. It holds numbers only, is handed the gap with each request, and may
-/// keep samples from one to the next.
+/// A [`Quadrature`] at work. It holds numbers only, receives the gap with each request, and may
+/// keep samples from one request to the next.
 pub trait Integrator<T: Real>: Any + Send + Sync {
-    /// A copy, with all that this one has: for a solver that goes on while a solution is kept.
+    /// Copies the integrator with all its numbers: a solver goes on while a solution is kept.
     fn fork(&self) -> Box<dyn Integrator<T>>;
 
-    /// What follows is a new problem: costs are counted from zero, and unless the bodies are the
-    /// same all samples are forgotten.
+    /// Starts a new problem: counts costs from zero and, unless the bodies are the same, forgets
+    /// all samples.
     fn reset(&mut self, same_bodies: bool);
 
-    /// Takes samples over a span of x in which the contact is expected, in place of those that
-    /// it has: as many as it takes, or (`coarse`) only a few, for a first estimate of the limits.
-    /// Returns about how large an error of the slope is left, as a fraction of it; `None` (the
-    /// default) says that this integrator samples each interval as it comes.
+    /// Takes samples over a span of x in which the contact is expected, in place of earlier ones:
+    /// in full or, if `coarse`, only a few for a first estimate of the limits. Returns the
+    /// approximate error left in the slope, as a fraction of the slope. `None` (the default) means
+    /// that this integrator samples each interval on request.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -93,21 +96,22 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         Ok(None)
     }
 
-    /// Announces prescribed limits, at -b and at a, before samples are taken up to there: what the bodies do
+    /// Announces prescribed limits, at -b and at a, before samples are taken up to there: a feature
     /// between the last sample and such a limit would go unseen. Default: no-op.
     fn prescribe_limits(&mut self, _gap: &Gap<'_, T>, _limits: Ends<Option<T>>) {}
 
-    /// The interval over which samples are at hand. `None` (the default) if none are kept.
+    /// Returns the interval over which samples are at hand; `None` (the default) if none are kept.
     fn sampled_interval(&self) -> Option<Interval<T>> {
         None
     }
 
-    /// The slope of the gap at `x` by the samples at hand; `None` (the default) without any.
+    /// Returns the slope of the gap at `x` from the samples at hand; `None` (the default) without
+    /// any.
     fn slope(&self, _x: T) -> Option<T> {
         None
     }
 
-    /// The error that [`slope`](Self::slope) may have there.
+    /// Returns the uncertainty of [`slope`](Self::slope) at a point.
     fn doubt(&self, _x: T) -> Option<T> {
         None
     }
@@ -115,7 +119,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     /// Forgets the samples, but not the cost.
     fn clear_samples(&mut self) {}
 
-    /// The edge integrals over an interval.
+    /// Returns the edge integrals over an interval.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -128,8 +132,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     /// Those of sampling the gap.
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>>;
 
-    /// Samples what is still missing for the pressure, and returns what that has cost: by default
-    /// nothing is.
+    /// Takes the samples still missing for the pressure, and returns their cost. Default: no-op.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -137,8 +140,8 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         Ok(Cost::default())
     }
 
-    /// The pressure at a point strictly inside the interval last prepared and completed, with an estimate of what
-    /// the quadrature leaves open of it, adding to `cost` what it takes.
+    /// Returns the pressure at a point strictly inside the interval last prepared and completed,
+    /// with an estimate of the quadrature's error, and adds its cost to `cost`.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -150,7 +153,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         cost: &mut Cost,
     ) -> Result<Estimate<T>, ContactError<T>>;
 
-    /// The pressure at any number of points. By default one by one.
+    /// Computes the pressure at any number of points, by default one by one.
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate).
@@ -168,10 +171,10 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         Ok(())
     }
 
-    /// What the work has cost since the last [`reset`](Self::reset).
+    /// Returns the cost of the work since the last [`reset`](Self::reset).
     fn cost(&self) -> Cost;
 
-    /// The panels that it works on, if it does: they know of several contacts.
+    /// Returns the panels, if the integrator works on them: they know of several contacts.
     #[doc(hidden)]
     fn panels(&self) -> Option<&PanelIntegrator<T>> {
         None
@@ -182,25 +185,25 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         None
     }
 
-    /// The paper's rule, if it is at work.
+    /// Returns the paper's rule, if it is at work.
     #[doc(hidden)]
     fn midpoint(&self) -> Option<&Midpoint> {
         None
     }
 }
 
-/// What presses on a contact, and what is known of its edges.
+/// Load on a contact, and the conditions at its edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadCase<T> {
-    /// The scale κ, a pressure.
+    /// Scale κ, a pressure.
     pub kappa: T,
     /// Load per unit length F.
     pub load: T,
-    /// Whether the edges are free: `K_b` and `K_a` vanish there.
+    /// True at a free edge: `K_b` or `K_a` vanishes there.
     pub free: Ends<bool>,
 }
 
-/// A value and how far it can be trusted.
+/// Value with its estimated error.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -224,34 +227,34 @@ pub struct Estimate<T> {
 }
 
 impl<T: Real> Estimate<T> {
-    /// Whether the error is at most a third of the value.
+    /// Tells whether the error is at most a third of the value.
     pub(crate) fn is_resolved(&self) -> bool {
         T::of(3.0) * self.error <= self.value.abs()
     }
 }
 
-/// The integrals of the gap slope that decide on the edges of a contact.
+/// Integrals of the gap slope that determine the strengths at the edges of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments<T> {
     /// `m₀ = (1/π) ∫ g dθ`, zero where the two edges are equally strong.
     pub m0: T,
     /// `m₁ = (1/π) ∫ g cos θ dθ`; `L m₁` is the load of a contact with two free edges.
     pub m1: T,
-    /// `m₂ = (1/π) ∫ g cos 2θ dθ`, where that is known: the moment of the pressure about the centre is
+    /// `m₂ = (1/π) ∫ g cos 2θ dθ`, where known: the moment of the pressure about the centre is
     /// `κ L² (m₂ - m₀)/2`.
     pub m2: Option<T>,
-    /// `(1/π) ∫ |g| dθ`, against which the rounding of the other two is measured.
+    /// `(1/π) ∫ |g| dθ`, the scale for the rounding of `m₀` and `m₁`.
     pub l1_norm: T,
-    /// Estimated error of the first two.
+    /// Estimated error of `m₀` and `m₁`.
     pub error: T,
-    /// The largest `|X(k) - x|` that the inversions have left; a length.
+    /// Largest `|X(k) - x|` left by the inversions; a length.
     pub inversion: T,
-    /// How they change with the limits, where that is known.
+    /// Derivatives with respect to the limits, where known.
     pub derivatives: Option<MomentDerivatives<T>>,
 }
 
-/// `(1/π) ∫ g'(x) cosⁱθ dθ`: with centre c and half-width L, `∂m₀/∂c` is the first, `∂m₀/∂L` and
-/// `∂m₁/∂c` are the second, and `∂m₁/∂L` is the third.
+/// Integrals `(1/π) ∫ g'(x) cosⁱθ dθ`. With centre c and half-width L, `∂m₀/∂c` is the first,
+/// `∂m₀/∂L` and `∂m₁/∂c` are the second, and `∂m₁/∂L` is the third.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentDerivatives<T> {
     /// i = 0.

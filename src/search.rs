@@ -1,15 +1,15 @@
 //! Searches for the root of one function of one variable.
 //!
-//! The solver meets two such problems, and takes any [`LimitSearch`] for either:
-//! inverting `X(k) = x` on a profile, and adjusting the limits `a` and `b` until the
-//! conditions at the edges hold.
+//! The solver meets two such problems, and takes any [`LimitSearch`] for either: inverting
+//! `X(k) = x` on a profile, and adjusting the limits `a` and `b` until the conditions at the edges
+//! hold.
 //!
-//! | strategy | wants | evaluations, smooth function | hard ones |
+//! | strategy | needs | evaluations, smooth function | hard ones |
 //! |---|---|---|---|
 //! | [`Bisection`] | a sign change | 50 to 60, one for each bit | the same |
 //! | [`Secant`] | a sign change | 7 to 10 | 20 to 60 |
 //! | [`Brent`] | a sign change | 7 to 10 | 20 to 50 |
-//! | [`Newton`] | a sign change and, where it is at hand, the slope | 5 to 7; 2 to 3 from a close guess | 10 to 60 |
+//! | [`Newton`] | a sign change; the slope helps | 5 to 7; 2 to 3 from a close guess | 10 to 60 |
 //!
 //! (From a wide bracket to all digits; `cargo run --release --example compare_searches` counts
 //! them on the curves of this field.)
@@ -18,7 +18,7 @@
 //! bracket. None compares with an absolute number unless told to: multiplying `x` and `f`
 //! by powers of two gives the same iterates, bit for bit, and the same counts.
 
-/// A strategy that is told no more than when to stop.
+/// Strategy whose only settings are its stopping criteria.
 macro_rules! strategy {
     ($(#[$documentation:meta])* $name:ident) => {
         $(#[$documentation])*
@@ -26,12 +26,12 @@ macro_rules! strategy {
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
         pub struct $name {
-            /// When to stop.
+            /// Stopping criteria.
             pub tolerance: StoppingCriteria,
         }
 
         impl $name {
-            /// All digits.
+            /// All digits of the number type.
             pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
         }
     };
@@ -52,7 +52,7 @@ use crate::Real;
 use crate::rounded::{apart, six};
 use thiserror::Error;
 
-/// A strategy that finds where a function is zero.
+/// Strategy that finds a zero of a function.
 ///
 /// Usable as a trait object, so that strategies can sit side by side in one array:
 ///
@@ -70,11 +70,11 @@ use thiserror::Error;
 ///
 /// Implement [`find`](Self::find) for a strategy of your own; override
 /// [`find_with_slope`](Self::find_with_slope) if it can use the derivative. The solver relies on
-/// this much: the root lies in the bracket; it is a point that was evaluated (the inversion takes
-/// `Root::x`, and is cheaper if it is the last one; the search for the limits takes the best of
-/// the contacts tried); a value that is not finite ends the search with an error. How closely the
-/// root was found shows in the solution's error estimate; a solution that leaves much open is not
-/// said to be checked ([`Outcome::Doubtful`](crate::Outcome::Doubtful)).
+/// three properties: the root lies in the bracket; it is a point that was evaluated (the inversion
+/// takes `Root::x`, and is cheaper if it is the last one; the search for the limits takes the best
+/// of the contacts tried); a value that is not finite ends the search with an error. The accuracy
+/// of the root shows in the solution's error estimate; a solution with a large error is not
+/// reported as checked ([`Outcome::Doubtful`](crate::Outcome::Doubtful)).
 pub trait LimitSearch<T: Real>: Send + Sync {
     /// Finds a zero of `f` in the bracket.
     ///
@@ -86,8 +86,8 @@ pub trait LimitSearch<T: Real>: Send + Sync {
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>>;
 
-    /// The same, for a function that returns its value and its slope together. A strategy
-    /// that has no use for the slope need not implement this.
+    /// Finds a zero of a function that returns its value and its slope together. A strategy that
+    /// has no use for the slope need not implement this.
     ///
     /// # Errors
     /// As [`find`](Self::find).
@@ -100,7 +100,7 @@ pub trait LimitSearch<T: Real>: Send + Sync {
     }
 }
 
-/// An interval over which a function changes its sign, with what is known beforehand.
+/// Interval over which a function changes its sign, with known values and a guess.
 ///
 /// ```
 /// use linecontact::search::{Bracket, LimitSearch, Newton};
@@ -116,46 +116,46 @@ pub struct Bracket<T> {
     pub lo: T,
     /// Upper end.
     pub hi: T,
-    /// The function at `lo` and `hi`, where they are known: two evaluations saved. They are
-    /// believed.
+    /// Values of the function at `lo` and `hi`, if they are known; this saves two evaluations. They
+    /// are taken on trust.
     pub values: Option<[T; 2]>,
-    /// Where to look first. Ignored unless it lies inside.
+    /// Point to evaluate first. Ignored unless it lies inside.
     pub guess: Option<T>,
 }
 
 impl<T: Real> Bracket<T> {
-    /// The bracket from `lo` to `hi`, about which nothing else is known.
+    /// Returns the bracket from `lo` to `hi`, with nothing else known.
     pub fn new(lo: T, hi: T) -> Self {
         Self { lo, hi, values: None, guess: None }
     }
 
-    /// With the values of the function at `lo` and `hi`.
+    /// Adds the values of the function at `lo` and `hi`.
     #[must_use]
     pub fn values(self, at_lo: T, at_hi: T) -> Self {
         Self { values: Some([at_lo, at_hi]), ..self }
     }
 
-    /// With a first guess.
+    /// Adds a first guess.
     #[must_use]
     pub fn guess(self, x: T) -> Self {
         Self { guess: Some(x), ..self }
     }
 }
 
-/// What a search found.
+/// Result of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root<T> {
-    /// The point with the smallest value of the function met.
+    /// Point with the smallest value of the function found.
     pub x: T,
-    /// The function at `x`.
+    /// Value of the function at `x`.
     pub residual: T,
-    /// The tightest sign change seen; both ends are `x` where the function is zero.
+    /// Tightest sign change seen; both ends are `x` if the function is zero there.
     pub bracket: [T; 2],
-    /// How often the function was evaluated.
+    /// Number of evaluations of the function.
     pub evaluations: usize,
 }
 
-/// When a search stops. The default asks for all that the number type can give.
+/// Criteria that end a search. The default asks for full accuracy of the number type.
 ///
 /// ```
 /// use linecontact::search::{Bisection, Bracket, LimitSearch, StoppingCriteria};
@@ -171,29 +171,29 @@ pub struct Root<T> {
 pub struct StoppingCriteria {
     /// Largest error of `x`, in the unit of `x`. Default 0: no absolute scale.
     pub absolute: f64,
-    /// Largest error of `x` as a fraction of `|x|`. Never taken below four units in the
-    /// last place of the number type, which is what the default 0 stands for.
+    /// Largest error of `x` as a fraction of `|x|`. Never taken below four units in the last place
+    /// of the number type; the default 0 stands for these.
     pub relative: f64,
-    /// A point with `|f(x)|` up to this counts as the root. Default 0: no such test.
+    /// Largest `|f(x)|` at which a point counts as the root. Default 0: no such test.
     pub residual: f64,
-    /// Evaluations of the function after which the search gives up (the ends of the bracket,
-    /// where their values are not known, are looked at in any case). Default 2200, which
-    /// is what bisection needs at worst to reach any `f64` from any bracket.
+    /// Number of evaluations of the function after which the search gives up (the ends of the
+    /// bracket are evaluated in any case, unless their values are known). Default 2200, which
+    /// bisection needs at worst to reach any `f64` from any bracket.
     pub max_evaluations: usize,
 }
 
 impl StoppingCriteria {
-    /// All that the number type can give.
+    /// Full accuracy of the number type.
     pub const FULL: Self =
         Self { absolute: 0.0, relative: 0.0, residual: 0.0, max_evaluations: 2200 };
 
-    /// A relative error of `x`, the rest as by default.
+    /// Returns criteria with a relative error of `x`, and defaults otherwise.
     #[must_use]
     pub const fn relative(relative: f64) -> Self {
         Self { relative, ..Self::FULL }
     }
 
-    /// The error allowed in a root of about the size of `x`.
+    /// Returns the error allowed in a root of about the size of `x`.
     fn width<T: Real>(&self, x: T) -> T {
         let relative = T::of(self.relative).max(T::of(4.0) * T::epsilon());
         T::of(self.absolute).max(relative * x.abs())
@@ -215,7 +215,7 @@ impl Default for StoppingCriteria {
     }
 }
 
-/// Why a search found no root.
+/// Reason why a search found no root.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SearchError<T: Real> {
@@ -247,9 +247,9 @@ pub enum SearchError<T: Real> {
         "the function is {} at {}; it must be finite on the whole bracket", six(*value), six(*x)
     )]
     NotFinite {
-        /// Where.
+        /// Point of the evaluation.
         x: T,
-        /// What it returned.
+        /// Value returned.
         value: T,
     },
     /// The evaluations ran out.
@@ -260,16 +260,16 @@ pub enum SearchError<T: Real> {
         apart(best.bracket[1], &[best.bracket[0]])
     )]
     Budget {
-        /// The best point so far.
+        /// Best point so far.
         best: Root<T>,
     },
-    /// A strategy has looked at, or returned, a point that is not in the bracket it was given.
+    /// A strategy has evaluated, or returned, a point outside the bracket it was given.
     #[error(
         "the strategy went to {}, which is not in the bracket [{}, {}]: it must stay there",
         apart(*x, &[*lo, *hi]), apart(*lo, &[*x, *hi]), apart(*hi, &[*x, *lo])
     )]
     LeftBracket {
-        /// Where it went.
+        /// Point outside the bracket.
         x: T,
         /// Lower end of the bracket.
         lo: T,
@@ -282,9 +282,9 @@ pub enum SearchError<T: Real> {
          write the function so that no large terms cancel", x = six(*x), residual = six(*residual)
     )]
     NotConverged {
-        /// What it returned.
+        /// Point returned.
         x: T,
-        /// The function there.
+        /// Value of the function there.
         residual: T,
     },
     /// A tolerance is negative, NaN or infinite.

@@ -11,12 +11,12 @@ use crate::real::fma;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// The numbers of nodes in use.
+/// Numbers of nodes in use, multiples of four for the sake of vector instructions.
 pub(crate) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
-/// The largest of them.
+/// Largest of the [`SIZES`].
 pub(crate) const MOST: usize = 32;
 
-/// A call for one of the [`SIZES`], with the number of nodes known to the compiler.
+/// Calls an expression for one of the [`SIZES`], with the number of nodes known to the compiler.
 macro_rules! by_size {
     ($n:expr, $size:ident => $call:expr) => {
         by_size!(@ $n, $size, $call, 4 8 12 16 24)
@@ -36,30 +36,30 @@ macro_rules! by_size {
 }
 pub(crate) use by_size;
 
-/// Coefficients or values, as many as the panel has nodes.
+/// Coefficients or values of a panel, one for each of its nodes.
 pub(crate) type Row<T> = [T; MOST];
 
-/// The zeros of `T_n`, and the transform from values there to coefficients.
+/// Zeros of `T_n`, and the transform from values there to coefficients.
 #[derive(Default)]
 pub(crate) struct Table {
-    /// The nodes, rising, and `sin θ` there.
+    /// Nodes, rising, and `sin θ` there.
     pub z: [f64; MOST],
     pub sine: [f64; MOST],
-    /// From each node the distance to the nearest other.
+    /// Distance from each node to the nearest other.
     pub spacing: [f64; MOST],
-    /// `transform[j][k]`: the share of the value at node j in coefficient k.
+    /// Share of the value at node j in coefficient k, as `transform[j][k]`.
     transform: [[f64; MOST]; MOST],
-    /// The share of the value at node j in that at the right end.
+    /// Share of the value at node j in the value at the right end.
     at_end: [f64; MOST],
-    /// The share of the value at node j in the integrals from the first node to a [middle](middle) one, and from
-    /// there to the last.
+    /// Share of the value at node j in the integrals from the first node to a [middle](middle) one,
+    /// and from there to the last.
     in_rises: [[f64; MOST]; 2],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
 static COARSE: LazyLock<Table> = LazyLock::new(Table::with_ends);
 
-/// The number of the middle one of so many nodes, or of that on its right.
+/// Returns the number of the middle one of n nodes, or of the node to the right of the middle.
 pub(crate) fn middle(n: usize) -> usize {
     n / 2
 }
@@ -78,7 +78,8 @@ impl Table {
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
         }
-        // 2 ∫ T_k dz = cos((k+1) θ)/(k+1) - cos((k-1) θ)/(k-1), with z = cos θ at node n - 1 - j for θ = (2j + 1) π/2n.
+        // 2 ∫ T_k dz = cos((k+1) θ)/(k+1) - cos((k-1) θ)/(k-1), with z = cos θ at node n - 1 - j
+        // for θ = (2j + 1) π/2n.
         let cosine = |k: usize, j: usize| angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
         let primitive = |k: usize, j: usize| match k {
             0 => cosine(1, j),
@@ -104,7 +105,7 @@ impl Table {
         }
     }
 
-    /// Four nodes, two of them at the ends.
+    /// Returns the table of four nodes, two of them at the ends.
     fn with_ends() -> Self {
         let mut table = Self::default();
         table.z[..4].copy_from_slice(&[-1.0, -0.5, 0.5, 1.0]);
@@ -119,13 +120,13 @@ impl Table {
         table
     }
 
-    /// The table for a first estimate. With its ends among the nodes, a panel beside a breakpoint is good where it
-    /// matters however long it is.
+    /// Returns the table for a first estimate. Its nodes include the ends, so that a panel next to
+    /// a breakpoint is accurate where it matters, however long it is.
     pub fn coarse() -> &'static Self {
         &COARSE
     }
 
-    /// The table for one of the [`SIZES`].
+    /// Returns the table for one of the [`SIZES`].
     pub fn of(n: usize) -> &'static Self {
         &TABLES[match n {
             4 => 0,
@@ -137,7 +138,7 @@ impl Table {
         }]
     }
 
-    /// The share of each node in a sum of coefficients, each times a number.
+    /// Returns the share of each node in a sum of coefficients, each times a number.
     pub fn shares<const N: usize, T: Real>(&self, numbers: &[T; N]) -> [T; N] {
         std::array::from_fn(|j| {
             let row = self.transform[j][..N].iter().zip(numbers);
@@ -145,7 +146,7 @@ impl Table {
         })
     }
 
-    /// The polynomial with these values at the nodes, at its left and at its right end.
+    /// Returns the polynomial with these values at the nodes, at its left and at its right end.
     pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
         let [mut left, mut right] = [T::zero(); 2];
         for j in 0..N {
@@ -155,8 +156,8 @@ impl Table {
         [left, right]
     }
 
-    /// The integrals of the polynomial with these values at the nodes, from the first node to a [middle](middle)
-    /// one, and from there to the last.
+    /// Returns the integrals of the polynomial with these values at the nodes, from the first node
+    /// to a [middle](middle) one, and from there to the last.
     pub fn rises<T: Real>(&self, values: &[T]) -> [T; 2] {
         let [mut first, mut second] = [T::zero(); 2];
         for ((&value, &one), &other) in values.iter().zip(&self.in_rises[0]).zip(&self.in_rises[1])
@@ -167,7 +168,7 @@ impl Table {
         [first, second]
     }
 
-    /// The larger of the last two coefficients, after that of the two before.
+    /// Returns the larger of the last two coefficients, after the larger of the two before.
     pub fn last_pairs<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
         let mut last = [T::zero(); 4];
         for (row, &value) in self.transform.iter().zip(values) {
@@ -179,7 +180,7 @@ impl Table {
         [a.max(b), c.max(d)]
     }
 
-    /// The coefficients of the polynomial with given values at the nodes.
+    /// Returns the coefficients of the polynomial with given values at the nodes.
     #[inline(always)]
     pub fn coefficients<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; N] {
         let mut row = [T::zero(); N];
@@ -192,7 +193,7 @@ impl Table {
     }
 }
 
-/// The polynomial and its derivative at W points (Clenshaw).
+/// Returns the polynomial and its derivative at W points (Clenshaw).
 #[inline(always)]
 pub(crate) fn evaluate<const W: usize, T: Real>(
     coefficients: &[T],
@@ -214,20 +215,20 @@ pub(crate) fn evaluate<const W: usize, T: Real>(
     (value, slope)
 }
 
-/// The polynomial at W points.
+/// Returns the polynomial at W points.
 #[inline(always)]
 pub(crate) fn values<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
     let [b1, b2] = recurrence(&coefficients[1..], s);
     std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]))
 }
 
-/// `Σ c_k U_k` at W points, U_k being the Chebyshev polynomials of the second kind.
+/// Returns `Σ c_k U_k` at W points, with the Chebyshev polynomials `U_k` of the second kind.
 #[inline(always)]
 pub(crate) fn second_kind<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
     recurrence(coefficients, s)[0]
 }
 
-/// The last two numbers of Clenshaw's recurrence, the later one first.
+/// Returns the last two numbers of Clenshaw's recurrence, the later one first.
 #[inline(always)]
 fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W]; 2] {
     let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
@@ -241,44 +242,44 @@ fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W
     [b1, b2]
 }
 
-/// The polynomial at one point.
+/// Returns the polynomial at one point.
 pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
 }
 
-/// Coefficients treated together; [`MOST`] is a multiple of it.
+/// Number of coefficients treated together; [`MOST`] is a multiple of it.
 const ABREAST: usize = 4;
 
-/// The coefficients of the same polynomial on the range from `left` to `right`, which need not lie
-/// between -1 and 1.
+/// Returns the coefficients of the same polynomial on the range from `left` to `right`, which need
+/// not lie between -1 and 1.
 ///
-/// Clenshaw's recurrence for `s = middle + reach t`, each number of which is a series in t itself, one
-/// term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
+/// Clenshaw's recurrence for `s = middle + reach t`. Each of its numbers is itself a series in t,
+/// one term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
     let mut row = [T::zero(); MOST];
     expand_to(&mut row, coefficients, [left, right]);
     row
 }
 
-/// The same in a place for it.
+/// Writes the result of [`expand`] into a given row.
 pub(crate) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, right]: [T; 2]) {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
     let [last, others @ ..] = coefficients else { return };
-    // From T_{-1} = T_1 on, all twice, so that every term is as the next.
+    // Coefficients from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
     let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
     for (length, a) in others.iter().rev().enumerate() {
         step(b1, b2, length, [middle + middle, reach], *a);
         std::mem::swap(&mut b1, &mut b2);
     }
-    // The last step has half of what the others have.
+    // The last step has half the factors of the others.
     step(b1, b2, others.len(), [middle, half * reach], *last);
     row.copy_from_slice(&b2[1..=MOST]);
     row[0] *= half;
 }
 
-/// The next number of the recurrence in place of the one before the last, whose series has so many terms.
+/// Replaces the last but one number of the recurrence by the next; the last has `length` terms.
 #[inline(always)]
 fn step<T: Real>(
     b1: &[T; MOST + 2],
@@ -300,7 +301,7 @@ fn step<T: Real>(
     b2[0] = b2[2];
 }
 
-/// The smallest of the [`SIZES`] that holds so many coefficients.
+/// Returns the smallest of the [`SIZES`] that holds n coefficients.
 pub(crate) fn size_for(n: usize) -> usize {
     SIZES.into_iter().find(|&size| size >= n).unwrap_or(MOST)
 }

@@ -2,10 +2,10 @@
 
 use crate::Real;
 
-/// A sum that carries its rounding error along (Neumaier's variant of Kahan's sum).
+/// Sum that carries its rounding error along (Neumaier's variant of Kahan's sum).
 ///
-/// The terms next to the pole of a Cauchy integral are large and of alternating sign;
-/// summed plainly they would cost the last three digits.
+/// The terms next to the pole of a Cauchy integral are large and of alternating sign; a plain sum
+/// would cost the last three digits.
 #[derive(Clone, Copy)]
 pub(crate) struct CompensatedSum<T> {
     total: T,
@@ -32,7 +32,7 @@ impl<T: Real> CompensatedSum<T> {
     }
 
     pub fn value(self) -> T {
-        // What an infinite sum has lost is NaN.
+        // The rounding error of an infinite sum is NaN.
         if self.total.is_finite() { self.total + self.lost } else { self.total }
     }
 }

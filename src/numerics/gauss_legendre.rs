@@ -4,10 +4,10 @@ use crate::Real;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// The most nodes of a GaussLegendre rule.
+/// Largest number of nodes of a Gauss-Legendre rule.
 pub(crate) const MOST_NODES: usize = 64;
 
-/// A GaussLegendre-Legendre rule on [-1, 1].
+/// Gauss-Legendre rule on [-1, 1].
 pub(crate) struct GaussLegendre {
     pub n: usize,
     pub nodes: [f64; MOST_NODES],
@@ -18,31 +18,31 @@ static RULES: LazyLock<[GaussLegendre; 7]> =
     LazyLock::new(|| [8, 16, 24, 32, 40, 48, MOST_NODES].map(GaussLegendre::new));
 
 impl GaussLegendre {
-    /// The rule for a polynomial of n coefficients on a span with this tangent. The integrand has
-    /// its poles at ±i/tangent, of an order that grows with n; that many nodes leave an error of
-    /// 1e-15 (found by trial).
+    /// Returns the rule for a polynomial of n coefficients on a span with this tangent. The
+    /// integrand has its poles at ±i/tangent, of an order that grows with n; this number of nodes
+    /// leaves an error of 1e-15 (found by trial).
     pub fn suited<T: Real>(n: usize, tangent: T) -> &'static Self {
         let n = T::count(n);
         let needed = T::of(8.0) + T::of(0.7) * n + (T::of(14.0) + T::of(1.2) * n) * tangent;
         RULES.iter().find(|rule| T::count(rule.n) >= needed).unwrap_or(Self::finest())
     }
 
-    /// The rule for a first estimate.
+    /// Returns the rule for a first estimate.
     pub fn coarsest() -> &'static Self {
         &RULES[0]
     }
 
-    /// The rule of 16 nodes.
+    /// Returns the rule of 16 nodes.
     pub fn sixteen() -> &'static Self {
         &RULES[1]
     }
 
-    /// The rule for whatever is close.
+    /// Returns the rule for points close by.
     pub fn finest() -> &'static Self {
         &RULES[RULES.len() - 1]
     }
 
-    /// The zeros of the Legendre polynomial by Newton's method.
+    /// Computes the nodes, the zeros of the Legendre polynomial, by Newton's method.
     fn new(n: usize) -> Self {
         let mut rule = Self { n, nodes: [0.0; MOST_NODES], weights: [0.0; MOST_NODES] };
         for i in 0..n {

@@ -1,6 +1,7 @@
-//! A square system of linear equations, by Gaussian elimination with partial pivoting of scaled rows.
+//! A square system of linear equations, solved by Gaussian elimination with partial pivoting of
+//! scaled rows.
 //!
-//! It keeps its storage from one system to the next.
+//! Its storage is kept from one system to the next.
 
 use super::dot;
 use crate::Real;
@@ -9,9 +10,9 @@ use crate::real::same;
 #[derive(Clone)]
 pub(crate) struct LinearSystem<T> {
     n: usize,
-    /// The factors, row by row: below the diagonal those of the elimination.
+    /// Factors, row by row: below the diagonal the factors of the elimination.
     factors: Vec<T>,
-    /// The equation that stands in each row, and what it was divided by.
+    /// Equation that stands in each row, and the divisor of each equation.
     order: Vec<usize>,
     scales: Vec<T>,
 }
@@ -41,7 +42,7 @@ impl<T: Real> LinearSystem<T> {
             let size = |row: usize| self.factors[row * n + column].abs();
             let larger = |best: usize, row: usize| if size(row) > size(best) { row } else { best };
             let pivot = (column..n).fold(column, larger);
-            // NaN is no pivot either.
+            // NaN cannot be a pivot either.
             let usable = size(pivot) > zero;
             if !usable {
                 return false;

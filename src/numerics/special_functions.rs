@@ -1,8 +1,8 @@
-//! The special functions that the closed forms need.
+//! Special functions for the closed forms.
 
 use crate::Real;
 
-/// `first (1 + r₁ + r₁ r₂ + ...)`, with the ratio of each term to the one before.
+/// Sums `first (1 + r₁ + r₁ r₂ + ...)`, given the ratio of each term to the one before.
 pub(crate) fn series<T: Real>(first: T, ratio: impl Fn(T) -> T) -> T {
     let (mut sum, mut term) = (first, first);
     for k in 1..1000 {
@@ -15,8 +15,8 @@ pub(crate) fn series<T: Real>(first: T, ratio: impl Fn(T) -> T) -> T {
     sum
 }
 
-/// The root of a rising convex function from its value and derivative, by Newton's method: from
-/// below the first step leads above the root, and from above all steps lead down to it.
+/// Finds the root of a rising convex function from its value and derivative, by Newton's method:
+/// from below the first step leads above the root, and from above all steps lead down to it.
 pub(crate) fn convex_root<T: Real>(start: T, function: impl Fn(T) -> [T; 2]) -> T {
     let step = |x: T| match function(x) {
         [value, _] if value == T::zero() => x,
@@ -34,12 +34,12 @@ pub(crate) fn convex_root<T: Real>(start: T, function: impl Fn(T) -> [T; 2]) -> 
     x
 }
 
-/// `u - atan u` for u ≥ 0.
+/// Returns `u - atan u` for u ≥ 0.
 pub(crate) fn minus_atan<T: Real>(u: T) -> T {
     if u > T::of(0.75) { u - u.atan() } else { beyond_first(u, -u * u) }
 }
 
-/// `artanh z - z` for 0 ≤ z ≤ 1/2.
+/// Returns `artanh z - z` for 0 ≤ z ≤ 1/2.
 pub(crate) fn artanh_minus<T: Real>(z: T) -> T {
     beyond_first(z, z * z)
 }
@@ -50,12 +50,12 @@ fn beyond_first<T: Real>(z: T, s: T) -> T {
     series(z * z * z / T::of(3.0), |k| s * (two * k + T::one()) / (two * k + T::of(3.0)))
 }
 
-/// `y - sin y` for y ≥ 0.
+/// Returns `y - sin y` for y ≥ 0.
 pub(crate) fn minus_sin<T: Real>(y: T) -> T {
     if y > T::one() { y - y.sin() } else { beyond_first_by_factorials(y, -y * y) }
 }
 
-/// `sinh y - y` for y ≥ 0.
+/// Returns `sinh y - y` for y ≥ 0.
 pub(crate) fn sinh_minus<T: Real>(y: T) -> T {
     if y > T::of(2.0) { y.sinh() - y } else { beyond_first_by_factorials(y, y * y) }
 }
@@ -66,7 +66,7 @@ fn beyond_first_by_factorials<T: Real>(y: T, s: T) -> T {
     series(y * y * y / T::of(6.0), |k| s / ((two * k + two) * (two * k + T::of(3.0))))
 }
 
-/// `sin φ - φ cos φ` for 0 ≤ φ ≤ π.
+/// Returns `sin φ - φ cos φ` for 0 ≤ φ ≤ π.
 pub(crate) fn sin_minus_cos<T: Real>(phi: T) -> T {
     if phi > T::one() {
         return phi.sin() - phi * phi.cos();
@@ -77,7 +77,7 @@ pub(crate) fn sin_minus_cos<T: Real>(phi: T) -> T {
     series(phi * phi * phi / T::of(3.0), term)
 }
 
-/// `e^y - 1 - y`.
+/// Returns `e^y - 1 - y`.
 pub(crate) fn exp_minus<T: Real>(y: T) -> T {
     if y.abs() > T::one() {
         return y.exp_m1() - y;
@@ -85,14 +85,15 @@ pub(crate) fn exp_minus<T: Real>(y: T) -> T {
     series(T::of(0.5) * y * y, |k| y / (k + T::of(2.0)))
 }
 
-/// The complete elliptic integral in the form of Bulirsch (*Numer. Math.* 13, 1969, 305),
+/// Returns the complete elliptic integral in the form of Bulirsch (*Numer. Math.* 13, 1969, 305),
 ///
 /// ```text
 /// ∫ (a cos² + b sin²) / ((cos² + p sin²) sqrt(cos² + k'² sin²)) dφ,   0 < φ < π/2
 /// ```
 ///
-/// for k', p > 0 and a, b ≥ 0: by Bartky's transformation, the arithmetic and geometric means of
-/// which drag p, a and b along. No difference occurs, so all digits are kept. K is a = b = p = 1.
+/// for k', p > 0 and a, b ≥ 0, by Bartky's transformation, whose arithmetic and geometric means
+/// carry p, a and b along. No difference occurs, so all digits are kept. K is the case a = b = p =
+/// 1.
 pub(crate) fn elliptic<T: Real>(complement: T, p: T, a: T, b: T) -> T {
     let half = T::of(0.5);
     let (mut mean, mut geometric) = (T::one(), complement);
@@ -110,7 +111,7 @@ pub(crate) fn elliptic<T: Real>(complement: T, p: T, a: T, b: T) -> T {
     T::frac_pi_2() * (b + a * mean) / (mean * (mean + p))
 }
 
-/// `∫ cosⁿ φ dφ` from 0 to π/2, which is `sqrt(π)/2 Γ((n+1)/2)/Γ(n/2+1)`, for n ≥ 0.
+/// Returns `∫ cosⁿ φ dφ` from 0 to π/2, which is `sqrt(π)/2 Γ((n+1)/2)/Γ(n/2+1)`, for n ≥ 0.
 pub(crate) fn wallis<T: Real>(n: T) -> T {
     let (one, two) = (T::one(), T::of(2.0));
     // W(n) = W(n+2) (n+2)/(n+1), until n is large.

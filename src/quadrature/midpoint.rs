@@ -13,16 +13,16 @@
 //! **The exponents.** The error expands in w², w⁴, ... if h is smooth at both ends, as in the
 //! paper's Example 1. Where `g` does not vanish at an edge (any free edge), h ends like a square
 //! root and the error expands in w^{3/2}, w^{5/2}, ...: then the paper's extrapolation gains a
-//! factor 7 and no order, and [`Exponents::HalfInteger`] restores it. A breakpoint inside the contact
-//! breaks either expansion unless it lies on the grid.
+//! factor 7 and no order, and [`Exponents::HalfInteger`] restores it. A breakpoint inside the
+//! contact breaks either expansion unless it lies on the grid.
 //!
 //! **Next to an edge** the expansion holds from about a segment inward. Closer, the error of the
-//! rule stays while the pressure of a free edge goes to zero, and is soon larger than it.
+//! rule stays while the pressure of a free edge goes to zero, and soon exceeds the pressure.
 //!
-//! **The error estimate.** What spoils the rule are the ends of h, and there g is nearly the line
-//! A + B t through its values at the edges. The rule is run on that line as well, for which the
-//! integrals are known (π z for 1, π (z² - 1/2) for t), and what it misses is its error, up to
-//! and into the last segment. What the last extrapolation changed is added: that sees kinks. A
+//! **The error estimate.** The ends of h spoil the rule, and there g is nearly the line A + B t
+//! through its values at the edges. The rule is run on that line as well, for which the integrals
+//! are known (π z for 1, π (z² - 1/2) for t); the difference is the error of the rule, up to and
+//! into the last segment. The change by the last extrapolation is added, because it shows kinks. A
 //! jump of the slope at a breakpoint is added by its size and distance.
 
 mod level;
@@ -35,7 +35,7 @@ use level::{Level, Pole};
 use moments::moments;
 use std::sync::OnceLock;
 
-/// The midpoint rule with N segments and Richardson extrapolation.
+/// Midpoint rule with N segments and Richardson extrapolation.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -52,20 +52,21 @@ use std::sync::OnceLock;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Midpoint {
-    /// N, the segments of the coarsest level; each level has twice those of the one before.
+    /// Number N of segments of the coarsest level; each level has twice the segments of the one
+    /// before.
     pub segments: usize,
-    /// ET: 0 for the trapezoidal sum, 1 for the midpoint rule, one more for each power of w
-    /// taken away. Level ET has `N 2^(ET-1)` segments.
+    /// Number ET of extrapolations: 0 for the trapezoidal sum, 1 for the midpoint rule, one more
+    /// for each power of w taken away. Level ET has `N 2^(ET-1)` segments.
     pub extrapolations: u32,
-    /// The powers of w that are taken away.
+    /// Powers of w that are taken away.
     pub exponents: Exponents,
 }
 
-/// The powers of the segment width in which the error expands.
+/// Powers of the segment width in which the error expands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exponents {
-    /// 2, 4, 6, ...: as the paper has it; right where `sqrt(1 - t²) g` is smooth at the edges.
+    /// 2, 4, 6, ...: as in the paper; right where `sqrt(1 - t²) g` is smooth at the edges.
     Even,
     /// 3/2, 5/2, 7/2, ...: right where `g` is finite and not zero at the edges.
     HalfInteger,
@@ -81,7 +82,7 @@ impl Exponents {
 }
 
 impl Midpoint {
-    /// The rule as the paper uses it: N segments, ET extrapolations, even exponents.
+    /// Returns the rule of the paper: N segments, ET extrapolations, even exponents.
     #[must_use]
     pub const fn paper(segments: usize, extrapolations: u32) -> Self {
         Self { segments, extrapolations, exponents: Exponents::Even }
@@ -93,7 +94,7 @@ impl Midpoint {
     pub const DEFAULT: Self =
         Self { segments: 64, extrapolations: 4, exponents: Exponents::HalfInteger };
 
-    /// The segments of each level.
+    /// Returns the number of segments of each level.
     fn levels(&self) -> Option<Vec<usize>> {
         let finest = self.segments.checked_shl(self.extrapolations.saturating_sub(1))?;
         let counted = finest >> self.extrapolations.saturating_sub(1) == self.segments;
@@ -130,12 +131,12 @@ impl<T: Real> Quadrature<T> for Midpoint {
 struct MidpointIntegrator<T: Real> {
     rule: Midpoint,
     levels: Vec<usize>,
-    /// Kept from one trial to the next: it knows where on the curves it is.
+    /// Sampler, kept from one trial to the next because it knows its place on the curves.
     sampler: Sampler<T>,
-    /// The interval prepared, and the levels sampled on it when they are first needed.
+    /// Interval prepared, and the levels, which are sampled on it when first needed.
     on: Option<Interval<T>>,
     sums: OnceLock<MidpointSums<T>>,
-    /// The interval last integrated over, and the error of its edge integrals.
+    /// Interval last integrated over, and the error of its edge integrals.
     moments: Option<(Interval<T>, T)>,
 }
 
@@ -206,7 +207,7 @@ impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
         let edge = T::pi() * T::pi() * sums.on.chebyshev_weight(x);
         let LoadCase { kappa, load, .. } = *load_case;
         let value = (T::pi() * load - kappa * value) / edge;
-        // An error of the edge integrals is one of the limits, or of the load.
+        // An error of the edge integrals is an error of the limits, or of the load.
         let same = |(on, _): &(Interval<T>, T)| on.is_same(&sums.on);
         let of_edges = self.moments.filter(same).map_or(T::zero(), |(_, error)| error);
         let of_edges = T::of(6.0) * T::pi() * sums.on.half_width() * of_edges;
@@ -223,13 +224,13 @@ impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
 struct MidpointSums<T: Real> {
     on: Interval<T>,
     levels: Vec<Level<T>>,
-    /// The breakpoints in the interval, and by how much the slope jumps there.
+    /// Breakpoints in the interval, and the jump of the slope at each.
     jumps: Vec<(T, T)>,
     exponents: Exponents,
 }
 
 impl<T: Real> MidpointSums<T> {
-    /// The Cauchy integral `I(x)`.
+    /// Returns the Cauchy integral `I(x)`.
     fn at(&self, gap: &Gap<'_, T>, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let mut pole = Pole::new(gap, self.on, x);
         let mut rows = Vec::with_capacity(self.levels.len());
@@ -249,15 +250,16 @@ impl<T: Real> MidpointSums<T> {
         // g is not quite that line.
         let bend = T::one() + T::count(self.levels[0].n).recip();
         let error = bend * (a * one_missed + b * t_missed).abs() + value.1.abs();
-        // Fewer than four points leave nothing to judge a rule by.
+        // Fewer than four points are too few to judge a rule by.
         let is_coarse = self.levels[0].n < 4;
         let error = if is_coarse { T::one() / T::zero() } else { error + self.jump_error(x) };
         let half_width = self.on.half_width();
         Ok(Estimate { value: half_width * value.0, error: half_width * error })
     }
 
-    /// What the rule can miss of `PV∫ h/(z - t) dt` where h jumps at a breakpoint: the breakpoint may lie
-    /// anywhere in its segment, and next to it the integral has a logarithm.
+    /// Returns the error that the rule can make in `PV∫ h/(z - t) dt` where h jumps at a
+    /// breakpoint: the breakpoint may lie anywhere in its segment, and next to it the integral has
+    /// a logarithm.
     fn jump_error(&self, x: T) -> T {
         let half = T::of(0.5);
         let coarsest = self.levels[0].n;
@@ -269,7 +271,7 @@ impl<T: Real> MidpointSums<T> {
             } else {
                 T::one() - (segments + segments).ln()
             };
-            // A kink alone has no logarithm, and ln 0 times no jump is none.
+            // A mere kink has no logarithm; without a jump the product with ln 0 is zero.
             if jump.is_zero() { jump } else { jump * shape }
         };
         let root = |x| self.on.chebyshev_weight(x) / self.on.half_width();
@@ -277,7 +279,7 @@ impl<T: Real> MidpointSums<T> {
         self.jumps.iter().fold(T::zero(), sum)
     }
 
-    /// What Richardson extrapolation makes of the levels, and what its last step has changed.
+    /// Returns the Richardson extrapolation of the levels, and the change by its last step.
     fn extrapolate(&self, mut values: Vec<T>) -> (T, T) {
         let mut changed = T::zero();
         for i in 0..values.len() - 1 {

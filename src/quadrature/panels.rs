@@ -1,14 +1,14 @@
-//! The slope of the gap as polynomial panels, and everything from them.
+//! The slope of the gap as polynomial panels, and the integrals over them.
 //!
 //! The user's curves are the cost, so they are sampled once: on panels, each with a Chebyshev
 //! series, over a span a little wider than the contact. Edge integrals, their derivatives by
 //! the limits, and the pressure then come from the series alone.
 //!
-//! The panels end at the breakpoints of the bodies. Each starts with a few nodes and takes more while
-//! the coefficients say that this will do; where they do not fall (a kink that nobody declared,
-//! an end like a square root) the panel is halved. Where they have sunk into the noise of the
-//! user's formulas more samples would not help: the panel is left as it is, and the level of the
-//! noise goes into the error estimates.
+//! The panels end at the breakpoints of the bodies. Each starts with a few nodes and takes more
+//! while the coefficients promise convergence. Where they do not fall (an undeclared kink, an end
+//! like a square root) the panel is halved. Where they have sunk into the noise of the user's
+//! formulas more samples would not help: the panel is left as it is, and the noise goes into the
+//! error estimates.
 
 // Loops over lanes index several arrays at once, which is what the compiler vectorises.
 #![allow(clippy::needless_range_loop)]
@@ -37,8 +37,8 @@ use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{MOST_MISSED, PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
-/// Whether the slope of the gap rises all over the contact last prepared, up to a share of itself; `None` for
-/// other integrators, and for several contacts.
+/// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
+/// the largest slope; `None` for other integrators, and for several contacts.
 pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {
     let (PanelSet { panels, size, .. }, on) = integrator.panels()?.only()?;
     Some(edge_integrals::rise(panels, on, share * *size))
@@ -57,14 +57,14 @@ pub(crate) fn rises_on<T: Real>(
     })
 }
 
-/// Returns by how much the gap of one contact rises by its panels from one place to another, before the bodies are
-/// turned.
+/// Returns the rise of the gap of the only contact from one place to another by its panels, before
+/// the bodies are turned.
 pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
     let (panel_set, _) = integrator.panels()?.only()?;
     Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
 }
 
-/// Shows the nodes of the panels of one contact, if it is held by panels.
+/// Shows the nodes in one contact; none without panels.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
@@ -76,7 +76,8 @@ pub(crate) fn nodes<T: Real>(
     nodes.filter(|&x| on.contains(x)).try_for_each(show)
 }
 
-/// Lists the parts of one contact that lie on one panel each, and the nodes of that; none without panels.
+/// Lists the parts of one contact that lie on one panel each, with the panel's number of nodes;
+/// none without panels.
 pub(crate) fn spans<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
@@ -87,7 +88,8 @@ pub(crate) fn spans<T: Real>(
     panel::spans(panel::within(panels, on), on).map(span).collect()
 }
 
-/// Turns an integrator of panels to several contacts; `None` for any other integrator, which knows but one.
+/// Switches an integrator of panels to several contacts; `None` for any other integrator, which
+/// handles only one.
 pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
     let integrator = integrator.panels_mut()?;
     integrator.is_several = true;
@@ -95,15 +97,15 @@ pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option
     Some(&mut integrator.several)
 }
 
-/// Hands guides to an integrator of panels.
+/// Passes guides to an integrator of panels.
 pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
     if let Some(integrator) = integrator.panels_mut() {
         integrator.panel_set.guide(guides);
     }
 }
 
-/// Looks between the nodes of the panels of each contact; tells whether panels have missed a feature, and have been
-/// sampled anew.
+/// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
+/// feature and were sampled anew.
 ///
 /// # Errors
 /// Those of sampling the bodies.
@@ -123,12 +125,12 @@ pub(crate) fn probe<T: Real>(
     Ok(is_missed)
 }
 
-/// Whether an integrator is one of panels.
+/// Tells whether an integrator is one of panels.
 pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
     integrator.panels().is_some()
 }
 
-/// The several contacts that an integrator was last turned to; `None` if it was one.
+/// Returns the several contacts to which an integrator was last switched; `None` if it was one.
 pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
     integrator.panels().filter(|panels| panels.is_several).map(|panels| &panels.several)
 }
@@ -150,15 +152,15 @@ pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Severa
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Panels {
-    /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in
-    /// the contact. Never taken below sixteen units in the last place, which is what the
-    /// default 0 stands for. What a looser tolerance leaves open is estimated from a few coefficients,
-    /// and the error estimates may then be too small; the tolerance itself is what bounds the error.
+    /// Largest error of the slope of the gap on a panel, as a fraction of the largest slope in the
+    /// contact. Never taken below sixteen units in the last place; the default 0 stands for these.
+    /// With a looser tolerance the error is estimated from a few coefficients, and the estimates
+    /// may be too small; the tolerance itself bounds the error.
     pub tolerance: f64,
 }
 
 impl Panels {
-    /// All that the number type and the profiles' formulas can give.
+    /// Full accuracy of the number type and of the profiles' formulas.
     pub const FULL: Self = Self { tolerance: 0.0 };
 }
 
@@ -199,26 +201,26 @@ pub struct PanelIntegrator<T> {
     rule: Panels,
     panel_set: PanelSet<T>,
     conjugate: HilbertTransform<T>,
-    /// Whether the conjugate is that of the moments last remembered.
+    /// True if the conjugate belongs to the moments last remembered.
     is_prepared: bool,
-    /// The interval last integrated over: in the end that of the conjugate.
+    /// Interval last integrated over, in the end the one of the conjugate, and its moments.
     moments: Option<(Interval<T>, Moments<T>)>,
-    /// Where one panel holds it, the series of that.
+    /// Series over the interval, if one panel holds it.
     over: Option<Series<T>>,
-    /// Of a first estimate: by how much two more coefficients are smaller, and the half-width covered.
+    /// First estimate only: ratio of coefficients two apart, and the half-width covered.
     fall: Option<[T; 2]>,
-    /// Several contacts at once, and whether they are what was last turned to.
+    /// Several contacts at once, and a flag: they were last in use.
     several: Several<T>,
     is_several: bool,
 }
 
 impl<T: Real> PanelIntegrator<T> {
-    /// The panels of the only contact, and the contact; `None` with several.
+    /// Returns the panels of the only contact, and the contact; `None` with several.
     fn only(&self) -> Option<(&PanelSet<T>, Interval<T>)> {
         (!self.is_several).then_some((&self.panel_set, self.conjugate.on))
     }
 
-    /// The panels that one contact lies on, and the contact.
+    /// Returns the panels that hold one contact, and the contact.
     fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
         self.only().unwrap_or_else(|| (self.several.panel_set(i), self.several.contacts()[i]))
     }
@@ -235,14 +237,14 @@ impl<T: Real> PanelIntegrator<T> {
         m
     }
 
-    /// Whether the panels leave more of the integrals open than they may, and than the rounding of the bodies' slopes,
-    /// which other samples do not lower.
+    /// Tells whether the error of the integrals exceeds both the tolerance and the rounding of the
+    /// bodies' slopes, which other samples would not lower.
     fn is_poor(&self, m: &Moments<T>) -> bool {
         let PanelSet { tolerance, least, .. } = self.panel_set;
         m.error > T::of(4.0) * (tolerance * m.l1_norm).max(T::epsilon() * least)
     }
 
-    /// The edge integrals from panels on that interval and no more.
+    /// Returns the edge integrals from panels sampled on that interval alone.
     fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,
@@ -253,7 +255,8 @@ impl<T: Real> PanelIntegrator<T> {
         Ok(self.remember(on))
     }
 
-    /// The number of nodes that should do, by how the coefficients of the first estimate fall.
+    /// Returns the number of nodes that should suffice, from the decay of the first estimate's
+    /// coefficients.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([fall, half_width]) = self.fall else { return LEAST };
         let shrunk = on.half_width() / half_width;
@@ -332,7 +335,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         }
         self.panel_set.extend(gap, on)?;
         let m = self.remember(on);
-        // What is good enough for a wide span may be nothing to a narrow one in its middle.
+        // An error small enough on a wide span may be too large for a narrow one in its middle.
         let is_wide = |have: Interval<T>| have.half_width() > T::of(1.25) * on.half_width();
         if self.is_poor(&m) && self.panel_set.interval().is_some_and(is_wide) {
             return self.sample_anew(gap, on);
@@ -343,10 +346,10 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
         self.turn_to_one();
         let m = self.moments(gap, on)?;
-        // Nor is it to what little the contact has beyond a breakpoint.
+        // It may also be too large for a short part of the contact beyond a breakpoint.
         if self.fall.is_none() && self.is_poor(&m) && self.panel_set.overshoots(gap, on) {
             let sampled = self.sample_anew(gap, on)?;
-            // But limits and load are those of the panels before.
+            // Limits and load still come from the earlier panels.
             self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
         if !self.is_prepared {
@@ -400,7 +403,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         let on = self.conjugate.on;
         let of_series =
             kappa * self.conjugate.error(&self.panel_set.panels, x) / (T::pi() * T::pi());
-        // An error of the edge integrals is one of the strengths.
+        // An error of the edge integrals is an error of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
         let of_edges = T::of(6.0) * strength / (T::pi() * on.chebyshev_weight(x));
         let error = of_series + of_edges + T::of(4.0) * T::epsilon() * value[0].abs();
@@ -450,7 +453,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 }
 
 impl<T: Real> PanelIntegrator<T> {
-    /// The pressure at so many points strictly inside the contact.
+    /// Returns the pressure at `count` points strictly inside the contact.
     #[inline(always)]
     fn in_lanes(&self, load_case: &LoadCase<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
         let on = self.conjugate.on;
@@ -463,16 +466,15 @@ impl<T: Real> PanelIntegrator<T> {
             let (left, right) = (edges.left[i], edges.right[i]);
             let by_root = half / edges.root[i];
             let pressure = scale * regular[i] + (bound.right * left + bound.left * right) * by_root;
-            // What rounding has left of a strength that should be zero stands for the load
-            // that the rounded limits have too much or too little. Close to the edge it is the
-            // limit that counts.
+            // The rounding left in a strength that should be zero makes up for the load error of
+            // the rounded limits. Close to the edge only the limit counts.
             let left_over = (free.right * left + free.left * right) * by_root;
             let counts = left_over.abs() < least * pressure.abs();
             pressure + if counts { left_over } else { T::zero() }
         })
     }
 
-    /// K_b and K_a: what is left of them at free edges, and what they are at the others.
+    /// Returns K_b and K_a: the remainder at free edges, and the strength at the others.
     fn strengths(&self, load_case: &LoadCase<T>) -> [Ends<T>; 2] {
         let zero = T::zero();
         let Some((_, m)) = self.moments else { return [Ends::both(zero); 2] };

@@ -5,7 +5,7 @@ use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
 strategy! {
-    /// Halves the bracket: one bit of `x` for each evaluation, whatever the function.
+    /// Bisection: one bit of `x` for each evaluation, whatever the function.
     Bisection
 }
 

@@ -1,27 +1,27 @@
-//! What all searches have in common: the tightest sign change seen, and the count.
+//! Bookkeeping of all searches: the tightest sign change seen, and the number of evaluations.
 
 use super::{Bracket, Root, SearchError, StoppingCriteria};
 use crate::Real;
 
-/// A point and the function there.
+/// Point, and the function there.
 #[derive(Clone, Copy)]
 pub(super) struct Evaluated<T> {
     pub x: T,
     pub f: T,
-    /// Slope, where the function gives one.
+    /// Slope, if the function gives one.
     pub slope: Option<T>,
 }
 
-/// Evaluates the function for a strategy, keeps the sign change, refuses what is not
-/// finite, counts, and knows when the work is done.
+/// State of a search. Evaluates the function for a strategy, keeps the sign change, refuses values
+/// that are not finite, counts evaluations, and knows when the root is found.
 pub(super) struct BracketState<'f, T: Real> {
     function: &'f mut dyn FnMut(T) -> (T, Option<T>),
     tolerance: StoppingCriteria,
     pub lo: Evaluated<T>,
     pub hi: Evaluated<T>,
-    /// The last point evaluated; an end of the bracket before there was any.
+    /// Last point evaluated; before the first, an end of the bracket.
     pub last: Evaluated<T>,
-    /// Rounding of the smaller of the values at the ends of the bracket as given.
+    /// Rounding of the smaller one of the values at the ends of the bracket as given.
     pub rounding: T,
     evaluations: usize,
 }
@@ -71,8 +71,8 @@ impl<'f, T: Real> BracketState<'f, T> {
         Ok(it)
     }
 
-    /// Evaluates at `x` and narrows the sign change. A point that is not strictly inside
-    /// is not evaluated: it could not narrow anything.
+    /// Evaluates at `x` and narrows the sign change. A point that is not strictly inside is not
+    /// evaluated: it could not narrow the sign change.
     pub fn visit(&mut self, x: T) -> Result<Option<Evaluated<T>>, SearchError<T>> {
         if !(x > self.lo.x && x < self.hi.x) {
             return Ok(None);
@@ -90,14 +90,14 @@ impl<'f, T: Real> BracketState<'f, T> {
         Ok(Some(seen))
     }
 
-    /// Halves the sign change. `false` when no number lies between its ends.
+    /// Halves the sign change; `false` if no number lies between its ends.
     pub fn halve(&mut self) -> Result<bool, SearchError<T>> {
         let half = T::of(0.5);
         Ok(self.visit(half * self.lo.x + half * self.hi.x)?.is_some())
     }
 
-    /// Halves the sign change unless it has about been since it was twice `before` long. `false` when no number lies
-    /// between its ends.
+    /// Halves the sign change unless its half-width is already well below `before`, an earlier
+    /// half-width; `false` if no number lies between its ends.
     pub fn halve_since(&mut self, before: T) -> Result<bool, SearchError<T>> {
         Ok(self.done() || self.half_width() < T::of(0.6) * before || self.halve()?)
     }
@@ -107,30 +107,31 @@ impl<'f, T: Real> BracketState<'f, T> {
         (self.hi.f - self.lo.f) / (self.hi.x - self.lo.x)
     }
 
-    /// Whether the sign change is as tight as was asked for.
+    /// Tells whether the sign change is as tight as the tolerance.
     pub fn done(&self) -> bool {
         self.close(self.lo.x, self.hi.x)
     }
 
-    /// Half the length of the bracket, which is finite whatever its ends.
+    /// Returns half the length of the bracket, which is finite whatever its ends.
     pub fn half_width(&self) -> T {
         T::of(0.5) * self.hi.x - T::of(0.5) * self.lo.x
     }
 
-    /// Whether two points are as close as was asked for.
+    /// Tells whether two points are within the tolerance of each other.
     pub fn close(&self, x: T, y: T) -> bool {
         self.negligible(x - y, x.abs().min(y.abs()))
     }
 
-    /// Whether an error of a root near `x` is as small as was asked for.
+    /// Tells whether an error of a root near `x` is within the tolerance.
     pub fn negligible(&self, error: T, x: T) -> bool {
         error.abs() <= self.tolerance.width(x)
     }
 
-    /// Steps from the best point to where the sign changes, by lengths that grow from the
-    /// tolerance: if the root is as close as it seems the first step closes the bracket on it,
-    /// and if noise has hidden it, one of the next does. Where the chord of a step leads out of the
-    /// bracket the root only seemed to be close, next to a value that is small beside the other.
+    /// Steps from the best point towards the sign change, by lengths that grow from the tolerance.
+    /// If the root is as close as it seems, the first step closes the bracket on it; if noise has
+    /// hidden it, one of the next steps does. If the chord of a step leads out of the bracket, the
+    /// root only seemed to be close, next to a value that is small compared with the value at the
+    /// other end.
     pub fn close_in(&mut self) -> Result<(), SearchError<T>> {
         let best = self.best().x;
         let rightward = best == self.lo.x;
@@ -152,7 +153,7 @@ impl<'f, T: Real> BracketState<'f, T> {
         Ok(())
     }
 
-    /// The end of the sign change with the smaller value.
+    /// Returns the end of the sign change with the smaller value.
     pub fn best(&self) -> Evaluated<T> {
         if self.hi.f.abs() < self.lo.f.abs() { self.hi } else { self.lo }
     }

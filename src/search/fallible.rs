@@ -3,7 +3,7 @@
 use super::{Bracket, LimitSearch, Root, SearchError};
 use crate::Real;
 
-/// Why [`try_find`] has no root.
+/// Reason for a failure of [`try_find`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TryFindError<T: Real, E> {
     /// The function failed; this is its first error.
@@ -13,7 +13,7 @@ pub enum TryFindError<T: Real, E> {
 }
 
 impl<T: Real, E> TryFindError<T, E> {
-    /// The error of the function, or what `search` makes of that of the search.
+    /// Returns the error of the function, or applies `search` to the error of the search.
     pub fn or_else(self, search: impl FnOnce(SearchError<T>) -> E) -> E {
         match self {
             Self::Function(error) => error,
@@ -22,8 +22,8 @@ impl<T: Real, E> TryFindError<T, E> {
     }
 }
 
-/// Finds a zero of a function that may fail, by any strategy: the first error of the function ends the search,
-/// and comes out as it is. A strategy that leaves the bracket is stopped there
+/// Finds a zero of a function that may fail, by any strategy. The first error of the function ends
+/// the search, and is returned unchanged. A strategy that leaves the bracket is stopped there
 /// ([`SearchError::LeftBracket`]).
 ///
 /// ```
@@ -50,7 +50,7 @@ pub fn try_find<T: Real, E>(
     guarded(bracket, function, T::of(f64::NAN), |function| strategy.find(function, bracket))
 }
 
-/// The same for a function that returns its value and its slope together.
+/// Finds a zero of a function that may fail, and that returns its value and its slope together.
 ///
 /// # Errors
 /// As [`try_find`].
@@ -63,7 +63,8 @@ pub fn try_find_with_slope<T: Real, E>(
     guarded(bracket, function, failed, |function| strategy.find_with_slope(function, bracket))
 }
 
-/// Stands between a strategy and the function: a value for `failed`, which is not finite, ends any search.
+/// Stands between a strategy and the function. After an error it returns `failed`, which is not
+/// finite and ends any search.
 fn guarded<T: Real, E, R: Copy>(
     bracket: &Bracket<T>,
     mut function: impl FnMut(T) -> Result<R, E>,

@@ -7,17 +7,18 @@ use crate::Real;
 strategy! {
     /// Newton's method with the slope that comes with the value, kept inside the sign change.
     ///
-    /// Where the function gives no slope, the chord through the last two points stands in for
-    /// it (a safeguarded secant). A step that would leave the sign change, or that did not
-    /// halve the step before last, is replaced by a halving of the bracket.
+    /// If the function gives no slope, the chord through the last two points stands in for it (a
+    /// safeguarded secant). A step that would leave the sign change, or that did not halve the step
+    /// before last, is replaced by a halving of the bracket.
     ///
-    /// The value of a function that cancels large terms has noise (looked for only where the slope is
-    /// known, for a chord shows no such regularity), and near the root the steps
-    /// then stop shrinking long before they reach the tolerance. The search ends there. It is
-    /// taken for noise if the steps have shrunk a hundredfold at once, as they do close to a simple
-    /// root, and then one fails to shrink though it is tiny: below the square root of the rounding
-    /// unit compared with `x`, or with a value at the rounding of both at the ends of the bracket.
-    /// So is a value of that size that stays the same where the slope says that it should change.
+    /// The value of a function that cancels large terms has noise, and near the root the steps then
+    /// stop shrinking long before they reach the tolerance. The search ends there. (It looks for
+    /// noise only if the slope is known, for a chord shows no such regularity.) A step counts as
+    /// noise if the steps have shrunk a hundredfold at once, as they do close to a simple root, and
+    /// it then fails to shrink though it is tiny: below the square root of the rounding unit
+    /// compared with `x`, or with a value at the rounding of both values at the ends of the
+    /// bracket. A value of that size counts as noise, too, if it stays the same where the slope
+    /// says that it should change.
     Newton
 }
 
@@ -47,14 +48,14 @@ impl Newton {
         bracket: &Bracket<T>,
     ) -> Result<Root<T>, SearchError<T>> {
         let mut state = BracketState::new(f, bracket, self.tolerance)?;
-        // The last two steps since the last halving, and whether they shrank as they should.
+        // Last two steps since the last halving, and a flag: they shrank as they should.
         let (mut last, mut before_last, mut converging) = (None, None, false);
         let mut at = state.last;
         let mut chord = state.chord();
         while !state.done() {
             let step = -at.f / at.slope.unwrap_or(chord);
             let next = at.x + step;
-            // A slope that is zero or infinite says nothing about where the root is.
+            // A slope that is zero or infinite says nothing about the place of the root.
             let usable = step.is_finite() && !step.is_zero();
             if usable && state.negligible(step, at.x) {
                 if at.slope.is_some() && (last.is_some() || at.f.abs() <= state.rounding) {
@@ -72,7 +73,7 @@ impl Newton {
                 continue;
             }
             let halves = |before: T| step.abs() <= T::of(0.5) * before.abs();
-            // Each step is a multiple of the square of the one before; so will be the next.
+            // Each step is a multiple of the square of the one before, and so is the next.
             let left = at.slope.and(last).map(|last| step * (step / last).powi(2));
             if usable && left.is_some_and(|left| state.negligible(left, next)) && halves(at.x) {
                 state.visit(next)?;

@@ -1,13 +1,14 @@
-//! Brent's method and the secant method: the `roots` crate behind our own bookkeeping; nothing of it shows outside
+//! Brent's method and the secant method: the `roots` crate behind our own bookkeeping. The crate
+//! does not show outside this file.
 //! this file.
 //!
-//! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for
-//! `x` and `f`, tests signs by a product that can underflow, cannot report NaN, returns
-//! errors that carry nothing, and its Brent lacks the least step of the textbook, so that it
-//! ends in some fifty halvings. So it only *proposes* points here. The [`BracketState`] evaluates
-//! them (never twice, never outside the sign change), decides when the root is found, and
-//! ends a run that goes nowhere; then the bracket is halved and a new run begins. Where a run
-//! comes within the tolerance of a known point, steps outward from it supply the least step.
+//! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for `x` and
+//! `f`, tests signs by a product that can underflow, cannot report NaN, and returns errors without
+//! data; its Brent lacks the minimum step of the textbook, so that it ends in some fifty halvings.
+//! Here it only *proposes* points. The [`BracketState`] evaluates them (never twice, never outside
+//! the sign change), decides when the root is found, and ends a run without progress; then the
+//! bracket is halved and a new run begins. If a run comes within the tolerance of a known point,
+//! steps outward from it supply the minimum step.
 
 use super::bracket_state::BracketState;
 use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
@@ -24,8 +25,8 @@ strategy! {
 }
 
 strategy! {
-    /// The secant method of the `roots` crate, kept inside the bracket: where it would step
-    /// out, meets two equal values or crawls, the bracket is halved and it starts again.
+    /// Secant method of the `roots` crate, kept inside the bracket: where it would step out, meets
+    /// two equal values or crawls, the bracket is halved and the method starts again.
     Secant
 }
 
@@ -50,8 +51,8 @@ enum Method {
     Secant,
 }
 
-/// Iterations after which a run of the secant method has to make way for a halving: one that converges needs fewer.
-/// (Brent's method halves by itself.)
+/// Iterations after which a run of the secant method makes way for a halving: a converging run
+/// needs fewer. (Brent's method halves by itself.)
 const PATIENCE: usize = 12;
 
 fn run<T: Real>(
@@ -75,12 +76,12 @@ fn run<T: Real>(
     Ok(state.root())
 }
 
-/// Why a run of the `roots` crate ended.
+/// Reason for the end of a run of the `roots` crate.
 #[derive(Clone, Copy, PartialEq)]
 enum Ended {
-    /// It proposed a point within the tolerance of a known one.
+    /// The run proposed a point within the tolerance of a known one.
     Close,
-    /// It left the sign change, or ran out of patience.
+    /// The run left the sign change, or ran out of patience.
     Stuck,
 }
 
@@ -90,7 +91,8 @@ fn propose<T: Real>(
     state: &mut BracketState<'_, T>,
 ) -> Result<Ended, SearchError<T>> {
     let (lo, hi) = (Number(state.lo.x), Number(state.hi.x));
-    // Scaled to 1 and kept off 0, no product of two values can underflow and lose its sign.
+    // Values are scaled to 1 and kept off 0, so that no product of two underflows and loses its
+    // sign.
     let unit = state.lo.f.abs().max(state.hi.f.abs());
     let most = T::max_value().unwrap_or_else(|| T::epsilon().powi(-4));
     let least = T::of(4.0) / most.sqrt();
@@ -114,7 +116,7 @@ fn propose<T: Real>(
         let (end, value) = match state.visit(x) {
             Ok(Some(seen)) => {
                 *fresh = true;
-                // A step this short leaves nothing for interpolation to do but follow noise.
+                // After a step this short interpolation would only follow noise.
                 let short = T::of(1e-3) * (x - best).abs() <= StoppingCriteria::FULL.width(x);
                 ((short || state.done()).then_some(Ok(Ended::Close)), seen.f)
             }
@@ -126,7 +128,7 @@ fn propose<T: Real>(
     };
     let patience = if method == Method::Secant { PATIENCE } else { usize::MAX };
     let mut rule = Rule { run: &run, patience };
-    // What it returns is left aside: the state knows more.
+    // The result is ignored: the state knows more.
     let _ = match method {
         Method::Brent => roots::find_root_brent(lo, hi, f, &mut rule),
         Method::Secant => roots::find_root_secant(lo, hi, f, &mut rule),
@@ -138,18 +140,18 @@ fn propose<T: Real>(
 struct Run<'r, 'f, T: Real> {
     state: &'r mut BracketState<'f, T>,
     ended: Option<Result<Ended, SearchError<T>>>,
-    /// Whether this iteration has evaluated anything.
+    /// True if this iteration has evaluated the function.
     fresh: bool,
 }
 
-/// Tells the `roots` crate when to stop.
+/// Stopping rule for the `roots` crate.
 struct Rule<'c, 'r, 'f, T: Real> {
     run: &'c RefCell<Run<'r, 'f, T>>,
     patience: usize,
 }
 
 impl<T: Real> roots::Convergency<Number<T>> for Rule<'_, '_, '_, T> {
-    // Every iteration ends with the question after its limit, and that ends the run.
+    // Every iteration ends with the query for its limit, which ends the run.
     fn is_root_found(&mut self, _: Number<T>) -> bool {
         false
     }
@@ -171,7 +173,7 @@ impl<T: Real> roots::Convergency<Number<T>> for Rule<'_, '_, '_, T> {
     }
 }
 
-/// A [`Real`] in the dress that the `roots` crate asks for.
+/// Wrapper of a [`Real`] with the traits that the `roots` crate requires.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Number<T>(T);
 

@@ -1,25 +1,25 @@
 //! The midpoint rule, and the trapezoidal one, on one grid, for a pole at any x.
 //!
-//! The paper's rule is meant for z on the grid `-1 + 2i/N`, where the two neighbours
-//! of the pole cancel. Elsewhere the sum has a pole at each of its points, and the integral has
-//! not. The term that makes up for it is known, and keeps the order of the rule:
+//! The paper's rule is meant for z on the grid `-1 + 2i/N`, where the two neighbours of the pole
+//! cancel. Elsewhere the sum has a pole at each of its points, and the integral has none. A known
+//! term makes up for it, and keeps the order of the rule:
 //!
 //! ```text
 //! PV∫ h(t)/(z - t) dt ≈ M_N - π h(z) cot(π (z - t₀)/w),    t₀ any of the points
 //! ```
 //!
-//! Close to a point t_j both parts are large and cancel. Their finite difference is
-//! `-w [z, t_j]h` plus `h(z) (1/δ - π cot πδ)`, δ = (z - t_j)/w, and the divided difference
-//! `[z, t_j]h` is formed from `sqrt(1 - t²)`, where it is exact, and from `g`. That of `g` is an
-//! even analytic function of its spread, so where the two points are too close to be
-//! subtracted it is read off three wider spreads about the same middle.
+//! Close to a point t_j both parts are large and cancel. Their finite difference is `-w [z, t_j]h`
+//! plus `h(z) (1/δ - π cot πδ)`, δ = (z - t_j)/w, and the divided difference `[z, t_j]h` is formed
+//! from `sqrt(1 - t²)`, where it is exact, and from `g`. The divided difference of `g` is an even
+//! analytic function of its spread. Where the two points are too close to be subtracted, it is read
+//! off three wider spreads about the same middle.
 
 use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::CompensatedSum;
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
 
-/// The point x at which the integral is wanted; the slope there is sampled when first needed.
+/// Point x at which the integral is wanted; the slope there is sampled when first needed.
 pub(super) struct Pole<'g, T: Real> {
     gap: &'g Gap<'g, T>,
     on: Interval<T>,
@@ -33,7 +33,7 @@ impl<'g, T: Real> Pole<'g, T> {
         Self { gap, on, x, slope: None, sampler: Sampler::default() }
     }
 
-    /// What its samples have cost.
+    /// Returns the cost of the samples.
     pub fn cost(&self) -> Cost {
         self.sampler.cost
     }
@@ -45,23 +45,23 @@ impl<'g, T: Real> Pole<'g, T> {
         }
     }
 
-    /// sqrt(1 - z²)
+    /// Returns sqrt(1 - z²).
     fn root(&self) -> T {
         self.on.chebyshev_weight(self.x) / self.on.half_width()
     }
 }
 
-/// h at the points of one level. Places are counted in segments from the left edge, so that
-/// the distance of a point from the pole is a difference of two small exact numbers.
+/// Values of h at the points of one level. Places are counted in segments from the left edge, so
+/// that the distance of a point from the pole is a difference of two small exact numbers.
 #[derive(Clone)]
 pub(super) struct Level<T> {
-    /// Segments.
+    /// Number of segments.
     pub n: usize,
     /// Place of the first point: 1/2 for the midpoint rule, 1 for the trapezoidal sum.
     first: T,
     trapezoidal: bool,
     h: Vec<T>,
-    /// sqrt(1 - t²)
+    /// Values of sqrt(1 - t²).
     root: Vec<T>,
 }
 
@@ -86,7 +86,8 @@ impl<T: Real> Level<T> {
         Ok(level)
     }
 
-    /// The slopes at the edges, by the line through those at the first and the last point.
+    /// Returns the slopes at the edges, by the line through the slopes at the first and the last
+    /// point.
     pub fn edge_slopes(&self) -> [T; 2] {
         let Some(last) = self.h.len().checked_sub(1) else { return [T::zero(); 2] };
         let [first, last] = [0, last].map(|i| self.h[i] / self.root[i]);
@@ -102,7 +103,7 @@ impl<T: Real> Level<T> {
         self.first + T::count(i)
     }
 
-    /// The abscissa of point i, from the nearer edge.
+    /// Returns the abscissa of point i, from the nearer edge.
     fn x(&self, on: Interval<T>, i: usize) -> T {
         let (n, from_left) = (T::count(self.n), self.place(i));
         let width = on.right - on.left;
@@ -113,12 +114,12 @@ impl<T: Real> Level<T> {
         }
     }
 
-    /// t at a place.
+    /// Returns t at a place.
     fn t(&self, place: T) -> T {
         T::of(2.0) * place / T::count(self.n) - T::one()
     }
 
-    /// The rule's values for the pole: for g itself, and for 1 and t in the place of g.
+    /// Returns the rule's values for the pole: for g itself, and for 1 and t in place of g.
     pub fn at(&self, pole: &mut Pole<'_, T>) -> Result<[T; 3], ContactError<T>> {
         let (n, on) = (T::count(self.n), pole.on);
         let place = n * ((pole.x - on.left) / (on.right - on.left));
@@ -139,7 +140,7 @@ impl<T: Real> Level<T> {
             }
         }
 
-        // What makes up for the pole, for each of the three functions.
+        // Term that makes up for the pole, for each of the three functions.
         let z = self.t(place);
         let root = pole.root();
         let mut sums = [of_g.value(), of_one, of_t];
@@ -166,7 +167,7 @@ impl<T: Real> Level<T> {
         Ok(sums)
     }
 
-    /// `(g(z) - g(t_i))/(z - t_i)` for z a fraction `delta` of a segment from t_i.
+    /// Returns `(g(z) - g(t_i))/(z - t_i)` for z a fraction `delta` of a segment from t_i.
     fn divided_difference(
         &self,
         pole: &mut Pole<'_, T>,
@@ -196,7 +197,7 @@ impl<T: Real> Level<T> {
     }
 }
 
-/// `1/δ - π cot πδ`, without cancellation for small δ: with y = πδ it is
+/// Returns `1/δ - π cot πδ`, without cancellation for small δ: with y = πδ it is
 /// `π (sin y - y cos y)/(y sin y)`.
 fn pole_remainder<T: Real>(delta: T) -> T {
     let y = T::pi() * delta;

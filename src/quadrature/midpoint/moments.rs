@@ -1,20 +1,20 @@
 //! The edge integrals of the gap slope.
 //!
-//! In `x = c + L cos θ` the weights of the edge strengths become 1 and cos θ, and the
-//! integrand is smooth between the breakpoints of the profiles. So θ is split there, and each
-//! panel is integrated by Fejér's second rule: interpolation at `cos(jπ/m)`, j = 1 ... m-1,
-//! which never touches an end of a panel (a slope may jump or be infinite there), and whose
-//! points are kept when m is doubled.
+//! In `x = c + L cos θ` the weights of the edge strengths become 1 and cos θ, and the integrand is
+//! smooth between the breakpoints of the profiles. Therefore θ is split there, and each panel is
+//! integrated by Fejér's second rule: interpolation at `cos(jπ/m)`, j = 1 ... m-1, which never
+//! touches an end of a panel (a slope may jump or be infinite there), and whose points are kept
+//! when m is doubled.
 //!
 //! m is doubled until two results differ by less than `ε^(5/8)` of the integral of `|g|`. For
 //! a slope analytic on the panel the error is then about the square of that difference, so
 //! the last result is good to rounding.
 //!
-//! Users' formulas have noise of their own: the paper's Examples 3 to 5 cancel terms of order
-//! 10 over a contact of size 1e-3. It is seen in the highest coefficients of the interpolant,
-//! which for a smooth slope have sunk into it: the coefficients of a panel of m points with
-//! noise σ level off at about σ/sqrt(m), and its integral is uncertain by about twice that.
-//! Where the interpolant has not converged, the same coefficients measure what is missing.
+//! Users' formulas have noise of their own: the paper's Examples 3 to 5 cancel terms of order 10
+//! over a contact of size 1e-3. It shows in the highest coefficients of the interpolant, which for
+//! a smooth slope have sunk into it: the coefficients of a panel of m points with noise σ level off
+//! at about σ/sqrt(m), and its integral is uncertain by about twice that level. If the interpolant
+//! has not converged, the same coefficients measure its error.
 
 use crate::gap::{Gap, Sampler};
 use crate::quadrature::Moments;
@@ -32,8 +32,8 @@ static WEIGHTS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| {
     rules.take_while(|&m| m <= FINEST).map(fejer).collect()
 });
 
-/// Fejér, *Math. Z.* 37 (1933) 287; the closed form of the weights is in Waldvogel, *BIT
-/// Numer. Math.* 46 (2006) 195, Eq. (2.3).
+/// Returns the weights of Fejér's second rule (Fejér, *Math. Z.* 37 (1933) 287), in the closed form
+/// of Waldvogel, *BIT Numer. Math.* 46 (2006) 195, Eq. (2.3).
 fn fejer(m: usize) -> Vec<f64> {
     let weight = |j: usize| {
         let phi = PI * j as f64 / m as f64;
@@ -71,7 +71,7 @@ pub(super) fn moments<T: Real>(
         }
     }
     let [mean, first, size] = [0, 1, 2].map(|i| total(&panels, |panel| panel.sums[i]));
-    // At a kink what the coefficients leave adds up, however little the last rule has changed.
+    // At a kink the remaining coefficients add up, however little the last rule has changed.
     let left_open = |panel: &Segment<T>| panel.plateau() * T::of(4.0);
     let error = total(&panels, left_open).max(T::of(4.0) * T::epsilon() * size);
     Ok(Moments {
@@ -89,17 +89,17 @@ fn total<T: Real>(panels: &[Segment<T>], part: impl Fn(&Segment<T>) -> T) -> T {
     panels.iter().fold(T::zero(), |sum, panel| sum + part(panel))
 }
 
-/// A range of θ without a breakpoint, and the slope sampled on it.
+/// Range of θ without a breakpoint, and the slope sampled on it.
 struct Segment<T> {
     from: T,
     to: T,
     /// Index into `WEIGHTS` of the rule to use next.
     rule: usize,
-    /// Samples at the points of the finest rule, as far as they are needed.
+    /// Samples at the points of the finest rule, taken as needed.
     slope: [Option<T>; FINEST],
-    /// The integrals of g, g cos θ and |g|, divided by π.
+    /// Integrals of g, g cos θ and |g|, divided by π.
     sums: [T; 3],
-    /// By how much the first two changed at the last refinement.
+    /// Largest change of the first two at the last refinement.
     change: T,
 }
 
@@ -109,7 +109,7 @@ impl<T: Real> Segment<T> {
         Self { from, to, rule: 0, slope: [None; FINEST], sums, change: T::zero() }
     }
 
-    /// What the highest coefficients of the interpolant leave open of the integrals.
+    /// Returns the error of the integrals by the highest coefficients of the interpolant.
     fn plateau(&self) -> T {
         let m = COARSEST << (self.rule - 1);
         let sine = |i: usize| T::of((PI * (i % (2 * m)) as f64 / m as f64).sin());
@@ -155,7 +155,7 @@ impl<T: Real> Segment<T> {
         let sums = sums.map(|sum| sum * scale);
         self.change = (sums[0] - self.sums[0]).abs().max((sums[1] - self.sums[1]).abs());
         if self.rule == 0 {
-            // There is nothing to compare with yet.
+            // Nothing to compare with yet.
             self.change = T::max_value().unwrap_or(sums[2] / T::epsilon());
         }
         self.sums = sums;

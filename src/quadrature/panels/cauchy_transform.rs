@@ -6,21 +6,23 @@
 //! W(ζ) = ∫ P(s)/(ζ - s) ds = -κ S(ζ)/p(ζ) V(ζ)/π
 //! ```
 //!
-//! and what a single contact has besides, where the strengths K of its edges are not zero:
+//! and the further part of a single contact, if the strengths K of its edges are not zero:
 //!
 //! ```text
 //! π/2 (K_a (A/B - 1) + K_b (1 - B/A)) - κ m₀,      A = sqrt(ζ + b),   B = sqrt(ζ - a)
 //! ```
 //!
-//! On a panel whose polynomial q can be continued to ζ, V has a closed form, as on the surface (`hilbert_transform.rs`):
+//! On a panel whose polynomial q can be continued to ζ, V has a closed form, as on the surface
+//! (`hilbert_transform.rs`):
 //!
 //! ```text
-//! ∫_u^v q(s) dθ/(s - ζ) = ∫ (q(s) - q(ζ))/(s - ζ) dθ - i q(ζ)/R (Λ(ζ, v) - Λ(ζ, u)),     R = A B
-//! Λ(ζ, t) = ln (m - i n)²/((ζ - t)(a + b)),     m = A sqrt(a - t),   n = B sqrt(t + b),     Λ' = -i w(t)/(R (ζ - t))
+//! ∫_u^v q(s) dθ/(s - ζ) = ∫ (q(s) - q(ζ))/(s - ζ) dθ - i q(ζ)/R (Λ(ζ, v) - Λ(ζ, u)),   R = A B
+//! Λ(ζ, t) = ln (m - i n)²/((ζ - t)(a + b)),     m = A sqrt(a - t),   n = B sqrt(t + b)
+//! Λ' = -i w(t)/(R (ζ - t))
 //! ```
 //!
-//! Nothing in it is steep but the logarithm, whose argument keeps its digits: so W is good to rounding of the largest
-//! slope at any depth.
+//! Only the logarithm is steep, and its argument keeps its digits: W is exact to rounding of the
+//! largest slope at any depth.
 
 use super::near_far_sum::{NearFarSum, Seen};
 use super::panel::within;
@@ -29,24 +31,25 @@ use crate::gap::Gap;
 use crate::{ContactError, Ends, Interval, Real};
 use nalgebra::Complex;
 
-/// A function of ζ and its derivative.
+/// Function of ζ, and its derivative.
 pub(super) type WithDerivative<T> = [Complex<T>; 2];
 
-/// Places on the circle that stands for a zero of p, and its radius as a share of the gap in which that lies: the mean is
-/// off by the eighth power of the radius, each value by rounding over the radius.
+/// Number of points on the circle whose mean stands for a place close to a zero of p, and the
+/// radius as a share of the gap around the zero. The mean is off by the eighth power of the radius,
+/// each value by rounding over the radius.
 const CIRCLE: usize = 8;
 const RADIUS: f64 = 1.0 / 64.0;
 
-/// The contacts with their panels, as seen from anywhere in the plane.
+/// Contacts with their panels, as seen from anywhere in the plane.
 pub(crate) struct CauchyTransform<T> {
     pub(super) contacts: Vec<(Interval<T>, NearFarSum<T>)>,
-    /// The zeros of p.
+    /// Zeros of p.
     pub(super) zeros: Vec<T>,
-    /// The limits that S has no root for.
+    /// True at an outermost limit that is a corner, where S has an inverse root.
     pub(super) corners: Ends<bool>,
-    /// The part of V that no panel has.
+    /// Part of V that comes from no panel.
     pub(super) constant: T,
-    /// The strengths of the edges of a single contact, pressures.
+    /// Strengths of the edges of a single contact, pressures.
     pub(super) strengths: Ends<T>,
     /// W of the panels of a single contact far away: κ m₀.
     pub(super) far_away: T,
@@ -54,8 +57,8 @@ pub(crate) struct CauchyTransform<T> {
     pub(super) load: T,
 }
 
-/// Returns the Cauchy transform of the pressure on the contact that an integrator is prepared for, or of panels on the same
-/// contact for one that has none.
+/// Returns the Cauchy transform of the pressure on the contact for which an integrator is prepared.
+/// For an integrator without panels, panels are sampled on the same contact.
 ///
 /// # Errors
 /// Those of sampling the gap.
@@ -74,7 +77,7 @@ pub(crate) fn cauchy_transform<T: Real>(
 }
 
 impl<T: Real> CauchyTransform<T> {
-    /// The transform of the pressure on prepared panels.
+    /// Returns the transform of the pressure on prepared panels.
     fn of(integrator: &PanelIntegrator<T>, load_case: &LoadCase<T>) -> Self {
         let LoadCase { kappa, load, .. } = *load_case;
         if integrator.is_several {
@@ -95,18 +98,18 @@ impl<T: Real> CauchyTransform<T> {
         }
     }
 
-    /// From the first to the last limit.
+    /// Returns the interval from the first limit to the last.
     fn hull(&self) -> Interval<T> {
         let last = self.contacts.len() - 1;
         Interval { left: self.contacts[0].0.left, right: self.contacts[last].0.right }
     }
 
-    /// W and `y W'` at x, at a depth that is not negative.
+    /// Returns W and `y W'` at x, at a depth y that is not negative.
     pub fn at(&self, x: T, depth: T) -> WithDerivative<T> {
         let hull = self.hull();
         let by_width = T::one() / (hull.right - hull.left);
         let (y, from_centre) = (depth * by_width, x - hull.centre());
-        // From so far a contact is a line load.
+        // Seen from so far, a contact is a line load.
         if (from_centre * by_width).abs().max(y) > T::one() / T::epsilon() {
             let radius = from_centre.hypot(depth);
             let turn = Complex::new(from_centre / radius, -depth / radius);
@@ -126,7 +129,7 @@ impl<T: Real> CauchyTransform<T> {
         for i in 0..CIRCLE {
             let angle = T::two_pi() * T::count(i) / T::count(CIRCLE);
             let aside = Complex::new(radius * angle.cos(), radius * angle.sin());
-            // Above the surface it is the conjugate of below.
+            // Above the surface W is the conjugate of W below.
             let above = y + aside.im < T::zero();
             let conjugate = |z: Complex<T>| if above { z.conj() } else { z };
             let found = self.off_zeros(&|t| conjugate(place(t) + aside), y);
@@ -136,14 +139,14 @@ impl<T: Real> CauchyTransform<T> {
         mean
     }
 
-    /// The same where p is not zero, by the distances from ζ, which is not above the surface. Distances are in widths of the
-    /// hull.
+    /// Returns the result of [`at`](Self::at) where p is not zero, given the distances from ζ, in
+    /// widths of the hull. ζ is not above the surface.
     fn off_zeros(&self, place: &impl Fn(T) -> Complex<T>, y: T) -> WithDerivative<T> {
         let one = Complex::new(T::one(), T::zero());
         let hull = self.hull();
         let width = hull.right - hull.left;
         let mut value = [one * (self.constant * width), one * T::zero()];
-        // S/p, its logarithmic derivative, and the power of a length that it has.
+        // S/p, its logarithmic derivative, and its dimension as a power of a length.
         let (mut factor, mut rate, mut power) = (one, one * T::zero(), -1);
         for (i, (on, sum)) in self.contacts.iter().enumerate() {
             let ends = [place(on.left), place(on.right)];
@@ -202,7 +205,7 @@ impl<T: Real> CauchyTransform<T> {
         Some(self.load * (half * half_width / length(u)).ln() + half_width * regular)
     }
 
-    /// The part of given strengths, by the distances from both limits.
+    /// Returns the part of given strengths, from the distances to both limits.
     fn of_strengths(&self, limits: [Complex<T>; 2]) -> WithDerivative<T> {
         let Ends { left, right } = self.strengths;
         if left.is_zero() && right.is_zero() {
@@ -216,18 +219,18 @@ impl<T: Real> CauchyTransform<T> {
     }
 }
 
-/// The distance from zero.
+/// Returns the distance from zero.
 pub(super) fn length<T: Real>(z: Complex<T>) -> T {
     z.re.hypot(z.im)
 }
 
-/// The reciprocal, of however small a number.
+/// Returns the reciprocal, of however small a number.
 pub(super) fn inverse<T: Real>(z: Complex<T>) -> Complex<T> {
     let by = T::one() / length(z);
     Complex::new((z.re * by) * by, -(z.im * by) * by)
 }
 
-/// The root whose real part is not negative, with all digits of both parts.
+/// Returns the root whose real part is not negative, with all digits of both parts.
 pub(super) fn sqrt<T: Real>(z: Complex<T>) -> Complex<T> {
     let half = T::of(0.5);
     let large = ((length(z) + z.re.abs()) * half).sqrt();
@@ -239,7 +242,7 @@ pub(super) fn sqrt<T: Real>(z: Complex<T>) -> Complex<T> {
     Complex::new(re, if z.im < T::zero() { -im } else { im })
 }
 
-/// The natural logarithm.
+/// Returns the natural logarithm.
 pub(super) fn ln<T: Real>(z: Complex<T>) -> Complex<T> {
     Complex::new(length(z).ln(), z.im.atan2(z.re))
 }

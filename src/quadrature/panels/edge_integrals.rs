@@ -1,8 +1,8 @@
 //! The edge integrals of a row of panels, and their derivatives by the two limits.
 //!
-//! A polynomial over the contact is a sum of cosines, and so is its derivative: what a panel adds is
-//! a sum of differences of `sin kθ/k`. Where panels are too short for their series to be continued
-//! over the contact, each is a span of θ for Gauss's rule.
+//! A polynomial over the contact is a sum of cosines, and so is its derivative: a panel adds a sum
+//! of differences of `sin kθ/k`. If panels are too short for their series to be continued over the
+//! contact, each is a span of θ for Gauss's rule.
 
 use super::half_angle::{Arc, HalfAngle, Sines};
 use super::panel::{Panel, Series, spans, within};
@@ -13,7 +13,7 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::{MomentDerivatives, Moments};
 use crate::{Interval, Real};
 
-/// `∫ g cos iθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
+/// Integrals `∫ g cos iθ dθ`, `∫ |g| dθ` and `∫ g' cosⁱθ dθ`, all divided by π, and the error of g.
 #[derive(Clone, Copy)]
 pub(super) struct EdgeSums<T> {
     g: [CompensatedSum<T>; 3],
@@ -45,7 +45,7 @@ impl<T: Real> EdgeSums<T> {
     }
 
     pub fn moments(self, on: Interval<T>) -> Moments<T> {
-        // A formula of a few terms is good to a few units in the last place.
+        // A formula of a few terms is exact to a few units in the last place.
         let rounding = T::of(16.0) * T::epsilon() * self.size;
         let [by_0, by_1, by_2] = self.slope;
         let derivatives = Some(MomentDerivatives { by_0, by_1, by_2 });
@@ -61,8 +61,8 @@ impl<T: Real> EdgeSums<T> {
     }
 }
 
-/// The edge integrals over a contact that the panels cover, coarsely or in full; and where one panel alone holds it,
-/// `over` becomes the [series](Panel::over) of that.
+/// Returns the edge integrals over a contact that the panels cover, coarsely or in full. If one
+/// panel holds the whole contact, `over` becomes its [series](Panel::over).
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
@@ -85,7 +85,7 @@ pub(super) fn moments<T: Real>(
     sums.moments(on)
 }
 
-/// The coefficients of the derivative by z.
+/// Returns the coefficients of the derivative by z.
 #[inline(always)]
 fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
     let mut slopes = [T::zero(); MOST];
@@ -97,8 +97,8 @@ fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
     slopes
 }
 
-/// Whether the slope rises over the contact, up to errors of this size: its derivative is not negative
-/// by its coefficients alone, and no jump goes down.
+/// Tells whether the slope rises over the contact, up to errors of size `allowed`: its derivative
+/// is not negative by its coefficients alone, and no jump goes down.
 pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
     let mut before: Option<T> = None;
     within(panels, on).iter().all(|panel| {
@@ -110,12 +110,12 @@ pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
         let error = panel.tail.max(allowed);
         let jumps_down = before.is_some_and(|before| left < before - error);
         before = Some(right);
-        // Markov's inequality: so large may the derivative of such an error be.
+        // Markov's inequality bounds the derivative of such an error.
         slopes[0] - others >= -error * T::count(panel.counting) && !jumps_down
     })
 }
 
-/// One panel holds the contact: over half a turn every cosine vanishes.
+/// Integrates over a contact on one panel: over half a turn every cosine vanishes.
 fn whole<T: Real>(
     sums: &mut EdgeSums<T>,
     (series, counting): &Series<T>,
@@ -132,7 +132,8 @@ fn whole<T: Real>(
     sums.error = tail;
 }
 
-/// Several panels hold it between them, and their series can be continued over it; `false` if not.
+/// Integrates over several panels by continuing their series over the contact; `false` if it
+/// cannot.
 fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>) -> bool {
     let half = T::of(0.5);
     let mut before = [T::zero(); 2];
@@ -151,7 +152,7 @@ fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval
     every
 }
 
-/// What the series adds on a span, given the integrals of cos kθ over it.
+/// Adds the integrals of a series over a span, given the integrals of cos kθ over it.
 #[inline(always)]
 fn span_of<const N: usize, T: Real>(
     sums: &mut EdgeSums<T>,
@@ -163,7 +164,7 @@ fn span_of<const N: usize, T: Real>(
     let slopes = derivative::<N, T>(series);
     let (mut g, mut h) = ([T::zero(); 3], [T::zero(); 3]);
     for k in 0..N {
-        // Times cos θ, and times its square.
+        // Times cos θ, and times cos 2θ.
         let once = half * (integrals[k.abs_diff(1)] + integrals[k + 1]);
         g[0] += series[k] * integrals[k];
         g[1] += series[k] * once;
@@ -178,7 +179,7 @@ fn span_of<const N: usize, T: Real>(
     sums.add(g, h, by_x);
 }
 
-/// Several panels hold it between them, some of them too short for their series to be continued.
+/// Integrates over several panels, some of them too short for their series to be continued.
 fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>, coarse: bool) {
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
@@ -196,7 +197,7 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
     sums.scale(T::frac_1_pi());
 }
 
-/// One span of several.
+/// Adds the integrals over one of several spans.
 fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, coarse: bool) {
     const W: usize = 8;
     let rule = if coarse {
@@ -231,8 +232,8 @@ fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>,
     sums.error += panel.tail * T::of(4.0) * arc.tangent;
 }
 
-/// Where g jumps, g' is an impulse. What no part of a number tells from the errors of the two series is no jump:
-/// next to an edge it would outweigh all the rest.
+/// Adds the impulse of g' where g jumps. A jump within the errors of the two series, in each
+/// component of its numbers, is ignored: next to an edge it would outweigh all the rest.
 fn jump<T: Real>(
     sums: &mut EdgeSums<T>,
     [before, after]: [T; 2],

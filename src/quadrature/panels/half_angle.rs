@@ -1,24 +1,24 @@
 //! The angle θ of `x = c + L cos θ` without a trigonometric function.
 //!
-//! The half-angle of a point is known from its distances to the two edges: `cos θ/2 = sqrt((x +
-//! b)/2L)`, `sin θ/2 = sqrt((a - x)/2L)`. On a span with the middle θ_m let `σ = tan((θ -
-//! θ_m)/2)`. Then
+//! The half-angle of a point is known from its distances to the two edges:
+//! `cos θ/2 = sqrt((x + b)/2L)`, `sin θ/2 = sqrt((a - x)/2L)`. On a span with the middle θ_m let
+//! `σ = tan((θ - θ_m)/2)`. Then
 //!
 //! ```text
 //! x - x_m = -2 L σ (σ cos θ_m + sin θ_m)/(1 + σ²)          dθ = 2 dσ/(1 + σ²)
 //! ```
 //!
-//! which keeps all digits of a distance within the span however short it is, and the integrand
-//! is smooth: its only poles are at σ = ±i, and |σ| < 1.
+//! which keeps all digits of a distance within the span however short it is, and the integrand is
+//! smooth: its only poles are at σ = ±i, and |σ| < 1.
 //!
-//! Where digits of short distances are not needed, a polynomial is summed up as a cosine series
-//! instead, whose integrals over a span are differences of `sin kθ/k`.
+//! If digits of short distances are not needed, a polynomial is summed as a cosine series instead,
+//! whose integrals over a span are differences of `sin kθ/k`.
 
 use crate::numerics::chebyshev::MOST;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 
-/// A point of the contact by the cosine and sine of half its angle.
+/// Point of the contact, by the cosine and sine of half its angle.
 #[derive(Clone, Copy)]
 pub(super) struct HalfAngle<T> {
     cos: T,
@@ -28,25 +28,25 @@ pub(super) struct HalfAngle<T> {
 impl<T: Real> HalfAngle<T> {
     pub fn of(on: Interval<T>, x: T) -> Self {
         let width = on.right - on.left;
-        // At an edge itself the root of zero, which has no derivative, is none.
+        // At an edge itself a plain zero: the root has no derivative there.
         let share = |distance: T| {
             if distance > T::zero() { (distance / width).sqrt() } else { T::zero() }
         };
         Self { cos: share(x - on.left), sin: share(on.right - x) }
     }
 
-    /// cos θ
+    /// Returns cos θ.
     pub fn cosine(&self) -> T {
         (self.cos - self.sin) * (self.cos + self.sin)
     }
 
-    /// sin θ
+    /// Returns sin θ.
     pub fn sine(&self) -> T {
         (self.cos + self.cos) * self.sin
     }
 }
 
-/// 1/k from k = 1 on.
+/// Reciprocals 1/k, from k = 1 on.
 const SHARES: [f64; MOST + 1] = {
     let mut shares = [0.0; MOST + 1];
     let mut k = 0;
@@ -57,11 +57,11 @@ const SHARES: [f64; MOST + 1] = {
     shares
 };
 
-/// The integrals of `cos kφ` over a span of φ; or over that from 0 to θ, which are `sin kθ/k`.
+/// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are `sin kθ/k`.
 pub(super) type Sines<T> = [T; MOST + 2];
 
 impl<T: Real> HalfAngle<T> {
-    /// θ and `π - θ`, the smaller one to all digits.
+    /// Returns θ and `π - θ`, the smaller one to all digits.
     pub fn angles(&self) -> [T; 2] {
         let twice = |sin: T, cos: T| T::of(2.0) * sin.atan2(cos);
         if self.sin <= self.cos {
@@ -73,7 +73,7 @@ impl<T: Real> HalfAngle<T> {
         }
     }
 
-    /// Those from 0 to θ, up to k = `count - 1`, but for the one of k = 0.
+    /// Returns the integrals from 0 to θ, up to k = `count - 1`, without k = 0.
     pub fn sines(&self, count: usize) -> Sines<T> {
         let two = T::of(2.0);
         let mut sines = [T::zero(); MOST + 2];
@@ -87,20 +87,21 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// A span of a contact, by the angles of its ends.
+/// Span of a contact, by the angles of its ends.
 pub(super) struct Arc<T> {
-    /// cos θ_m and sin θ_m.
+    /// Middle of the span: cos θ_m and sin θ_m.
     pub cos: T,
     sin: T,
-    /// σ at the left end; at the right end it is the negative of this.
+    /// Value of σ at the left end; at the right end it is the negative.
     pub tangent: T,
     width: T,
-    /// `x_left - x_m`.
+    /// Distance `x_left - x_m`.
     pub to_left: T,
 }
 
 impl<T: Real> Arc<T> {
-    /// From `left` to `right`, whose half-angles are given, of a contact of some width.
+    /// Returns the span from `left` to `right`, given by half-angles, in a contact of a given
+    /// width.
     pub fn new(length: T, left: HalfAngle<T>, right: HalfAngle<T>, width: T) -> Self {
         let cos = left.cos * right.cos - left.sin * right.sin;
         let sin = left.sin * right.cos + left.cos * right.sin;
@@ -112,14 +113,14 @@ impl<T: Real> Arc<T> {
         arc
     }
 
-    /// `x - x_m` and dθ/dσ at σ.
+    /// Returns `x - x_m` and dθ/dσ at σ.
     #[inline(always)]
     fn beside_middle(&self, sigma: T) -> (T, T) {
         let turn = T::one() / (T::one() + sigma * sigma);
         (-self.width * sigma * (sigma * self.cos + self.sin) * turn, turn + turn)
     }
 
-    /// `x - x_m` and dθ/σ at W nodes of a rule over the span, σ that of its end.
+    /// Returns `x - x_m` and dθ/σ at W nodes of a rule over the span, with σ at its end.
     #[inline(always)]
     pub fn nodes<const W: usize>(&self, rule: &GaussLegendre, block: usize) -> [[T; W]; 2] {
         let [mut y, mut weight] = [[T::zero(); W]; 2];
@@ -132,7 +133,7 @@ impl<T: Real> Arc<T> {
         [y, weight]
     }
 
-    /// The width of the contact.
+    /// Returns the width of the contact.
     pub fn width(&self) -> T {
         self.width
     }

@@ -14,19 +14,20 @@
 //! Λ(x, t) = 2 artanh(min(m, n)/max(m, n)),   m² = (a - t)(x + b),   n² = (a - x)(t + b)
 //! ```
 //!
-//! Λ vanishes at the edges of the contact, so one panel alone has no logarithm, and of two that meet
-//! only the difference of their polynomials has. If `b_k` are the numbers that Clenshaw's recurrence
-//! passes through on its way to `p(x) = Σ c_k T_k(z)`, `x = c + L z`, then
+//! Λ vanishes at the edges of the contact, so one panel alone has no logarithm, and where two meet
+//! only the difference of their polynomials has one. If `b_k` are the numbers of Clenshaw's
+//! recurrence for `p(x) = Σ c_k T_k(z)`, `x = c + L z`, then
 //!
 //! ```text
 //! (p(z') - p(z))/(z' - z) = b₁ + 2 Σ_{k≥1} b_{k+1} T_k(z'),      b_k(z) = Σ_{l≥0} c_{k+l} U_l(z)
 //! ```
 //!
-//! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the series
-//! of each panel can be continued over the contact: the pressure then takes one series, and one
-//! more with a logarithm at each breakpoint. Where they cannot, see `near_far_sum.rs`.
+//! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the
+//! series of each panel can be continued over the contact: the pressure then takes one series, and
+//! one more with a logarithm at each breakpoint. If they cannot be continued, see
+//! `near_far_sum.rs`.
 //!
-//! All of it has the factor w, or one that goes to zero like w, from the distances of x to the
+//! Every term has the factor w, or one that goes to zero like w, from the distances of x to the
 //! edges: R keeps its relative accuracy up to a free edge.
 
 use super::half_angle::Sines;
@@ -37,13 +38,14 @@ use crate::numerics::chebyshev::{MOST, Row, by_size, second_kind, size_for, valu
 use crate::real::fma;
 use crate::{Interval, Real};
 
-/// Points treated together.
+/// Number of points evaluated together.
 pub(super) const LANES: usize = 16;
 
-/// Changes from one panel to the next, each with its logarithm, before groups of panels take less time.
+/// Largest number of changes from one panel to the next, each with its logarithm; beyond it, groups
+/// of panels take less time.
 const MOST_CHANGES: usize = 64;
 
-/// Points by their distances to the two edges, and `sqrt((x + b)(a - x))`.
+/// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
     pub left: [T; LANES],
     pub right: [T; LANES],
@@ -63,31 +65,31 @@ impl<T: Real> Edges<T> {
     }
 }
 
-/// A contact on its panels.
+/// Hilbert transform over one contact, from its panels.
 #[derive(Clone)]
 pub(super) struct HilbertTransform<T> {
     pub on: Interval<T>,
-    /// The smooth part: the first `terms` coefficients of the `U_l`, divided by L.
+    /// Smooth part: the first `terms` coefficients of the `U_l`, divided by L.
     smooth: Row<T>,
     terms: usize,
-    /// By how much the slope changes from one panel to the next.
+    /// Changes of the slope from one panel to the next.
     changes: Vec<Change<T>>,
-    /// The panels, where their series cannot be continued over the contact.
+    /// Sum over the panels, used if their series are not continued over the contact.
     far: NearFarSum<T>,
     is_far: bool,
     rounding: Rounding<T>,
 }
 
-/// What tells a jump of the slope from what rounding makes of a kink.
+/// Thresholds that tell a jump of the slope from the rounding at a kink.
 #[derive(Clone, Copy)]
 pub(super) struct Rounding<T> {
     /// Rounding of the slopes.
     pub slope: T,
-    /// The largest jump that the series may have where there is only a kink.
+    /// Largest jump that the series may have at a mere kink.
     pub kink: T,
 }
 
-/// The difference of the series of two panels that meet, over the contact.
+/// Difference of the series of two neighbouring panels, over the contact.
 #[derive(Clone)]
 struct Change<T> {
     breakpoint: Breakpoint<T>,
@@ -109,8 +111,8 @@ impl<T: Real> HilbertTransform<T> {
         }
     }
 
-    /// Sets it to a contact that the panels cover, with slopes up to `size`; or that one panel alone holds, of
-    /// this series.
+    /// Prepares the transform for a contact that the panels cover, with slopes up to `size`. `over`
+    /// is the series if one panel holds the whole contact.
     pub fn set(
         &mut self,
         panels: &[Panel<T>],
@@ -131,7 +133,7 @@ impl<T: Real> HilbertTransform<T> {
         }
     }
 
-    /// The series, continued over the contact; `false` if one of several grows too much on the way.
+    /// Continues the series over the contact; `false` if one of several grows too much on the way.
     fn reexpanded(
         &mut self,
         panels: &[Panel<T>],
@@ -142,7 +144,7 @@ impl<T: Real> HilbertTransform<T> {
         (self.smooth, self.terms) = ([zero; MOST], 1);
         self.changes.clear();
         if let Some((series, terms)) = over {
-            // Over the whole contact only the cosine of zero times the angle has an integral.
+            // Over the whole contact only `cos 0θ` has an integral.
             let share = T::pi() / on.half_width();
             self.terms = terms - 1;
             for k in 1..*terms {
@@ -166,7 +168,7 @@ impl<T: Real> HilbertTransform<T> {
         every
     }
 
-    /// From the panel before, by its series, terms and tail, to this one.
+    /// Returns the change from the panel before, given by its series, terms and tail, to this one.
     fn change(
         &self,
         span: &PanelAngles<'_, T>,
@@ -176,7 +178,7 @@ impl<T: Real> HilbertTransform<T> {
         let panel = span.panel;
         let mut series: Row<T> = std::array::from_fn(|k| span.series[k] - last[k]);
         let terms = span.terms.max(*last_terms);
-        // Noise at a breakpoint that does not jump would be a spike.
+        // At a breakpoint without a jump, noise would be a spike.
         let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
         let jump = value_at(&series[..terms], z / (on.right - on.left));
         if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + *last_tail) {
@@ -186,7 +188,8 @@ impl<T: Real> HilbertTransform<T> {
         Change { breakpoint: Breakpoint::new(panel, on, panel.x[0]), series, terms }
     }
 
-    /// `π² R` at so many points strictly inside the contact. Infinite where the slope jumps.
+    /// Returns `π² R` at the first `count` points, strictly inside the contact; infinite where the
+    /// slope jumps.
     #[inline(always)]
     pub fn at(&self, x: &[T; LANES], count: usize, edges: &Edges<T>) -> [T; LANES] {
         if self.is_far {
@@ -214,7 +217,7 @@ impl<T: Real> HilbertTransform<T> {
         sum
     }
 
-    /// Estimated error of `π² R` at a point, from what the series leave open.
+    /// Estimates the error of `π² R` at a point from the errors of the series.
     pub fn error(&self, panels: &[Panel<T>], x: T) -> T {
         let on = self.on;
         let width = on.right - on.left;
@@ -226,7 +229,7 @@ impl<T: Real> HilbertTransform<T> {
             let away = (from - x).max(x - to).max(T::zero());
             if away <= length {
                 let near = T::one().min(T::count(panel.n) * sine * width / length);
-                // Beside a breakpoint a logarithm goes with it.
+                // Next to a breakpoint the error has a logarithm.
                 let beside = (x - from).abs().min((to - x).abs()).max(T::of(1e-6) * length);
                 let log = T::of(3.0) + T::of(0.5) * (length / beside).ln();
                 here = here.max(panel.tail * log * near);
@@ -247,8 +250,8 @@ impl<T: Real> HilbertTransform<T> {
         T::of(8.0) * (sum + here + of_groups) + self.spike(panels, x)
     }
 
-    /// As good as at the breakpoint of two panels, what a small difference makes with a logarithm: whether
-    /// it is rounding or a jump of the slope cannot be told, and at a jump the pressure is infinite.
+    /// Returns the extra error at a panel boundary, where rounding cannot be told from a jump: the
+    /// mismatch times a logarithm. (At a jump the pressure is infinite.)
     fn spike(&self, panels: &[Panel<T>], x: T) -> T {
         let width = self.on.right - self.on.left;
         let next = panels.partition_point(|panel| panel.x[1] < x).min(panels.len() - 1);
@@ -271,7 +274,7 @@ impl<T: Real> HilbertTransform<T> {
     }
 }
 
-/// Adds what the integral of q over a span makes of the coefficients.
+/// Adds the integral of q over a span to the coefficients.
 #[inline(always)]
 fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, integrals: &Sines<T>) {
     for m in 1..N {
@@ -282,23 +285,23 @@ fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, int
     }
 }
 
-/// The distances of a point to the two edges, as shares of the width.
+/// Returns the distances of a point to the two edges, as shares of the width.
 pub(super) fn shares<T: Real>(on: Interval<T>, x: T) -> [T; 2] {
     let share = T::one() / (on.right - on.left);
     [(x - on.left) * share, (on.right - x) * share]
 }
 
-/// The start of a panel, as the place of a logarithm.
+/// Start of a panel, as the place of a logarithm.
 #[derive(Clone)]
 pub(super) struct Breakpoint<T> {
     x: T,
-    /// Square roots of its distances to the two edges, as shares of the width.
+    /// Square roots of the distances to the two edges, as shares of the width.
     roots: [T; 2],
-    /// What a series cannot tell from it.
+    /// Smallest distance that the series resolves.
     closest: T,
 }
 
-/// The coefficients of artanh(r)/r in r².
+/// Coefficients of artanh(r)/r in r².
 #[rustfmt::skip]
 const ARTANH: [f64; 9] =
     [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
@@ -309,8 +312,8 @@ impl<T: Real> Breakpoint<T> {
         Self { x, roots, closest: panel.half() / T::count(panel.n * panel.n) }
     }
 
-    /// `change Λ(x, t)`, t the breakpoint, at points with the roots of the distances from the edges to
-    /// them, as shares of the width.
+    /// Returns `change Λ(x, t)` at points, with t the breakpoint. `left` and `right` are the square
+    /// roots of their distances to the edges, as shares of the width.
     #[inline(always)]
     pub fn logarithms<const W: usize>(
         &self,
@@ -321,8 +324,8 @@ impl<T: Real> Breakpoint<T> {
         rounding: Rounding<T>,
     ) -> [T; W] {
         let width = on.right - on.left;
-        // What is rounding, or an end that the series do not resolve, has no logarithm closer than
-        // the series can see.
+        // Mere rounding, or an end that the series do not resolve, has no logarithm closer than the
+        // series resolve.
         let distance: [T; W] = std::array::from_fn(|i| {
             let distance = (x[i] - self.x).abs();
             let change = change[i].abs();
@@ -334,7 +337,7 @@ impl<T: Real> Breakpoint<T> {
         let quotient: [T; W] =
             std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * (width / distance[i]));
         let comparable = |i: usize| m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]);
-        // Mostly all of them are plain.
+        // Usually all points take the plain form.
         if (0..W).fold(true, |all, i| all & comparable(i) & !distance[i].is_zero()) {
             return std::array::from_fn(|i| change[i] * quotient[i].ln());
         }
@@ -345,7 +348,7 @@ impl<T: Real> Breakpoint<T> {
             if comparable(i) {
                 return change[i] * quotient[i].ln();
             }
-            // 2 artanh, of which the logarithm would lose the digits.
+            // 2 artanh by its series, because the logarithm would lose digits.
             let ratio = m[i].min(n[i]) / m[i].max(n[i]);
             let square = ratio * ratio;
             let series = ARTANH.iter().rev().fold(T::zero(), |sum, &c| sum * square + T::of(c));

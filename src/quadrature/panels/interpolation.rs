@@ -1,29 +1,28 @@
-//! What a body was sampled at, which is near the nodes, says of its slopes at the nodes, and what it
-//! leaves open.
+//! Slopes of a body at the nodes, from samples near the nodes, and their error.
 
 use crate::Real;
 use crate::gap::SampleCache;
 use crate::numerics::chebyshev::{MOST, Table};
 use crate::real::fma;
 
-/// Zeros, and in their middle 1, which takes the place of the difference of a node from itself.
+/// Zeros with a 1 in the middle, which replaces the difference of a node from itself.
 const ONE: [f64; 2 * MOST] = {
     let mut one = [0.0; 2 * MOST];
     one[MOST] = 1.0;
     one
 };
 
-/// The slopes of a body at the nodes, from those at the points that it was sampled at. Both count
-/// from the left end of the panel, where the rounding of x matters less.
+/// Returns the slopes of a body at the nodes from the slopes at its sampled points. Both count from
+/// the left end of the panel, where the rounding of x matters less.
 ///
-/// With node t next to the point xᵢ, Lagrange's formula for what the slope differs from that at xᵢ:
+/// With node t next to the point xᵢ, Lagrange's formula for the difference of the slope from fᵢ is
 ///
 /// ```text
 /// f(t) = fᵢ + Σⱼ (fⱼ - fᵢ) wⱼ Π_{m≠j} (t - x_m),    wⱼ = 1/Π_{m≠j} (xⱼ - x_m)
 /// ```
 ///
-/// whose terms are small where the rounding would be large; and it takes no division for a node.
-// As `sample_near`, for the sake of a bare solve.
+/// Its terms are small where rounding would be large, and it takes no division per node.
+// Inlined like `sample_near`, for the speed of a bare solve.
 #[inline(always)]
 pub(super) fn at_nodes<const N: usize, T: Real>(
     nodes: &[T; N],
@@ -40,7 +39,7 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
     let unit = T::of(2.0) / reach;
     let x: [T; N] = std::array::from_fn(|i| (curve_samples[i].x - left) * unit);
     let at = nodes.map(|node| node * unit);
-    // The factors in the same order as those of the products below, whose rounding they then share.
+    // Factors in the order of the products below, so that both round alike.
     let mut weight = [T::one(); N];
     for j in 0..N {
         let one = &ONE[MOST - j..MOST - j + N];
@@ -57,13 +56,13 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
             product[i] *= distance;
         }
     }
-    // Points too close to be told apart: a panel of a few units in the last place.
+    // Not finite if points coincide, on a panel of a few units in the last place.
     let apart = sum.iter().fold(true, |all, sum| all & sum.is_finite());
     std::array::from_fn(|i| if apart { known[i] + sum[i] } else { known[i] })
 }
 
-/// What the slopes of a body at the nodes leave open: the first coefficient that its series goes
-/// without, in the share by which its points are off the nodes.
+/// Estimates the error of a body's slopes at the nodes: the first coefficient beyond the series,
+/// times the share by which points are off the nodes.
 pub(super) fn left_open<const N: usize, T: Real>(
     nodes: &[T; N],
     trace: &SampleCache<T>,
@@ -75,7 +74,7 @@ pub(super) fn left_open<const N: usize, T: Real>(
     if trace.direct || coarse {
         return T::zero();
     }
-    // `T_N` rises by N/sin θ at its zeros.
+    // The slope of `T_N` at its zeros is N/sin θ.
     let curve_samples = &trace.curve_samples()[..N];
     let off = (0..N).fold(T::zero(), |max, i| {
         max.max((curve_samples[i].x - nodes[i]).abs() / T::of(table.sine[i]))
@@ -89,7 +88,7 @@ pub(super) fn left_open<const N: usize, T: Real>(
     off * last * (last / before).min(T::one())
 }
 
-/// By how much the series of a body misses its slopes at the ends of its piece.
+/// Returns the error of a body's series at the ends of its piece, where the slopes are known.
 pub(super) fn missed_at_ends<const N: usize, T: Real>(
     x: [T; 2],
     trace: &SampleCache<T>,

@@ -1,9 +1,10 @@
 //! The regular part of the pressure on panels too short for their series to be continued over the
-//! contact: about a square root that nobody declared, say.
+//! contact, for example next to a square root that nobody declared.
 //!
-//! The closed form of `hilbert_transform.rs`, in the panel's own variable, is used on the panel that holds x and
-//! around it, as far as the polynomial can be continued without losing digits; from further away the
-//! panel is summed up by Gauss's rule, and from far away many panels at once (`treecode.rs`).
+//! The closed form of `hilbert_transform.rs`, in the panel's own variable, is used on the panel
+//! that holds x and around it, as far as the polynomial can be continued without losing digits.
+//! From further away the panel is summed by Gauss's rule, and from far away many panels at once
+//! (`treecode.rs`).
 
 use super::cauchy_transform::{WithDerivative, inverse, length, ln, sqrt};
 use super::half_angle::{Arc, HalfAngle};
@@ -16,42 +17,45 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 use nalgebra::Complex;
 
-/// How far from the middle of its panel, in half-lengths, a polynomial is used whatever its terms: from closer by, the
-/// finest Gauss rule, of 64 nodes, leaves more than rounding, 1.32^-128 of the integral here.
+/// Distance from the middle of its panel, in half-lengths, up to which a polynomial is used
+/// whatever its terms. Closer by, the finest Gauss rule, of 64 nodes, would leave more than
+/// rounding: at this distance it leaves 1.32^-128 of the integral.
 const LEAST_REACH: f64 = 1.04;
 
-/// How far it may be used.
+/// Distances up to which a polynomial may be used, in half-lengths; the last without loss of digits
+/// is taken.
 const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
 
-/// How far at most off the surface, where the terms of a polynomial cancel: Gauss's rule does from here.
+/// Largest such distance off the surface, where the terms of a polynomial cancel: from here on
+/// Gauss's rule suffices.
 const REACH_IN_PLANE: f64 = 3.0;
 
-/// Where the points are that see the panels.
+/// Place of the points from which the panels are seen.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Seen {
-    /// In the contact.
+    /// Inside the contact.
     Inside,
-    /// On the surface outside it: no panel is near to all of them.
+    /// On the surface outside the contact, no closer to a panel than the ends of the contact.
     Outside,
     /// Anywhere below the surface.
     Below,
 }
 
-/// The panels of a contact.
+/// Panels of a contact, one by one and in groups.
 #[derive(Clone)]
 pub(super) struct NearFarSum<T> {
     parts: Vec<FarPanel<T>>,
-    /// Distances from the start of their part, and the slope there times the weight.
+    /// Distances of the nodes from the start of their part, and the slope there times the weight.
     nodes: Vec<[T; 2]>,
     groups: Vec<Group<T>>,
 }
 
-/// A panel, or what of it lies in the contact.
+/// Panel, or its part in the contact.
 #[derive(Clone)]
 pub(super) struct FarPanel<T> {
     pub panel: Panel<T>,
     breakpoint: Breakpoint<T>,
-    /// `b_k` is multiplied by `integrals[k - 1]`.
+    /// Factors of the `b_k`, in position `k - 1`.
     integrals: Row<T>,
     reach: T,
     pub nodes: std::ops::Range<usize>,
@@ -62,7 +66,7 @@ impl<T: Real> NearFarSum<T> {
         Self { parts: Vec::new(), nodes: Vec::new(), groups: Vec::new() }
     }
 
-    /// Sets it to the panels of a contact.
+    /// Prepares the sum for the panels of a contact.
     pub fn set(&mut self, panels: &[Panel<T>], on: Interval<T>, seen: Seen) {
         self.parts.clear();
         self.nodes.clear();
@@ -88,17 +92,18 @@ impl<T: Real> NearFarSum<T> {
         Some(nodes)
     }
 
-    /// The cosine series of all panels, as far as groups know it.
+    /// Returns the cosine series of all panels, from the group of all; empty without groups.
     pub fn cosines(&self) -> (Row<T>, usize) {
         self.groups.first().map_or(([T::zero(); MOST], 0), Group::cosines)
     }
 
-    /// Shows what a point of the surface sees of the panels, from left to right.
+    /// Shows the panels and groups seen from a point of the surface, from left to right.
     pub fn seen_from(&self, x: T, show: impl FnMut(Distance<'_, T>)) {
         self.seen_at(|from, to| (x - from).abs() + (x - to).abs(), show);
     }
 
-    /// The same for any point, by the sum of its distances from two others.
+    /// Shows the panels and groups seen from any point, given the sum of its distances from two
+    /// others.
     fn seen_at(&self, distances: impl Fn(T, T) -> T, mut show: impl FnMut(Distance<'_, T>)) {
         let mut number = 0;
         while let Some(group) = self.groups.get(number) {
@@ -115,7 +120,7 @@ impl<T: Real> NearFarSum<T> {
         }
     }
 
-    /// `π² R` at a point.
+    /// Returns `π² R` at a point.
     pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
         let (zero, mut sum, mut log) = (T::zero(), CompensatedSum::new(), CompensatedSum::new());
         let roots = shares(on, x).map(|share| [share.sqrt()]);
@@ -142,12 +147,13 @@ impl<T: Real> NearFarSum<T> {
         on.chebyshev_weight(x) * sum.value() + log.value()
     }
 
-    /// `∫ g(t)/((t - x) w(t)) dt` at a point outside the contact, at a distance from its nearer end.
+    /// Returns `∫ g(t)/((t - x) w(t)) dt` at a point outside the contact, at a distance from its
+    /// nearer end.
     ///
-    /// What the logarithm is inside an arcus tangent is outside:
+    /// The logarithm inside becomes an arctangent outside:
     ///
     /// ```text
-    /// ∫_{-b}^{t} ds/((s - x) w(s)) = -(2/r) arctan sqrt((x - a)(t + b)/((x + b)(a - t)))   for x > a
+    /// ∫_{-b}^{t} ds/((s - x) w(s)) = -(2/r) arctan sqrt((x - a)(t + b)/((x + b)(a - t))), x > a
     /// ```
     ///
     /// with `r = sqrt((x - a)(x + b))`, and likewise on the left.
@@ -157,7 +163,7 @@ impl<T: Real> NearFarSum<T> {
         let [to_left, to_right] = if right { [far, distance] } else { [distance, far] };
         let root = to_left.sqrt() * to_right.sqrt();
         let angle = |t: T| {
-            // At an end it stays nothing wherever the end moves: a root has no derivative there.
+            // At an end the root stays zero wherever the end moves: it has no derivative there.
             let root = |from: T, along: T| {
                 if along > T::zero() { from.sqrt() * along.sqrt() } else { T::zero() }
             };
@@ -180,8 +186,8 @@ impl<T: Real> NearFarSum<T> {
         sum.value()
     }
 
-    /// `∫ g(t)/(t - ζ) dθ` at a place below the surface, with its derivative by ζ: distances from ζ, and the unit of length,
-    /// are in these widths.
+    /// Returns `∫ g(t)/(t - ζ) dθ` below the surface, with its derivative by ζ. `place(t)` is
+    /// `(ζ - t)/width`, and the result is in units of the width.
     pub fn in_plane(
         &self,
         place: &impl Fn(T) -> Complex<T>,
@@ -212,7 +218,8 @@ impl<T: Real> NearFarSum<T> {
     }
 }
 
-/// `Σ g/(t - ζ)` over nodes `[t - t_left, g]`, with its derivative, by the distance of ζ from t_left.
+/// Returns `Σ g/(t - ζ)` over nodes `[t - t_left, g]`, with its derivative; `from` is the distance
+/// of ζ from t_left.
 fn pulls<T: Real>(
     from: Complex<T>,
     nodes: impl Iterator<Item = [T; 2]>,
@@ -229,13 +236,13 @@ fn pulls<T: Real>(
     })
 }
 
-/// What a point sees: panels one by one, by their numbers, or many as one.
+/// Panel, with its number, or group of panels, as seen from a point.
 pub(super) enum Distance<'f, T> {
     FarPanel(usize, &'f FarPanel<T>),
     Group(&'f Group<T>),
 }
 
-/// The part of a panel between two points, expanded anew.
+/// Returns the part of a panel between two points, expanded anew.
 fn clip<T: Real>(panel: &Panel<T>, x: [T; 2]) -> Panel<T> {
     let (series, _) = panel.over(Interval { left: x[0], right: x[1] });
     let mut clipped = Panel { series, tail: panel.tail, ..Panel::new(x) };
@@ -290,14 +297,15 @@ impl<T: Real> FarPanel<T> {
         Self { panel, breakpoint, integrals, reach, nodes: start..nodes.len() }
     }
 
-    /// The sum of the distances from both ends up to which its polynomial is used.
+    /// Returns the sum of the distances from both ends up to which the polynomial is used.
     pub fn around(&self) -> T {
-        // Without nodes it is used everywhere, however x is rounded.
+        // Without nodes the polynomial is used everywhere, however x is rounded.
         let reach = if self.nodes.is_empty() { self.reach + self.reach } else { self.reach };
         (reach + reach) * self.panel.half()
     }
 
-    /// `∫ q dθ` and the polynomial itself at a place near the panel; of one far off, all of the integral.
+    /// Returns `∫ q dθ` and the polynomial at a place near the panel; from far off, the whole
+    /// integral and `None`.
     fn seen_from(&self, x: T, nodes: &[[T; 2]]) -> (T, Option<T>) {
         let s = self.panel.local(x);
         if s.abs() > self.reach {
@@ -314,7 +322,8 @@ impl<T: Real> FarPanel<T> {
         (sum, Some(s * b1 + (series[0] - b2)))
     }
 
-    /// All of the integral at a place near the panel but below the surface, with its derivative.
+    /// Returns the whole integral at a place near the panel but below the surface, with its
+    /// derivative.
     fn below(
         &self,
         place: &impl Fn(T) -> Complex<T>,
@@ -358,8 +367,8 @@ impl<T: Real> FarPanel<T> {
     }
 }
 
-/// Returns how far from the middle of its panel, in half-lengths, a polynomial may be used: while its terms are no
-/// larger than the values that it has on the panel.
+/// Returns the distance from the middle of its panel, in half-lengths, up to which a polynomial may
+/// be used: its terms must not much exceed its values on the panel.
 fn reach<T: Real>(series: &[T], farthest: T) -> T {
     let largest = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
     let mut reach = T::of(LEAST_REACH).min(farthest).max(T::one());

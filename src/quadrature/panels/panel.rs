@@ -1,34 +1,34 @@
-//! One polynomial piece of the slope, and whether it is good enough.
+//! One polynomial piece of the slope, and the verdict on its coefficients.
 
 use crate::numerics::chebyshev::{MOST, Row, SIZES, Table, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
-/// The slope of the gap over an interval without breakpoints, as a Chebyshev series.
+/// Slope of the gap over an interval without breakpoints, as a Chebyshev series.
 #[derive(Clone, Copy)]
 pub(crate) struct Panel<T> {
-    /// Its two ends.
+    /// Left and right end.
     pub x: [T; 2],
-    /// How many nodes it was sampled at.
+    /// Number of nodes sampled.
     pub n: usize,
-    /// As many coefficients, the first `counting` of which are more than rounding.
+    /// Coefficients, `n` in number, of which the first `counting` exceed rounding.
     pub series: Row<T>,
     pub counting: usize,
     /// Estimated largest error of the series.
     pub tail: T,
-    /// The share of the slopes that is rounding, or noise of the formulas.
+    /// Part of the slopes that is rounding, or noise of the formulas.
     pub noise: T,
-    /// The most by which the slope falls from a node to the next.
+    /// Largest fall of the slope from a node to the next.
     pub fall: T,
-    /// The largest distance of places in a contact at which the series is known to be right; infinite if nothing
-    /// but its nodes was looked at.
+    /// Distance between places in a contact at which the series was checked; infinite if only its
+    /// nodes were sampled.
     pub apart: T,
-    /// The first coefficient before the bodies were turned.
+    /// First coefficient before the bodies were turned.
     pub(super) untilted: T,
 }
 
 impl<T: Real> Panel<T> {
-    /// Not sampled yet.
+    /// Returns a panel without samples.
     pub fn new(x: [T; 2]) -> Self {
         let (zero, apart) = (T::zero(), T::one() / T::zero());
         Self {
@@ -44,23 +44,24 @@ impl<T: Real> Panel<T> {
         }
     }
 
-    /// Takes the series for that of a panel with n nodes.
+    /// Counts the coefficients of a panel with n nodes.
     pub fn count(&mut self, n: usize) {
         self.n = n;
         self.counting = significant_length(&self.series[..n], 0..T::COMPONENTS, rounding);
     }
 
-    /// Leaves out the coefficients that are no more than noise of this level: they say nothing of the
-    /// slope, and add up at the ends of the panel.
+    /// Drops the coefficients that are mere noise of this level: they say nothing about the slope,
+    /// and add up at the ends of the panel.
     pub fn drop_noise(&mut self, level: T) {
         let by_value = significant_length(self.coefficients(), 0..1, |_| T::of(4.0) * level);
-        // In derivatives the noise is another.
+        // Derivatives have their own noise.
         self.counting =
             significant_length(self.coefficients(), 1..T::COMPONENTS, rounding).max(by_value);
     }
 
-    /// Takes a straight line from the first to the last node in place of the series, which overshoots where the
-    /// slope jumps: all that it rises is then between its neighbours, and no seam is left.
+    /// Replaces the series, which overshoots where the slope jumps, by a straight line between the
+    /// values at the first and the last node. The rise then stays between the neighbours, and no
+    /// seam is left.
     pub fn straighten(&mut self) {
         let (half, z) = (T::of(0.5), &Table::of(self.n).z[..self.n]);
         let [first, last] = [z[0], z[self.n - 1]].map(|z| value_at(self.coefficients(), T::of(z)));
@@ -68,7 +69,7 @@ impl<T: Real> Panel<T> {
         self.counting = 2;
     }
 
-    /// Turns it from one tilt to another. Back and forth it is what it was.
+    /// Turns the panel from one tilt to another; turning back restores it exactly.
     pub fn turn(&mut self, from: T, to: T) {
         if same(from, T::zero()) {
             self.untilted = self.series[0];
@@ -76,7 +77,7 @@ impl<T: Real> Panel<T> {
         self.series[0] = self.untilted + to;
     }
 
-    /// The place of `x` in the panel, from -1 to 1; exact at both ends.
+    /// Returns the place of `x` in the panel, from -1 to 1; exact at both ends.
     pub fn local(&self, x: T) -> T {
         ((x - self.x[0]) - (self.x[1] - x)) / (self.x[1] - self.x[0])
     }
@@ -85,7 +86,7 @@ impl<T: Real> Panel<T> {
         T::of(0.5) * (self.x[1] - self.x[0])
     }
 
-    /// The places that it was sampled at.
+    /// Returns the nodes.
     pub fn nodes(&self) -> impl Iterator<Item = T> + use<'_, T> {
         let place = |&z: &f64| self.x[0] + self.half() * T::of(1.0 + z);
         Table::of(self.n).z[..self.n].iter().map(place)
@@ -95,7 +96,7 @@ impl<T: Real> Panel<T> {
         &self.series[..self.counting]
     }
 
-    /// The slope at the left and at the right end.
+    /// Returns the slope at the left and at the right end.
     pub fn at_ends(&self) -> [T; 2] {
         let mut sums = [T::zero(); 2];
         for (i, &a) in self.coefficients().iter().enumerate() {
@@ -104,17 +105,17 @@ impl<T: Real> Panel<T> {
         [sums[0] - sums[1], sums[0] + sums[1]]
     }
 
-    /// The slope at x.
+    /// Returns the slope at x.
     pub fn value(&self, x: T) -> T {
         value_at(self.coefficients(), self.local(x))
     }
 
-    /// `∫ g dx` from one place to another.
+    /// Returns `∫ g dx` from one place to another.
     pub fn rise(&self, from: T, to: T) -> T {
         self.half() * (self.primitive(self.local(to)) - self.primitive(self.local(from)))
     }
 
-    /// An integral of the series.
+    /// Returns an antiderivative of the series.
     fn primitive(&self, s: T) -> T {
         let series = self.coefficients();
         let (half, mut sum) = (T::of(0.5), series[0] * s);
@@ -132,14 +133,14 @@ impl<T: Real> Panel<T> {
         sum
     }
 
-    /// The slope as `Σ c_k T_k(z)` over a contact `c + L z`.
+    /// Returns the slope as `Σ c_k T_k(z)` over a contact `c + L z`.
     pub fn over(&self, on: Interval<T>) -> Series<T> {
         let mut series = ([T::zero(); MOST], 0);
         self.over_to(&mut series, on);
         series
     }
 
-    /// The same in a place for it.
+    /// Writes the slope over a contact into a given series, as [`over`](Self::over) returns it.
     pub fn over_to(&self, (series, terms): &mut Series<T>, on: Interval<T>) {
         if same(self.x[0], on.left) && same(self.x[1], on.right) {
             (*series, *terms) = (self.series, self.counting);
@@ -151,16 +152,16 @@ impl<T: Real> Panel<T> {
     }
 }
 
-/// The coefficients of a series, and how many of them count.
+/// Coefficients of a series, and the number of significant ones.
 pub(super) type Series<T> = (Row<T>, usize);
 
-/// The size of a coefficient that is rounding, by that of the largest.
+/// Returns the size up to which a coefficient is rounding, given the size of the largest.
 fn rounding<T: Real>(largest: T) -> T {
     T::of(0.125) * T::epsilon() * largest
 }
 
-/// How many coefficients there are, two at least, up to the last that is more than nothing in any of
-/// these parts, given what is nothing beside the largest.
+/// Returns the number of significant coefficients, two at least: up to the last that exceeds
+/// `nothing`, a function of the largest, in any of the components `parts`.
 fn significant_length<T: Real>(
     series: &[T],
     parts: std::ops::Range<usize>,
@@ -176,7 +177,7 @@ fn significant_length<T: Real>(
     counting
 }
 
-/// Those of the panels that an interval lies on. The outermost of them may have to be continued a
+/// Returns the panels that an interval lies on. The outermost of them may have to be continued a
 /// little.
 pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T>] {
     let first = panels.partition_point(|panel| panel.x[1] <= on.left);
@@ -184,7 +185,7 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
 }
 
-/// Panels with the part that an interval has of each: the outermost end with it.
+/// Lists panels with their parts of an interval; the outermost parts reach its ends.
 pub(super) fn spans<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
@@ -197,29 +198,30 @@ pub(super) fn spans<T: Real>(
     })
 }
 
-/// What the coefficients say of a series.
+/// Verdict on the coefficients of a series.
 pub(super) enum Resolution<T> {
-    /// Good enough, with an estimate of its largest error.
+    /// Good enough, with an estimate of the largest error.
     Good(T),
-    /// The coefficients have sunk into the noise of the samples, of this size.
+    /// Noise: the coefficients have sunk into the noise of the samples, of this size.
     Noise(T),
-    /// This number of nodes should be enough.
+    /// Number of nodes that should suffice, and the size of the last coefficients.
     Take(usize, T),
-    /// They do not fall, or not fast enough: the panel is too long for one polynomial.
+    /// Size of the last coefficients, which fall too slowly: the panel is too long for one
+    /// polynomial.
     Split(T),
 }
 
-/// Looks at the larger one of each two coefficients, since a series may be odd or even.
+/// Judges a series by the larger one of each two coefficients, since it may be odd or even.
 ///
-/// Errors up to `allowed` are good enough. `rounded` is what a unit of rounding makes of the bodies'
-/// slopes on this panel.
+/// Errors up to `allowed` are good enough. `rounded` is the error of the bodies' slopes on this
+/// panel by one unit of rounding.
 pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Resolution<T> {
     let pairs = n / 2;
     let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
     let ratio = |a: T, b: T| if a.is_zero() { a } else { a / b };
     let mut fall = ratio(last, before);
-    // Coefficients that fall less than they did have met the noise.
+    // Coefficients that fall more slowly than before have met the noise.
     let mut levels = false;
     if pairs >= 4 {
         let fell = ratio(before, pair(pairs - 3));
@@ -234,14 +236,14 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     } else if fall < T::of(0.3) {
         (last + last) * fall
     } else {
-        // They may fall like a power only: the rest adds up.
+        // The coefficients may fall only like a power: the rest adds up.
         last * T::count(n)
     };
     if error <= allowed {
         return Resolution::Good(error.max(rounded));
     }
-    // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so from
-    // one third of them to the next, and to half from the third quarter to the last.
+    // Noise has no trend; the coefficients of a kink, or of a square root, fall to a third or so
+    // from one third of them to the next, and to half from the third quarter to the last.
     let mean = |i: usize, parts: usize| {
         let terms = &series[i * n / parts..(i + 1) * n / parts];
         terms.iter().fold(T::zero(), |sum, a| sum + a.abs()) / T::count(terms.len())

@@ -1,4 +1,4 @@
-//! The panels that cover a span of x: sampled once, extended when more is asked for.
+//! Row of panels that covers a span of x: sampled once, extended on demand.
 
 mod candidate;
 mod declared;
@@ -19,79 +19,80 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
 use sampling::SampledBody;
 
-/// The fewest nodes of a panel that is more than a first estimate: on a span a little wider than a contact the
-/// outermost of them lie beyond its limits, as of four they would not.
+/// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
+/// outermost of eight nodes lie beyond the limits; of four they would not.
 pub(super) const LEAST: usize = 8;
 
-/// The least tolerance, in units in the last place.
+/// Lowest tolerance, in units in the last place.
 pub(super) const FINEST: f64 = 16.0;
 
-/// How often a span between two breakpoints may be split.
+/// Most splits of a span between two breakpoints.
 const MOST_SPLITS: usize = 4096;
 
-/// How often a span is halved before large noise is taken for what it is, and not for a wave that
-/// is not resolved yet.
+/// Level of halving from which large noise counts as noise: before, it may be a wave that is not
+/// resolved yet.
 const NOISY_LEVEL: usize = 4;
 
-/// The share of an error that is left to both halves where halving does not help: then the noise is measured.
+/// Share of an error that both halves keep where halving does not help; the noise is then measured.
 const STUCK: f64 = 0.25;
 
-/// Panels, besides twice as many as the first cover has, that the extensions of solve after solve may add before all is
-/// covered anew. (Each adds one at least, and whatever is asked of the panels takes time for every one.)
+/// Number of panels beyond twice the first number at which the next solve covers the span anew.
+/// (Each extension adds one or more, and every panel costs time in each evaluation.)
 const MOST_ADDED: usize = 6;
 
-/// Where a span whose heights contradict its slopes is halved.
+/// Share of a span, from its left end, at which it is split if its heights contradict its slopes: a
+/// step may lie in the middle.
 const ASIDE: f64 = 0.46;
 
-/// The share of a panel on which a wave that it does not resolve is smooth, and noise is not.
+/// Share of a panel on which an unresolved wave is smooth and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
 
-/// What the gap is like at a given limit, where a row of panels ends.
+/// Slope of the gap next to a given limit, where a row of panels ends.
 #[derive(Clone, Copy)]
 pub(crate) struct EndProbe<T> {
     pub limit: T,
-    /// A place as close to it as can be told from it, and the slope there.
+    /// Point as close to the limit as rounding can tell apart, and the slope there.
     x: T,
     slope: T,
 }
 
-/// A row of panels, from left to right without gaps.
+/// Row of panels, from left to right without gaps.
 #[derive(Clone)]
 pub(crate) struct PanelSet<T> {
     pub panels: Vec<Panel<T>>,
-    /// How many covered the span when it was first covered, or covered anew.
+    /// Number of panels when the span was first covered, or covered anew.
     at_first: usize,
-    /// Whether it is to be covered anew when more is asked for.
+    /// True if the next extension covers the whole span anew.
     is_cut_up: bool,
-    /// Panels still to be looked at, the leftmost last.
+    /// Candidates still to be accepted or split, the leftmost last.
     waiting: Vec<Candidate<T>>,
     traces: [SampleCache<T>; 2],
-    /// The noise of both bodies on the span that is sampled, if it is more than rounding; and whether it was
-    /// measured there.
+    /// Noise of both bodies on the sampled span, if more than rounding, and the number of its
+    /// measurements there.
     noise: Option<[Noise<T>; 2]>,
     measured: usize,
-    /// The largest slope of the gap, as far as a first look has shown.
+    /// Largest slope of the gap on spans before any halving.
     pub size: T,
-    /// The least sum of the slopes of both bodies at any node, where all panels show them much steeper than the gap;
-    /// or zero.
+    /// Smallest sum of the slopes of both bodies at any node if all panels find the bodies much
+    /// steeper than the gap; otherwise zero.
     pub least: T,
-    /// Nodes to start a panel with.
+    /// Number of nodes to start a panel with.
     pub initial: usize,
-    /// No more than a first estimate is wanted: four nodes, whatever they say.
+    /// Flag: only a first estimate is wanted, with four nodes whatever the coefficients.
     pub coarse: bool,
     pub tolerance: T,
     pub cost: Cost,
-    /// What the same search has spent on other contacts.
+    /// Cost of the same search on other contacts.
     pub spent: Cost,
-    /// Looked at beforehand, at given limits.
+    /// Slopes sampled beforehand at given limits.
     pub held: Ends<Option<EndProbe<T>>>,
-    /// Of dual numbers, what the last panel has met in each derivative, and the largest slopes of the
-    /// first.
+    /// Findings on the last panel in each derivative of dual numbers; `derivative_sizes` has the
+    /// largest slopes of the first.
     derivatives: Vec<SampledBody<T>>,
-    /// The slopes of both bodies at the nodes of the last panel.
+    /// Slopes of both bodies at the nodes of the last panel.
     slopes: [Row<T>; 2],
     derivative_sizes: Vec<T>,
-    /// What has been added to the slope of every panel: samples are those of bodies that are not turned.
+    /// Tilt added to the slope of every panel: samples are of bodies that are not turned.
     pub tilt: T,
 }
 
@@ -120,7 +121,7 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Forgets the panels; the curves' last points are kept if the bodies are the same.
+    /// Forgets the panels; keeps the curves' last points if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
         (self.is_cut_up, self.initial) = (false, LEAST);
@@ -132,32 +133,33 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Keeps guides to the parameters of either body on pieces that are not sampled yet.
+    /// Stores guides to the parameters of either body on pieces that are not sampled yet.
     pub fn guide(&mut self, guides: Guides<T>) {
         for (trace, guides) in self.traces.iter_mut().zip(guides) {
             trace.guides = guides;
         }
     }
 
-    /// Before the next solve with the same bodies.
+    /// Decides, before the next solve with the same bodies, whether to cover the span anew.
     pub fn look_back(&mut self) {
         self.is_cut_up = self.panels.len() > 2 * self.at_first + MOST_ADDED;
     }
 
-    /// Looks at a limit that is given, unless it is at the end of a piece, of which more is known.
+    /// Samples the slope next to a given limit, unless it is at the end of a piece, where more is
+    /// known.
     pub fn look_at(&mut self, gap: &Gap<'_, T>, end: Side, limit: T) -> Option<EndProbe<T>> {
         let [from, to] = gap.range();
         if !(limit > from && limit < to) || gap.is_breakpoint(limit) {
             return None;
         }
-        // At the limit itself a formula may be that of what is beyond.
+        // At the limit itself the user's formula may already be the one for the far side.
         let fine = T::of(4.0) * T::epsilon();
         let inward = fine * limit.abs().max((to - from).min(T::one() / fine));
         let x = match end {
             Side::Left => limit + inward,
             Side::Right => limit - inward,
         };
-        // Nor is what lies beyond a breakpoint beside it.
+        // A point beyond a breakpoint says nothing about the limit.
         if gap.breakpoint_after(x.min(limit)).is_some_and(|next| next < x.max(limit)) {
             return None;
         }
@@ -167,7 +169,7 @@ impl<T: Real> PanelSet<T> {
         slope.ok().map(|slope| EndProbe { limit, x, slope })
     }
 
-    /// What is covered.
+    /// Returns the covered interval.
     pub fn interval(&self) -> Option<Interval<T>> {
         let (first, last) = (self.panels.first()?, self.panels.last()?);
         Some(Interval { left: first.x[0], right: last.x[1] })
@@ -177,7 +179,8 @@ impl<T: Real> PanelSet<T> {
         self.interval().is_some_and(|have| have.left <= on.left && have.right >= on.right)
     }
 
-    /// Whether an outermost panel that starts at a breakpoint is much longer than what an interval has of it.
+    /// Tells whether an outermost panel that starts at a breakpoint is much longer than its part
+    /// inside an interval.
     pub fn overshoots(&self, gap: &Gap<'_, T>, on: Interval<T>) -> bool {
         let [Some(first), Some(last)] = [self.panels.first(), self.panels.last()] else {
             return false;
@@ -190,12 +193,12 @@ impl<T: Real> PanelSet<T> {
             || beside(last.x[0], last.x[1] - last.x[0], on.right - last.x[0])
     }
 
-    /// The slope at `x`, from the nearest panel.
+    /// Returns the slope at `x`, from the nearest panel.
     pub fn slope(&self, x: T) -> Option<T> {
         self.panel_at(x).map(|panel| panel.value(x))
     }
 
-    /// The error that it may have.
+    /// Returns the uncertainty of the slope at `x`.
     pub fn doubt(&self, x: T) -> Option<T> {
         self.panel_at(x).map(|panel| panel.tail + self.tolerance * self.size)
     }
@@ -205,7 +208,7 @@ impl<T: Real> PanelSet<T> {
         Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
     }
 
-    /// Turns the panels with the bodies, which costs no sample; whether anything has changed.
+    /// Turns the panels with the bodies, which costs no sample; tells whether anything has changed.
     pub fn turn(&mut self, tilt: T) -> bool {
         if same(tilt, self.tilt) {
             return false;
@@ -240,7 +243,7 @@ impl<T: Real> PanelSet<T> {
             self.at_first = self.panels.len();
             return Ok(());
         };
-        // More than a sliver at a time, but beside an end of the bodies perhaps not much.
+        // Extend by a sliver at least, but at most half-way to the end of the bodies.
         let ([from, to], half, sliver) = (gap.range(), T::of(0.5), T::of(0.0625));
         let further = |left: T, right: T| {
             let left = if on.left < have.left { on.left.min(left) } else { have.left };
@@ -256,8 +259,8 @@ impl<T: Real> PanelSet<T> {
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
         let Interval { left, right } = further(have.left - more(&first), have.right + more(&last));
         let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(LEAST);
-        // What happens beyond the last node of the outermost panel shows at its new neighbour, unless a
-        // breakpoint is between them.
+        // A feature beyond the last node of the outermost panel shows at the new neighbour, unless
+        // a breakpoint lies between them.
         if right > have.right {
             self.initial = enough(&last);
             let apart = gap.breakpoint_after(last.x[0]) == Some(have.right);
@@ -275,7 +278,7 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Covers an interval and nothing else, with [`LEAST`] nodes or more between two breakpoints.
+    /// Covers an interval alone, with [`LEAST`] nodes or more between two breakpoints.
     pub fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,
@@ -285,8 +288,8 @@ impl<T: Real> PanelSet<T> {
         self.extend(gap, on)
     }
 
-    /// Samples an interval; its panels are put last. They should meet those from number `known` on, and
-    /// the neighbour on the right, which is put after them.
+    /// Samples an interval and appends its panels. They should meet the panels from number `known`
+    /// on, and the neighbour on the right, which is appended after them.
     fn sample(
         &mut self,
         gap: &Gap<'_, T>,
@@ -328,7 +331,7 @@ impl<T: Real> PanelSet<T> {
         let mut splits = 0;
         loop {
             let [left, right] = trial.panel.x;
-            // A step in the heights may well lie in the middle, where neither half would have it.
+            // A step in the heights may well lie in the middle, where neither half would show it.
             let share = T::of(if trial.hides { ASIDE } else { 0.5 });
             let middle = (T::one() - share) * left + share * right;
             let may =
@@ -344,8 +347,8 @@ impl<T: Real> PanelSet<T> {
                 for half in [&mut one, &mut other] {
                     half.falls = half.falls_below(&trial);
                 }
-                // Noise is what both halves have as much of. A wave that is not resolved yet has,
-                // too, if it is no longer faint.
+                // Noise is as large in both halves. So is a wave that is not resolved yet, as long
+                // as it is not faint.
                 let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
                 let is_stuck = |half: &Candidate<T>| {
                     half.split && half.panel.tail >= T::of(STUCK) * trial.panel.tail
@@ -354,7 +357,7 @@ impl<T: Real> PanelSet<T> {
                     self.try_out(gap, &mut trial)?;
                     continue;
                 }
-                // Much more is no noise: fewer nodes have given up earlier.
+                // A much larger error is not noise: a half with fewer nodes was given up earlier.
                 let as_much = |half: &Candidate<T>| {
                     let ratio = half.panel.tail / trial.panel.tail;
                     let fewer = half.panel.n < trial.panel.n;
@@ -377,7 +380,7 @@ impl<T: Real> PanelSet<T> {
             if trial.split && !is_long(trial.panel.x, self.noise) {
                 trial.panel.straighten();
             }
-            // What happens between the last node and the end of a panel shows at its neighbour.
+            // A feature between the last node and the end of a panel shows at its neighbour.
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
@@ -404,12 +407,12 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Whether the coefficients of a panel are noise, and not those of a wave: they then fall no more
-    /// on a small part of it.
+    /// Tells whether the coefficients of a panel are noise, not a wave: on a small part of the
+    /// panel, noise does not fall.
     fn is_noisy(&mut self, gap: &Gap<'_, T>, panel: &Panel<T>) -> Result<bool, ContactError<T>> {
         const N: usize = 8;
         let [left, right] = panel.x;
-        // Not in the middle, where a formula may be better than elsewhere.
+        // Avoids the middle, where a formula may be more exact than elsewhere.
         let from = left + T::of(0.3) * (right - left);
         let mut part = Panel::new([from, from + T::of(SHARE_OF_A_WAVE) * (right - left)]);
         if !is_long(part.x, self.noise) {

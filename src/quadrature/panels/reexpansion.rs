@@ -1,36 +1,37 @@
-//! Several panels as one sum over the contact: the series of each, continued over the whole of it.
+//! Several panels as one sum over the contact: the series of each, continued over all of it.
 //!
 //! A polynomial over the contact `c + L z` is `Σ c_k T_k(z) = Σ c_k cos kθ`, and a panel is a span
-//! of θ, so that all integrals over it are known from those of `cos kθ`. A series may be continued as
-//! long as its coefficients do not grow too much on the way, which would cost their digits.
+//! of θ, so that all integrals over it follow from those of `cos kθ`. A series may be continued as
+//! long as its coefficients do not grow too much on the way, which would cost digits.
 
 use super::half_angle::{HalfAngle, Sines};
 use super::panel::Panel;
 use crate::numerics::chebyshev::{MOST, Row, size_for};
 use crate::{Interval, Real};
 
-/// By how much the coefficients over the contact, added up, may exceed the largest slope.
+/// Largest sum of the coefficients over the contact, in units of the largest slope; a larger sum
+/// would cost digits.
 const MOST_GROWTH: f64 = 16.0;
 
-/// What one panel has of the contact.
+/// Part of a contact on one panel.
 pub(super) struct PanelAngles<'a, T> {
     pub panel: &'a Panel<T>,
-    /// The first panel starts at the edge of the contact; the others at a breakpoint with the one before.
+    /// True for the panel at the left edge of the contact; the others start at a breakpoint.
     pub is_first: bool,
-    /// Where it starts.
+    /// Start of the part.
     pub start: HalfAngle<T>,
-    /// Its series over the whole contact, and how many of the coefficients count.
+    /// Series over the whole contact, and the number of its significant coefficients.
     pub series: Row<T>,
     pub terms: usize,
-    /// The absolute values of the coefficients, added up.
+    /// Sum of the absolute values of the coefficients.
     pub bulk: T,
-    /// The integrals of `cos kθ` over the span: two more than there are coefficients.
+    /// Integrals of `cos kθ` over the part: two more than there are coefficients.
     pub integrals: Sines<T>,
-    /// The slopes at its two ends.
+    /// Slopes at the two ends.
     pub ends: [T; 2],
 }
 
-/// Shows the spans of a contact one by one, from left to right; `false` if one of several has a
+/// Shows the parts of a contact one by one, from left to right; `false` if one of several has a
 /// series that cannot be continued so far.
 #[inline(always)]
 pub(super) fn reexpanded<T: Real>(
@@ -69,7 +70,7 @@ pub(super) fn reexpanded<T: Real>(
             right = (end.sines(count), end.angles());
         }
         let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
-        // Between angles near π, their distances from there keep the digits.
+        // Between angles near π, their distances from π keep the digits.
         let [by_angle, by_rest] = [left.1[0] - right.1[0], right.1[1] - left.1[1]];
         integrals[0] = if right.1[1] < right.1[0] { by_rest } else { by_angle };
         show(&PanelAngles { panel, is_first: i == 0, start, series, terms, bulk, integrals, ends });

@@ -1,35 +1,39 @@
 //! Several contacts at once: the equations for their limits, and the pressure.
 //!
-//! With the weight w and the polynomial p of [`weight`], κ = 1 and g the slope of the gap, everything
-//! follows from one function,
+//! With the weight w and the polynomial p of [`weight`], κ = 1 and g the slope of the gap,
+//! everything follows from one function,
 //!
 //! ```text
 //! V(x) = Σ_j PV∫ w p g/(s - x) ds over contact j
-//! P(x) = S(x)/p(x) V(x)/π²  on the contacts         Φ(x) = ∫ P/(x - s) ds = -S(x)/p(x) V(x)/π  off them
+//! P(x) = S(x)/p(x) V(x)/π²                       on the contacts
+//! Φ(x) = ∫ P/(x - s) ds = -S(x)/p(x) V(x)/π      off them
 //! ```
 //!
-//! (Muskhelishvili, *Singular Integral Equations*, 1953, §§ 88 and 89, with p in place of 1: whatever the
+//! (Muskhelishvili, *Singular Integral Equations*, 1953, §§ 88 and 89, with p in place of 1: if the
 //! limits balance, `V` is p times the same integral without p.) The limits are right when
 //!
 //! ```text
-//! V(ν_k) = 0 at each zero of p,    without corners ∫ w p g ds = 0           balance
-//! (1/π) ∫ w p q g ds = F,          q = x - c without corners, 1 with one    load
-//! ∫ Φ dx over a gap = h at its right end - h at its left end                each gap closes at both ends
+//! V(ν_k) = 0 at each zero of p, without corners ∫ w p g ds = 0     balance
+//! (1/π) ∫ w p q g ds = F, q = x - c without corners, 1 with one    load
+//! ∫ Φ dx over a gap = h at its right end - h at its left end       each gap closes at both ends
 //! ```
 //!
-//! with h the height of the gap between the bodies. As many as there are free limits: two a contact. A limit e
-//! acts on each through `V(e)`, taken without what is infinite there (Hadamard's finite part), so that the
-//! Jacobian is exact:
+//! with h the height of the gap between the bodies. There are as many conditions as free limits,
+//! two per contact. A limit e acts on each through `V(e)`, taken without its infinite part
+//! (Hadamard's finite part), so that the Jacobian is exact:
 //!
 //! ```text
-//! of V(ν):  (V(e) - V(ν))/(2 (e - ν))        of ∫ w p g:  V(e)/2       of the load:  ((e - c) V(e) + ∫ w p g)/(2π)
-//! of a gap: V_k(e)/(2π) ∫ S/p_k dx/(x - e)    p_k = p/(x - ν_k),  V_k = (V - V(ν_k))/(x - ν_k)
+//! of V(ν):      (V(e) - V(ν))/(2 (e - ν))
+//! of ∫ w p g:   V(e)/2
+//! of the load:  ((e - c) V(e) + ∫ w p g)/(2π)
+//! of a gap:     V_k(e)/(2π) ∫ S/p_k dx/(x - e)   p_k = p/(x - ν_k),  V_k = (V - V(ν_k))/(x - ν_k)
 //! ```
 //!
-//! As a gap of width w closes, `V(ν)` becomes π²/S times the pressure in its place. The condition of the gap vanishes with
-//! w² whatever the pressure does, so that a gap of no width would meet it anywhere; over w² it says where that
-//! pressure is least. Newton's method is given the condition over `w²/(w² + c²)`, c half the width of the narrower
-//! contact beside the gap.
+//! As a gap of width w closes, `V(ν)` becomes π²/S times the pressure in its place. The condition
+//! of the gap vanishes with w² whatever the pressure does, so that a gap of no width would meet it
+//! anywhere; divided by w² it says where that pressure is least. Newton's method is given the
+//! condition divided by `w²/(w² + c²)`, with c half the width of the narrower contact next to the
+//! gap.
 //!
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
@@ -56,13 +60,14 @@ use weight::Weight;
 #[derive(Clone)]
 pub(crate) struct Several<T> {
     parts: Vec<OneOfSeveral<T>>,
-    /// How many of the parts are in use.
+    /// Number of parts in use.
     count: usize,
     weight: Weight<T>,
     tolerance: T,
-    /// What V has besides: of one contact between two corners, whose load is given, `-π F/κ`.
+    /// Extra term of V: `-π F/κ` for one contact between two corners whose load is given, otherwise
+    /// zero.
     constant: T,
-    /// The cost of sampling, and what one contact had cost before.
+    /// Cost of sampling; `spent` is the earlier cost of a single contact.
     pub cost: Cost,
     pub spent: Cost,
 }
@@ -86,9 +91,9 @@ impl<T: Real> Several<T> {
         self.weight.contacts()
     }
 
-    /// Turns to contacts between the ends of the bodies, and whether the outermost limits are corners: ready for
-    /// the conditions on the limits, not yet for pressures. The
-    /// samples of contacts that have been there are kept, where they are as many.
+    /// Sets the contacts, between the ends of the bodies, and the outermost limits that are
+    /// corners: ready for the conditions on the limits, not yet for pressures. Keeps the samples of
+    /// earlier contacts if their number is the same.
     pub fn set(
         &mut self,
         gap: &Gap<'_, T>,
@@ -122,7 +127,7 @@ impl<T: Real> Several<T> {
         Ok(())
     }
 
-    /// Looks between the nodes of all contacts.
+    /// Samples between the nodes of all contacts; tells whether panels have missed a feature.
     pub fn probe(&mut self, gap: &Gap<'_, T>) -> Result<bool, ContactError<T>> {
         let mut is_missed = false;
         for part in &mut self.parts[..self.count] {
@@ -135,7 +140,7 @@ impl<T: Real> Several<T> {
         Ok(is_missed)
     }
 
-    /// Makes ready for pressures.
+    /// Prepares for pressures.
     pub fn press(&mut self) {
         for i in 0..self.count {
             self.parts[i].press();
@@ -147,7 +152,8 @@ impl<T: Real> Several<T> {
         &self.parts[..self.count]
     }
 
-    /// What some contacts make of V off them. Near contact `near` by the distance from that.
+    /// Returns the part of V by some contacts, at a place off them; near contact `near`, given the
+    /// distance from it.
     fn outside(&self, contacts: impl Iterator<Item = usize>, x: T, near: Option<(usize, T)>) -> T {
         contacts.fold(T::zero(), |sum, i| {
             sum + match near {
@@ -157,19 +163,19 @@ impl<T: Real> Several<T> {
         })
     }
 
-    /// The numbers of all contacts but one.
+    /// Lists the numbers of all contacts but one.
     fn others(&self, but: usize) -> impl Iterator<Item = usize> + use<T> {
         (0..self.count).filter(move |&i| i != but)
     }
 
-    /// What all contacts make of V over an interval, next to which are these.
+    /// Returns the part of V by all contacts over an interval next to the contacts `near`.
     fn apart(&self, near: Range<usize>, on: Interval<T>) -> DistantContacts<T> {
         let far = || (0..near.start).chain(near.end..self.count);
         let value = |x| self.outside(far(), x, None);
         DistantContacts::new(near.clone(), self.count, on, self.tolerance, value)
     }
 
-    /// The Cauchy transform of the pressure for κ and F.
+    /// Returns the Cauchy transform of the pressure for κ and F.
     pub fn cauchy_transform(&self, kappa: T, load: T) -> CauchyTransform<T> {
         let contacts = self.parts().iter().map(OneOfSeveral::in_plane).collect();
         let (zeros, corners) = (self.weight.zeros().to_vec(), self.corners());
@@ -177,28 +183,28 @@ impl<T: Real> Several<T> {
         CauchyTransform { contacts, zeros, corners, constant, strengths, far_away, kappa, load }
     }
 
-    /// Whether the outermost limits are corners.
+    /// Tells which of the outermost limits are corners.
     pub fn corners(&self) -> Ends<bool> {
         self.weight.corners()
     }
 
-    /// The numbers of the free limits, from left to right.
+    /// Returns the numbers of the free limits, from left to right.
     fn free(&self) -> Range<usize> {
         usize::from(self.corners().left)..2 * self.count - usize::from(self.corners().right)
     }
 
-    /// V at a limit, without what is infinite there.
+    /// Returns V at a limit, without its infinite part.
     fn at_end(&self, contact: usize, side: Side) -> T {
         let part = &self.parts[contact];
         part.at_end(side) + self.outside(self.others(contact), part.on[side], None)
     }
 
-    /// The slope of the gap around a contact.
+    /// Returns the slope of the gap around a contact.
     pub fn panel_set(&self, contact: usize) -> &PanelSet<T> {
         &self.parts[contact].panel_set
     }
 
-    /// The height of the gap between the unloaded bodies at a limit of a contact.
+    /// Returns the height of the gap between the unloaded bodies at a limit of a contact.
     pub fn height(&self, contact: usize, side: Side) -> T {
         let part = &self.parts[contact];
         part.height(part.on[side])

@@ -1,47 +1,48 @@
-//! A treecode: groups of panels, each of which a point far enough away sees as one.
+//! A treecode: groups of panels, each seen as one from far enough away.
 //!
 //! From a distance of its own length and more, `1/(t - x)` over a group is a polynomial in t of
-//! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points of it,
-//! whatever the number of panels: with ℓ_m the polynomial that is 1 at the m-th of these and 0
-//! at the others,
+//! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points,
+//! whatever the number of panels: with ℓ_m the polynomial that is 1 at the m-th point and 0 at the
+//! others,
 //!
 //! ```text
 //! ∫ g(t)/(t - x) dθ = Σ_m W_m/(t_m - x),      W_m = ∫ g ℓ_m dθ
 //! ```
 //!
-//! Groups are halved until few panels are left. A pressure then takes time with the logarithm of the
-//! number of panels (the idea of tree codes: Barnes and Hut, *Nature* 324 (1986) 446).
+//! Groups are halved until few panels are left. The time for a pressure then grows with the
+//! logarithm of the number of panels (the idea of tree codes: Barnes and Hut, *Nature* 324 (1986)
+//! 446).
 
 use super::near_far_sum::FarPanel;
 use crate::Real;
 use crate::numerics::chebyshev::{MOST, Row, Table};
 use std::ops::Range;
 
-/// Points that stand for a group.
+/// Number of points that stand for a group: enough for rounding from its own length away.
 const POINTS: usize = 24;
 
-/// Panels that are not divided any further.
+/// Largest number of panels in a group that is not divided.
 const FEW: usize = 8;
 
-/// Some panels in a row.
+/// Group of neighbouring panels.
 #[derive(Clone)]
 pub(super) struct Group<T> {
-    /// Their numbers.
+    /// Numbers of the panels.
     pub parts: Range<usize>,
-    /// The sum of the distances from both ends up to which they are to be looked at one by one.
+    /// Sum of the distances from both ends up to which the panels are taken one by one.
     pub around: T,
-    /// The left end and half the length.
+    /// Left end, and half the length.
     left: T,
     half: T,
-    /// `W_m`.
+    /// Weights `W_m`.
     weights: [T; POINTS],
-    /// The errors of the panels, each times its length.
+    /// Sum of the errors of the panels, each times its length.
     tail: T,
-    /// The number of the next group that is not one of this group's.
+    /// Number of the next group outside this one.
     pub next: usize,
 }
 
-/// Puts parts, with the nodes `[t - t_left, g dθ]` of Gauss's rule on each, into groups: each is
+/// Groups parts, given the nodes `[t - t_left, g dθ]` of Gauss's rule on each; every group is
 /// followed by its two halves.
 pub(super) fn group<T: Real>(
     groups: &mut Vec<Group<T>>,
@@ -88,10 +89,10 @@ pub(super) fn group<T: Real>(
     (group.weights, group.next) = (Table::of(POINTS).shares(&sums.values()), next);
 }
 
-/// Nodes treated together: their numbers are multiples of this.
+/// Nodes treated together: numbers of nodes are multiples of this.
 const W: usize = 8;
 
-/// `∫ g T_k dθ` over a group, in lanes.
+/// Integrals `∫ g T_k dθ` over a group, in lanes.
 struct GroupMoments<T> {
     left: T,
     by_half: T,
@@ -99,7 +100,7 @@ struct GroupMoments<T> {
 }
 
 impl<T: Real> GroupMoments<T> {
-    /// Adds nodes by the place that they count from.
+    /// Adds nodes, given by their distances from `from`.
     fn add(&mut self, from: T, nodes: &[[T; 2]; W]) {
         let offset = from - self.left;
         let s: [T; W] = std::array::from_fn(|i| (offset + nodes[i][0]) * self.by_half - T::one());
@@ -119,41 +120,43 @@ impl<T: Real> GroupMoments<T> {
 }
 
 impl<T: Real> Group<T> {
-    /// The points that stand for it, from its left end on.
+    /// Returns the points that stand for the group, as distances from its left end.
     fn points(&self) -> [T; POINTS] {
         let z = &Table::of(POINTS).z;
         std::array::from_fn(|m| self.half * T::of(1.0 + z[m]))
     }
 
-    /// Both ends.
+    /// Returns both ends.
     pub fn ends(&self) -> [T; 2] {
         [self.left, self.left + (self.half + self.half)]
     }
 
-    /// The points that stand for it, by their distances from its left end, and its integral of g that each has.
+    /// Lists the points that stand for the group, as distances from its left end, each with its
+    /// share of the integral of g.
     pub fn charges(&self) -> impl Iterator<Item = [T; 2]> + use<'_, T> {
         self.points().into_iter().zip(self.weights).map(|(along, weight)| [along, weight])
     }
 
-    /// Whether it has no groups of its own.
+    /// Tells whether the group is not divided.
     pub fn is_few(&self) -> bool {
         self.parts.len() <= FEW
     }
 
-    /// What the errors of the panels make of the integral at most, but for the factor of dθ.
+    /// Returns a bound on the error of the integral by the errors of the panels, without the factor
+    /// of dθ.
     pub fn doubt(&self, x: T) -> T {
         let [left, right] = self.ends();
         self.tail / (left - x).max(x - right)
     }
 
-    /// The cosine series of g, where the group is all of a contact, and its terms.
+    /// Returns the cosine series of g and its number of terms, if the group is a whole contact.
     pub fn cosines(&self) -> (Row<T>, usize) {
         let (mut series, share) = ([T::zero(); MOST], T::count(POINTS) * T::frac_1_pi());
         series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
         (series.map(|a| share * a), POINTS)
     }
 
-    /// `∫ g(t)/(t - x) dθ`
+    /// Returns `∫ g(t)/(t - x) dθ`.
     pub fn integral(&self, x: T) -> T {
         let (offset, points) = (self.left - x, self.points());
         let terms: [T; POINTS] = std::array::from_fn(|m| self.weights[m] / (offset + points[m]));

@@ -1,57 +1,57 @@
-//! A span that is tried out as one panel, and how often it may be halved.
+//! Span tried out as one panel, and the limits of its halving.
 
 use crate::Real;
 use crate::profile::Noise;
 use crate::quadrature::panels::Panel;
 
-/// How often a span is halved beside a jump: what is left is no part of any integral.
+/// Most halvings of a span next to a jump: the rest is then too short to count in any integral.
 pub(super) const MOST_LEVELS: usize = 110;
 
-/// The share to which a panel of half the length must bring the error down where a span is halved
-/// yet more often: beside a root of high order, such as that in the slope of `|x|^(11/10)`, the
-/// pressure still depends on what is left.
+/// Share of the error that a half may keep if halving is to go on beyond [`MOST_LEVELS`]: next to a
+/// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
 const FALL_OF_A_ROOT: f64 = 0.98;
 
-/// How often it is halved then: the derivatives are not to overflow.
+/// Most halvings next to such a root, so that derivatives do not overflow.
 const LEVELS_OF_A_ROOT: usize = 500;
 
-/// How often at the most a span is halved to resolve a wave. (It may be hundreds of kinks.)
+/// Most halvings of a span to resolve a wave. (It may be hundreds of kinks.)
 pub(super) const LEVELS_OF_A_WAVE: usize = 10;
 
-/// A panel that may have to be split.
+/// Panel that may have to be split.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate<T> {
     pub panel: Panel<T>,
     pub split: bool,
-    /// The error that it may have.
+    /// Allowed error of the slope.
     pub allowed: T,
-    /// How often the span has been halved.
+    /// Number of halvings so far.
     pub level: usize,
-    /// Whether halving it once more should help, however often that has been done.
+    /// True if another halving should help, whatever the level.
     pub falls: bool,
-    /// Whether it is part of what looked like noise and is none.
+    /// True if the span is part of a wave that looked like noise.
     pub wave: bool,
-    /// Whether its heights contradict its slopes.
+    /// True if the heights contradict the slopes.
     pub hides: bool,
-    /// The share of its size by which a derivative is off that calls for a split, or zero.
+    /// Relative error of a derivative that calls for a split, or zero.
     pub derivatives: T,
 }
 
 impl<T: Real> Candidate<T> {
-    /// Not tried yet.
+    /// Returns an untried candidate.
     pub fn new(x: [T; 2]) -> Self {
         let (panel, zero) = (Panel::new(x), T::zero());
         let (falls, wave, hides) = (false, false, false);
         Self { panel, split: false, allowed: zero, level: 0, falls, wave, hides, derivatives: zero }
     }
 
-    /// Whether it is better than what it is a half of; with other nodes it cannot be told.
+    /// Tells whether the error is smaller than on the whole span. Assumes so if the numbers of
+    /// nodes differ.
     pub fn falls_below(&self, whole: &Self) -> bool {
         let less = self.panel.tail <= T::of(FALL_OF_A_ROOT) * whole.panel.tail;
         less || self.panel.n != whole.panel.n
     }
 
-    /// Whether it has not been halved too often yet.
+    /// Tells whether the span may be halved again.
     pub fn may_be_halved(&self) -> bool {
         let most = if self.wave {
             LEVELS_OF_A_WAVE
@@ -64,7 +64,8 @@ impl<T: Real> Candidate<T> {
     }
 }
 
-/// Whether a panel can be halved: it is longer than a few units in the last place, or than the noise of X.
+/// Tells whether a panel can be halved: it is longer than a few units in the last place, and than
+/// the noise of X.
 pub(super) fn is_long<T: Real>([left, right]: [T; 2], noise: Option<[Noise<T>; 2]>) -> bool {
     let middle = T::of(0.5) * left + T::of(0.5) * right;
     let rounded = T::epsilon() * left.abs().max(right.abs());

@@ -1,18 +1,19 @@
-//! Whether the slope of the gap rises from node to node, as the bodies declare that it does.
+//! Check of a declared convexity: the slope of the gap rises from node to node.
 
 use super::PanelSet;
 use crate::gap::Gap;
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Real};
 
-/// Times the uncertainty of a panel, or the tolerance, by which the slope may fall on it. It may fall besides by the
-/// square root of the rounding unit as a share of the largest slope, as formulas lose digits, and no pressure that counts
-/// depends on less; and by as many units of rounding of a slope of 1, as of `sin/cos`.
+/// Allowed fall of the slope on a panel, in units of its uncertainty or of the tolerance. A fall up
+/// to the square root of the rounding unit, as a share of the largest slope, is always allowed:
+/// formulas lose digits, and no pressure of note depends on less. A fall by this many rounding
+/// units of a slope of 1 is allowed, too, as for `sin/cos`.
 const ALLOWED: f64 = 32.0;
 
 impl<T: Real> PanelSet<T> {
-    /// Checks the slopes where the bodies declare a [`Convexity`](crate::Convexity) that makes the gap convex: they must not
-    /// fall from a node to the next, nor where two panels meet.
+    /// Checks the slopes if the bodies declare a [`Convexity`](crate::Convexity) that makes the gap
+    /// convex: they must not fall from a node to the next, nor where two panels meet.
     ///
     /// # Errors
     /// [`ContactError::NotConvex`].
@@ -41,8 +42,8 @@ impl<T: Real> PanelSet<T> {
     }
 }
 
-/// Returns neighbouring nodes between which the series of a panel falls by more than is allowed, and its slopes there:
-/// noise has been left out of it.
+/// Returns the first neighbouring nodes between which the series of a panel, free of noise, falls
+/// by more than allowed, and the slopes there.
 fn fall<T: Real>(panel: &Panel<T>, allowed: T) -> Option<([T; 2], [T; 2])> {
     let nodes: Vec<T> = panel.nodes().collect();
     let pairs = nodes.windows(2).map(|x| [x[0], x[1]]);

@@ -1,4 +1,4 @@
-//! Whether a body's derivatives are those of its heights.
+//! Check of a body's derivatives against its heights.
 
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
@@ -7,7 +7,8 @@ use crate::quadrature::panels::panel::{Panel, spans, within};
 use crate::{Body, ContactError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
-    /// Refuses a wrong sign or factor in a derivative where the heights of the last points go least with their slopes.
+    /// Refuses a wrong sign or factor in a derivative. Looks at the two last points whose heights
+    /// contradict their slopes most.
     pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
         for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
             let samples = trace.curve_samples();
@@ -26,7 +27,8 @@ impl<T: Real> PanelSet<T> {
             for &CurveSample { k, x, slope, .. } in
                 samples.windows(2).reduce(worse).into_iter().flatten()
             {
-                // A wave that both bodies have is in no gap, and may be shorter than the step of a difference.
+                // A wave that both bodies share is not in the gap, and may be shorter than the step
+                // of a difference.
                 let differences = [T::epsilon().cbrt(), T::epsilon().sqrt()]
                     .map(|share| gap.difference(body, x, k, share));
                 let is_wrong = |difference: &T| {
@@ -42,15 +44,15 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// How far the height of a body may be off where its slope is this, as far as its noise was measured.
+    /// Returns the noise of a body's height at a given slope; zero if it was not measured.
     fn noise_of_height(&self, body: usize, slope: T) -> T {
         self.noise.map_or(T::zero(), |noise| noise[body].of_height(slope))
     }
 
-    /// Whether the gap rises between the first node, a middle one and the last as much by its heights as by its
-    /// slopes, as far as both are known: a step in the heights shows in no slope. `steepest` is the largest sum of the
-    /// slopes of both bodies. (Waves that both bodies have are in
-    /// no gap, and their slopes need not be resolved.)
+    /// Checks that the gap rises between the first node, a middle one and the last by the same
+    /// amount by heights as by slopes, within the uncertainty of both: a step in the heights shows
+    /// in no slope. `steepest` is the largest sum of the slopes of both bodies. (Waves that both
+    /// bodies share are not in the gap, and their slopes need not be resolved.)
     pub(super) fn check_heights(
         &self,
         panel: &Panel<T>,
@@ -69,7 +71,8 @@ impl<T: Real> PanelSet<T> {
             let sign = if i == 0 { -T::one() } else { T::one() };
             let mut rises = sloped[i];
             if !trace.direct {
-                // A point is near a node; how steep the body is between the two is known from the next point.
+                // The point is near the node, not at it; the next point bounds the change of slope
+                // between them.
                 let points = trace.curve_samples();
                 let mut heights = [zero; 3];
                 for (j, &node) in nodes.iter().enumerate() {
@@ -97,7 +100,7 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// `∫ g dx` from one place to another.
+    /// Returns `∫ g dx` between two places.
     pub fn rise(&self, from: T, to: T) -> T {
         if to < from {
             return -self.rise(to, from);
@@ -107,8 +110,8 @@ impl<T: Real> PanelSet<T> {
         spans.fold(T::zero(), |sum, (panel, [from, to])| sum + panel.rise(from, to))
     }
 
-    /// The heights of the gap before the bodies are turned at places that rise, which must go with the slopes
-    /// between them.
+    /// Returns the heights of the gap, before the bodies are turned, at rising places; refuses
+    /// heights that contradict the slopes between them.
     pub fn heights<const N: usize>(
         &self,
         gap: &Gap<'_, T>,
@@ -135,15 +138,15 @@ impl<T: Real> PanelSet<T> {
     }
 }
 
-/// The rise of the gap from one place to another, by heights and by slopes: lengths.
+/// Rise of the gap from one place to another, by heights and by slopes: lengths.
 #[derive(Clone, Copy)]
 pub(crate) struct Rises<T> {
     pub between: [T; 2],
     pub by_heights: T,
     pub by_slopes: T,
-    /// The largest height of either body.
+    /// Largest height of either body.
     pub highest: T,
-    /// The uncertainty of heights and slopes, besides rounding.
+    /// Uncertainty of heights and slopes, apart from rounding.
     pub open: T,
 }
 

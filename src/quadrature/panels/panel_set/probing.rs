@@ -1,8 +1,9 @@
-//! Slopes between the nodes of a panel, where a feature shows that is too narrow for them.
+//! Slopes between the nodes of a panel, where a feature shows that is too narrow for the nodes.
 //!
-//! A Gaussian bump of a full width w at half its height has at a distance d from its top a share
-//! `exp(-2.77 (d/w)²)` of it. A panel of a smooth body takes eight nodes, a fifth of the contact apart: a bump between two of them
-//! may be felt by none. Slopes there contradict the series.
+//! At a distance d from its top, a Gaussian bump of full width w at half height has the share
+//! `exp(-2.77 (d/w)²)` of its height. A panel of a smooth body takes eight nodes, a fifth of the
+//! contact apart: a bump between two of them may show at neither. Slopes there contradict the
+//! series.
 
 use super::PanelSet;
 use crate::gap::{Cost, Gap};
@@ -10,27 +11,28 @@ use crate::numerics::chebyshev::{Table, by_size};
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Interval, Real};
 
-/// The distance of places in a contact by default, in widths of the narrowest feature to be seen: at three of them from its top the
-/// slope of a bump that moves the peak by 1 % is 1e-12 of that of the gap, and panels are more exact.
+/// Default distance between probed places in a contact, in widths of the narrowest feature to be
+/// seen. Three widths from the top of a bump that moves the peak by 1 %, its slope is 1e-12 of the
+/// slope of the gap, and panels are more exact.
 const BETWEEN: f64 = 6.0;
 
-/// Times that panels which miss a feature are sampled anew.
+/// Most rounds in which panels that miss a feature are sampled anew.
 pub(crate) const MOST_MISSED: usize = 8;
 
-/// Times the uncertainty of a panel by which a slope may miss it.
+/// Allowed error of a panel at a probed place, in units of the panel's uncertainty.
 const MISSED: f64 = 32.0;
 
-/// The share of the distance to the nearest node by which a point may miss its place, and that of the distance of
-/// places.
+/// Largest offset of a point from its place, as a share of the distance to the nearest node, and of
+/// the distance between places.
 const NEAR: f64 = 0.1;
 const NEAR_PLACE: f64 = 0.25;
 
-/// The most points for one node of a panel by default, however long that is beside a contact.
+/// Most points per node of a panel by default, however long the panel is outside the contact.
 const MOST_PARTS: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
-    /// Asks for slopes between the nodes of the panels of a contact where a narrow feature has room, and samples the panels
-    /// anew that miss one; tells whether any does.
+    /// Samples slopes between the nodes of the panels of a contact where a narrow feature has room,
+    /// and samples anew the panels that miss one. Tells whether any did.
     ///
     /// # Errors
     /// Those of sampling the bodies.
@@ -49,11 +51,11 @@ impl<T: Real> PanelSet<T> {
                 }
             }
         }
-        // They are checks, as heights are.
+        // Probes are checks, and are counted with the heights.
         let Cost { samples, evaluations, .. } = before;
         self.cost.heights += self.cost.evaluations - evaluations;
         (self.cost.samples, self.cost.evaluations) = (samples, evaluations);
-        // From the right, so that the numbers of those on the left stay.
+        // From the right, so that the numbers of panels on the left stay.
         for &(i, x) in missed.iter().rev() {
             self.cut(gap, i, x, apart)?;
         }
@@ -61,7 +63,8 @@ impl<T: Real> PanelSet<T> {
         Ok(!missed.is_empty())
     }
 
-    /// Samples the span of a panel anew, by panels that end at and around a place: next to their ends nodes are closest.
+    /// Samples the span of a panel anew, by panels that end at and around `x`: nodes are closest
+    /// next to the ends.
     fn cut(&mut self, gap: &Gap<'_, T>, i: usize, x: T, apart: T) -> Result<(), ContactError<T>> {
         let after = self.panels.split_off(i + 1);
         let Some(panel) = self.panels.pop() else { return Ok(()) };
@@ -81,8 +84,8 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Returns a place in a contact where a panel misses the slope of the gap, of places no further apart, with its
-    /// nodes, than a distance.
+    /// Returns a place in a contact where a panel misses the slope of the gap. Places and nodes are
+    /// no further than `apart` from each other.
     fn missed_between(
         &mut self,
         gap: &Gap<'_, T>,
@@ -103,7 +106,7 @@ impl<T: Real> PanelSet<T> {
         Ok(None)
     }
 
-    /// Looks at one place of some that part the way from each node to the next.
+    /// Probes each interval between nodes, at `part` of `parts` of the way.
     fn missed_at<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
@@ -115,7 +118,7 @@ impl<T: Real> PanelSet<T> {
         let share = part as f64 / parts as f64;
         let (reach, table) = (panel.half(), Table::of(N));
         let offsets: [T; N] = std::array::from_fn(|i| {
-            // From the last node only half as far to the end.
+            // The end is only half as far from the last node.
             let on = if i + 1 < N { share } else { 0.5 * share };
             let angle = std::f64::consts::PI * (i as f64 + 0.5 + on) / N as f64;
             reach * T::of(-angle.cos())

@@ -1,4 +1,4 @@
-//! One panel: sampled, with as many nodes as it takes, and judged.
+//! One panel: sampled with the number of nodes that it needs, and judged.
 
 use super::candidate::Candidate;
 use super::{EndProbe, FINEST, PanelSet};
@@ -9,46 +9,47 @@ use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_en
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
 use crate::{Body, ContactError, Interval, Real, Side};
 
-/// By how much of the distance to the nearest other node a point may miss its own, and for a first estimate.
+/// Largest offset of a point from its node, as a share of the distance to the nearest other node:
+/// normally, and for a first estimate.
 const NEAR: [f64; 2] = [0.1, 0.45];
 
-/// How often a span is halved to resolve what only the slope at the end of a piece tells of. (A
-/// formula may be wrong there, as signum is at 0.)
+/// Most halvings of a span to resolve a tip, which shows only in the slope at the end of a piece.
+/// (A formula may be wrong there, as signum is at 0.)
 const LEVELS_OF_A_TIP: usize = 40;
 
-/// How often a span is halved to resolve what only the heights tell of. What is left is a step.
+/// Most halvings of a span to resolve a feature that shows only in the heights. The rest is a step.
 const LEVELS_OF_A_STEP: usize = 12;
 
-/// How often a span is halved for the sake of derivatives alone, which may have a kink where the
-/// slope has none.
+/// Most halvings of a span for derivatives alone, which may have a kink where the slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
 
-/// How often the noise is measured on a span where heights contradict the slopes, after a first look.
+/// Most measurements of noise on a span where heights contradict the slopes, after a first one.
 const MOST_MEASURED: usize = 4;
 
-/// How many times as steep as the gap bodies are whose slopes leave more rounding than the tolerance.
+/// Ratio of the bodies' slopes to the slope of the gap above which their rounding may exceed the
+/// tolerance.
 const STEEP: f64 = 4.0;
 
-/// What a panel has met, in one part of its numbers.
+/// Findings on a sampled panel, in one component of its numbers.
 #[derive(Clone, Copy)]
 pub(super) struct SampledBody<T> {
-    /// The largest slope of the gap.
+    /// Largest slope of the gap.
     slope: T,
-    /// The largest sum of the slopes of the two bodies.
+    /// Largest sum of the slopes of the two bodies.
     bodies: T,
-    /// What the rounding of x, or the noise of X, makes of the slope where the bodies bend sharply.
+    /// Error of the slope by the rounding of x, or the noise of X, where the bodies bend sharply.
     noise: T,
-    /// What the noise of X alone makes of it, where it was measured.
+    /// Error of the slope by the noise of X alone, where it was measured.
     measured: T,
-    /// What the series of the bodies leave open where their points are not at the nodes. What the two
-    /// have in common does not show in the series of the gap.
+    /// Error of the bodies' series where their points are not at the nodes. A part that both bodies
+    /// share does not show in the series of the gap.
     off: T,
-    /// By how much the series of a body miss its slopes at the ends of its pieces, which are known.
+    /// Error of the bodies' series at the ends of their pieces, where the slopes are known.
     missed: T,
 }
 
 impl<T: Real> PanelSet<T> {
-    /// Samples a panel with as many nodes as it takes, or says that it must be split.
+    /// Samples a panel with the number of nodes that it needs, or marks it to be split.
     pub(super) fn try_out(
         &mut self,
         gap: &Gap<'_, T>,
@@ -61,7 +62,7 @@ impl<T: Real> PanelSet<T> {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, &mut trial.panel))?;
             nodes = self.judge(trial, &seen);
             if self.coarse {
-                // A short panel may be continued a long way.
+                // The series of a short panel may be continued a long way.
                 trial.panel.drop_noise(T::epsilon() * seen.bodies);
                 (trial.split, nodes) = (false, None);
             } else if nodes.is_none() && !trial.split {
@@ -72,7 +73,8 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Estimates the error of a panel: takes it, or has it split, or returns a larger number of nodes.
+    /// Estimates the error of a panel; accepts it, marks it to be split, or returns more nodes to
+    /// try.
     fn judge(&mut self, trial: &mut Candidate<T>, seen: &SampledBody<T>) -> Option<usize> {
         let (panel, level) = (&mut trial.panel, trial.level);
         let SampledBody { slope, bodies, noise, measured, off, missed } = *seen;
@@ -81,7 +83,8 @@ impl<T: Real> PanelSet<T> {
         }
         let counts = level < LEVELS_OF_A_TIP;
         let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
-        // Next to a singularity the slope may be large, or noisy, beyond all that counts elsewhere.
+        // Next to a singularity the slope may be larger, or noisier, than all that counts
+        // elsewhere.
         let allowed = (self.tolerance * self.size.max(slope)).max(noise);
         let rounded = (T::epsilon() * bodies).max(measured);
         let verdict = judge(panel.n, &panel.series, allowed, rounded);
@@ -102,7 +105,7 @@ impl<T: Real> PanelSet<T> {
             Resolution::Split(tail) => (tail, None, true),
         };
         (panel.tail, panel.noise, trial.derivatives) = (tail, noise, T::zero());
-        // More samples do nothing for the derivatives of what must be split anyway.
+        // More nodes do not help the derivatives on a panel that must be split anyway.
         if T::COMPONENTS > 1 && (next.is_some() || !split) {
             let noisy = matches!(verdict, Resolution::Noise(_));
             let (more, off) = self.judge_derivatives(panel, level);
@@ -115,8 +118,8 @@ impl<T: Real> PanelSet<T> {
         next
     }
 
-    /// Whether the heights tell of what is too narrow for the nodes, beyond their noise, which is measured where they
-    /// contradict the slopes.
+    /// Tells whether the heights contradict the slopes by more than their noise, because a feature
+    /// is too narrow for the nodes. The noise is measured only after a contradiction.
     fn hides(
         &mut self,
         gap: &Gap<'_, T>,
@@ -129,7 +132,7 @@ impl<T: Real> PanelSet<T> {
                 heights = self.check_heights(&trial.panel, steepest);
             }
         }
-        // Beside a step in them any difference is large.
+        // Next to a step in the heights any difference is large.
         if heights.is_err() && !trial.hides {
             self.check_slopes(gap)?;
         }
@@ -137,15 +140,16 @@ impl<T: Real> PanelSet<T> {
         if trial.level >= LEVELS_OF_A_STEP { heights.map(|()| false) } else { Ok(hides) }
     }
 
-    /// Whether what a panel misses at a breakpoint is more than the noise there: a tip much narrower than
-    /// the panel.
+    /// Tells whether the error of a panel at a breakpoint exceeds the noise there: a tip is much
+    /// narrower than the panel.
     fn misses_a_tip(&self, missed: T, noise: T) -> bool {
         missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
-    /// Owns up to what panels leave open that are good enough: they may miss the slope at a given limit; and where a
-    /// tolerance lets them pass the last coefficients may not fall on as they have, as of a root that comes after what
-    /// is smooth. (Not before neighbours have been compared, which a doubt would let pass.)
+    /// Raises the error estimates of accepted panels. They may miss the slope at a given limit; and
+    /// if a loose tolerance accepts them, the next coefficients may fall more slowly, as for a root
+    /// hidden behind a smooth part. (Only after neighbours have been compared: larger errors would
+    /// hide a mismatch.)
     pub fn own_up_alone(&mut self) {
         let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
         if !is_loose && self.held.into_iter().all(|held| held.is_none()) {
@@ -163,7 +167,7 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// By how much it misses the slope at a limit that is given.
+    /// Returns the error of a panel's slope at given limits.
     fn missed_at_limits(&self, panel: &Panel<T>) -> T {
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
@@ -172,8 +176,8 @@ impl<T: Real> PanelSet<T> {
         self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }
 
-    /// Whether the derivatives that dual numbers carry have converged, too: how many nodes they
-    /// should have, or, where more would not do, the share of their size by which they are off.
+    /// Judges the derivatives that dual numbers carry. Returns the number of nodes that they need
+    /// and, if more nodes would not help, their relative error.
     fn judge_derivatives(&mut self, panel: &Panel<T>, level: usize) -> (Option<usize>, T) {
         let (mut next, mut worst) = (None, T::zero());
         for (i, seen) in self.derivatives.iter().enumerate() {
@@ -227,7 +231,8 @@ impl<T: Real> PanelSet<T> {
             slopes[i] = upper[i] - lower[i];
         }
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
-        // Unless the bodies are much steeper than the gap their rounding is nothing beside the tolerance.
+        // Unless the bodies are much steeper than the gap, their rounding is far below the
+        // tolerance.
         let steep = seen.bodies > T::of(STEEP) * seen.slope;
         let sums = (0..if steep { N } else { 0 }).map(|i| upper[i].abs() + lower[i].abs());
         self.least = sums.reduce(T::min).map_or(zero, |least| least.min(self.least));
@@ -250,8 +255,8 @@ impl<T: Real> PanelSet<T> {
         Ok(seen)
     }
 
-    /// Samples both bodies near places in a panel, and returns their slopes there. `offsets` are those of the places
-    /// from its middle, before rounding.
+    /// Samples both bodies near places in a panel, and returns their slopes there. `offsets` are
+    /// the places relative to the middle of the panel, before rounding.
     #[inline(always)]
     pub(super) fn slopes_at<const N: usize>(
         &mut self,
@@ -270,7 +275,7 @@ impl<T: Real> PanelSet<T> {
         Ok([0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach)))
     }
 
-    /// Whether the bodies were sampled last on other pieces than those of a span.
+    /// Tells whether the noise was measured on pieces other than those at a span.
     pub(super) fn noise_is_of_another_piece(&self, gap: &Gap<'_, T>, x: [T; 2]) -> bool {
         let middle = T::of(0.5) * x[0] + T::of(0.5) * x[1];
         let is_other = |(trace, body): (&SampleCache<T>, Body)| {
@@ -279,8 +284,8 @@ impl<T: Real> PanelSet<T> {
         self.measured > 0 && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
     }
 
-    /// Measures the noise of both bodies where they were sampled last, once on a piece. Whether it is more than
-    /// rounding.
+    /// Measures the noise of both bodies where they were last sampled, unless it was measured often
+    /// enough. Tells whether it exceeds rounding and earlier measurements.
     pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, by_rounding: bool) -> bool {
         if self.measured > if by_rounding { MOST_MEASURED } else { 0 } {
             return false;
@@ -320,7 +325,7 @@ impl<T: Real> PanelSet<T> {
         counts
     }
 
-    /// What the slopes of the two bodies at the nodes say.
+    /// Returns the findings from the slopes of both bodies at the nodes.
     fn seen<const N: usize>(
         &self,
         x: [T; 2],
@@ -349,7 +354,7 @@ impl<T: Real> PanelSet<T> {
     }
 }
 
-/// The next number of nodes.
+/// Returns the next larger number of nodes.
 fn more_than(n: usize) -> Option<usize> {
     SIZES.into_iter().find(|&more| more > n)
 }

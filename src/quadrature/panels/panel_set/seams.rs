@@ -1,4 +1,4 @@
-//! Whether two neighbouring panels meet: what lies between the last nodes of either shows there only.
+//! Continuity of neighbouring panels: a feature between the last nodes of either shows only there.
 
 use super::{FINEST, PanelSet};
 use crate::Real;
@@ -6,13 +6,13 @@ use crate::numerics::chebyshev::value_at;
 use crate::quadrature::panels::panel::Panel;
 
 impl<T: Real> PanelSet<T> {
-    /// Whether two neighbours have the same slope where they meet.
+    /// Tells whether two neighbours have the same slope where they meet.
     pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
         missed(left, right) <= self.tolerated(left, right, allowed, T::one())
     }
 
-    /// What two neighbours miss each other by as much as only a loose tolerance lets pass is an error of
-    /// either: something lies between their last nodes.
+    /// Raises the errors of two neighbours to their mismatch if only a loose tolerance accepts it:
+    /// a feature lies between their last nodes.
     pub(super) fn own_up(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
         let finest = T::of(FINEST) * T::epsilon() / self.tolerance;
         let missed = missed(left, right);
@@ -24,14 +24,14 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// By how much two neighbours may miss each other, with so much of what is allowed.
+    /// Returns the allowed mismatch of two neighbours, given a share of the allowed error.
     fn tolerated(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
         let allowed = share * allowed.max(self.tolerance * self.size);
         T::of(16.0) * (left.tail + right.tail + allowed)
     }
 }
 
-/// By how much the slopes of two neighbours differ where they meet.
+/// Returns the difference of the slopes of two neighbours where they meet.
 fn missed<T: Real>(left: &Panel<T>, right: &Panel<T>) -> T {
     let [from, to] =
         [(left, T::one()), (right, -T::one())].map(|(panel, s)| value_at(panel.coefficients(), s));

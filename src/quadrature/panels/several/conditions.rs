@@ -5,34 +5,34 @@ use super::one_of_several::{OneOfSeveral, gauss};
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
 
-/// The longest span of the way through a gap that one Gauss rule takes, in the variable t of
-/// `x = β + 2 L sinh²(t/2)`: the next singularity lies at least a third as far beyond its end.
+/// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
+/// next singularity lies at least a third as far beyond its end.
 const STRETCH: f64 = 2.0;
 
-/// More than those of any gap and contact whose widths are numbers.
+/// Limit on the number of such spans: more than any gap and contact of finite widths have.
 const MOST_STRETCHES: usize = 1000;
 
-/// The conditions on the free limits, from left to right, linearised.
+/// Conditions on the free limits, from left to right, linearised.
 #[derive(Clone)]
 pub(crate) struct System<T> {
-    /// By how much each condition fails.
+    /// Residual of each condition.
     pub residual: Vec<T>,
-    /// How much of that the quadrature and rounding leave open.
+    /// Uncertainty of each residual, by quadrature and rounding.
     pub open: Vec<T>,
-    /// The derivatives by the limits, a row for each condition.
+    /// Derivatives by the limits, a row for each condition.
     pub jacobian: Vec<T>,
-    /// A gap so narrow that the rounding of the heights moves it by more than its width.
+    /// Gap so narrow that the rounding of the heights moves it by more than its width.
     pub lost: Option<usize>,
-    /// Which of the conditions is that of the load.
+    /// Row of the load condition.
     pub load_row: usize,
-    /// The limits, from left to right.
+    /// Limits, from left to right.
     pub(super) limits: Vec<T>,
     /// V at the limits, and at the zeros of p.
     pub(super) at_ends: Vec<T>,
     at_zeros: Vec<T>,
-    /// `∫ S/p dx` over the last gap, where that has no zero of p.
+    /// Integral `∫ S/p dx` over the last gap, if that has no zero of p.
     over_last: T,
-    /// `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
+    /// Integrals `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
     sums: Vec<T>,
 }
 
@@ -54,7 +54,7 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Adds a condition: by how much it fails, how much of that is open, and its derivative by each free limit.
+    /// Adds a condition: its residual, its uncertainty, and its derivative by each free limit.
     fn add(&mut self, value: T, open: T, free: Range<usize>, by: impl Fn(&Self, usize) -> T) {
         self.residual.push(value);
         self.open.push(open);
@@ -63,14 +63,15 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// The condition that does not hold where a gap has closed, and the pressure in its place is positive.
+    /// Returns the row of the condition that fails if a gap has closed and the pressure in its
+    /// place is positive.
     pub fn row_of_gap(&self, gap: usize) -> usize {
         if gap < self.at_zeros.len() { gap } else { self.load_row }
     }
 }
 
 impl<T: Real> Several<T> {
-    /// The conditions for a load, that is F/κ.
+    /// Sets up the conditions for a load, given as F/κ.
     pub fn system(&self, load: T, system: &mut System<T>) {
         let System { residual, open, jacobian, limits, at_ends, at_zeros, .. } = system;
         for known in [residual, open, jacobian, limits, at_ends, at_zeros] {
@@ -89,7 +90,7 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// Adds the conditions of balance and that of the load.
+    /// Adds the balance conditions and the load condition.
     fn balance(&self, load: T, system: &mut System<T>) {
         let (one, half, pi) = (T::one(), T::of(0.5), T::pi());
         let (hull, free, no_corners) = (self.hull(), self.free(), self.has_no_corners());
@@ -157,7 +158,7 @@ impl<T: Real> Several<T> {
         let heights = left.height_size(from) + right.height_size(to);
         let rounding = T::of(4.0) * T::epsilon() * (heights + size);
         let open = closed - (to - from);
-        // What dividing by w²/(w² + c²) adds to the derivatives, times that.
+        // Term that dividing by w²/(w² + c²) adds to the derivatives, times that divisor.
         let known = (open.abs() - rounding).max(zero) * open.signum();
         let square = left.on.half_width().min(right.on.half_width()).powi(2);
         let by_width = (known + known) / width * square / (square + width * width);
@@ -177,8 +178,8 @@ impl<T: Real> Several<T> {
         });
     }
 
-    /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to the ends, V, and
-    /// `S/p dx` without the zero of p.
+    /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
+    /// the ends, V, and `S/p dx` without the zero of p.
     fn through_gap(&self, k: usize, mut show: impl FnMut(T, [T; 2], T, T)) {
         let (one, half) = (T::one(), T::of(0.5));
         let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
@@ -213,19 +214,20 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// `V_k`: V without its value at the zero of p in gap k, over the distance from there.
+    /// Returns `V_k`: V minus its value at the zero of p in gap k, divided by the distance from
+    /// that zero; V itself if the gap has no zero.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
         let zero = self.weight.zeros().get(k);
         zero.map_or(value, |&zero| (value - system.at_zeros[k]) / (x - zero))
     }
 
-    /// π times the sum of the errors of all moments, each times a share.
+    /// Returns π times the sum of the errors of all moments, each times its share.
     fn moments_error(&self, share: impl Fn(Interval<T>) -> T) -> T {
         let add = |sum, part: &OneOfSeveral<T>| sum + T::pi() * part.moments.error * share(part.on);
         self.parts().iter().fold(T::zero(), add)
     }
 
-    /// From the first limit to the last.
+    /// Returns the interval from the first limit to the last.
     fn hull(&self) -> Interval<T> {
         Interval { left: self.parts[0].on.left, right: self.parts[self.count - 1].on.right }
     }
@@ -234,7 +236,7 @@ impl<T: Real> Several<T> {
         self.corners() == Ends::both(false)
     }
 
-    /// `(1/π) ∫ w p (x - x₀)ⁱ g dx`, i from 0 to 2.
+    /// Returns `(1/π) ∫ w p (x - x₀)ⁱ g dx` for i from 0 to 2.
     fn powers(&self, about: T) -> [T; 3] {
         let (half, two) = (T::of(0.5), T::of(2.0));
         let mut powers = [T::zero(); 3];
@@ -250,8 +252,8 @@ impl<T: Real> Several<T> {
         powers
     }
 
-    /// Far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from
-    /// x₀: the two numbers.
+    /// Returns ρ₁ and ρ₂: far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without
+    /// corners, with x counted from x₀.
     fn afar(&self, about: T) -> [T; 2] {
         let (half, hull, corners) = (T::of(0.5), self.hull(), self.corners());
         let limits = self.contacts().iter().flat_map(|on| [(on.left, half), (on.right, half)]);
@@ -265,8 +267,8 @@ impl<T: Real> Several<T> {
         [first, second + half * first * first]
     }
 
-    /// The load as an unknown in place of the first or the last free limit, which stays where it is: its column
-    /// is the last.
+    /// Makes the load an unknown, with the last column, in place of the first or the last free
+    /// limit, which stays where it is.
     pub fn by_load(&self, side: Side, system: &mut System<T>) {
         let columns = system.residual.len();
         for (i, row) in system.jacobian.chunks_mut(columns).enumerate() {
@@ -277,14 +279,15 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// One more unknown, the tilt of the bodies, and one more condition, that the load acts at a place:
+    /// Adds one unknown, the tilt of the bodies, and one condition: the load acts at a given place.
     ///
     /// ```text
-    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0        by a limit e:  (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
+    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0
+    /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
     /// ```
     ///
-    /// All conditions are linear in g, so the column of the tilt is what they are for g = 1 and a gap that
-    /// rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
+    /// All conditions are linear in g, so the column of the tilt holds their values for g = 1 and a
+    /// gap that rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
     pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
         let (zero, half, pi) = (T::zero(), T::of(0.5), T::pi());
         let (hull, no_corners) = (self.hull(), self.has_no_corners());

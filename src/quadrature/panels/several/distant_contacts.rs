@@ -1,28 +1,29 @@
-//! What contacts make of something over an interval: those next to it one by one, all others of many together
-//! as a Chebyshev series, since they are far off.
+//! Contributions of contacts to a quantity over an interval: neighbours one by one; the others, if
+//! there are many, together as a Chebyshev series, since they are far off.
 
 use super::super::panel::Panel;
 use super::one_of_several::multiply;
 use crate::{Interval, Real};
 use std::ops::Range;
 
-/// Contacts from which on the far ones are taken together.
+/// Number of contacts from which on the far ones are taken together.
 const MANY: usize = 8;
 
 #[derive(Clone)]
 pub(super) struct DistantContacts<T> {
-    /// The numbers of those taken one by one.
+    /// Numbers of the contacts taken one by one.
     pub near: Range<usize>,
     far: Option<Panel<T>>,
 }
 
 impl<T: Real> DistantContacts<T> {
-    /// All one by one.
+    /// Takes all contacts one by one.
     pub fn near(count: usize) -> Self {
         Self { near: 0..count, far: None }
     }
 
-    /// All but those near by together, unless they are few, or not smooth.
+    /// Takes all contacts but the near ones together, unless they are few, or their sum is not
+    /// smooth.
     pub fn new(
         near: Range<usize>,
         count: usize,
@@ -34,13 +35,13 @@ impl<T: Real> DistantContacts<T> {
             return Self::near(count);
         }
         let mut one = Panel::new([on.left, on.right]);
-        // From sixteen nodes on.
+        // Starts with sixteen nodes.
         (one.series[0], one.counting) = (T::one(), 10);
         let (far, resolved, moved) = multiply(&one, one.x, &far, tolerance);
         if resolved && moved { Self { near, far: Some(far) } } else { Self::near(count) }
     }
 
-    /// What those together make, or nothing.
+    /// Returns the contribution of the far contacts, or `nothing` if all are taken one by one.
     pub fn far(&self, x: T, nothing: T) -> T {
         self.far.as_ref().map_or(nothing, |far| far.value(x))
     }

@@ -1,5 +1,5 @@
-//! What a certificate asks several contacts for: what the pressure does beside them, and how it grows from
-//! their limits.
+//! Quantities that a certificate needs outside several contacts: the slope due to the pressure, and
+//! the strength at a displaced limit.
 
 use super::one_of_several::OneOfSeveral;
 use super::{Several, System};
@@ -7,7 +7,7 @@ use crate::quadrature::panels::PanelSet;
 use crate::{Ends, Real, Side};
 
 impl<T: Real> Several<T> {
-    /// As many contacts on panels that others have sampled, over all of each of them.
+    /// Creates contacts on panel sets that were sampled elsewhere, one contact for each.
     pub fn sampled(panel_sets: Vec<PanelSet<T>>) -> Self {
         let mut several = Self::new(panel_sets[0].tolerance);
         several.parts = panel_sets.into_iter().map(OneOfSeveral::on_panels).collect();
@@ -15,14 +15,16 @@ impl<T: Real> Several<T> {
         several
     }
 
-    /// Takes a load, that is F/κ, where the contacts do not say it: the only one between two corners bears any.
+    /// Sets the load F/κ where the contacts do not determine it: the only one between two corners
+    /// carries any load.
     pub fn bear(&mut self, load: T) {
         let is_given = self.count == 1 && self.corners() == Ends::both(true);
         self.constant = if is_given { -T::pi() * load } else { T::zero() };
     }
 
-    /// `Φ/κ`, what the pressure takes off the slope of the gap, at a distance beyond a limit of a contact and
-    /// no further than in the next gap, given the conditions on these contacts.
+    /// Returns `Φ/κ`, the part of the gap's slope that the pressure takes off, at a distance beyond
+    /// a limit of a contact and no further than in the next gap. `system` holds the conditions on
+    /// these contacts.
     pub fn pull(&self, system: &System<T>, contact: usize, side: Side, distance: T) -> T {
         let on = self.parts[contact].on;
         let sign = if side == Side::Left { -T::one() } else { T::one() };
@@ -43,7 +45,7 @@ impl<T: Real> Several<T> {
         if side == Side::Left {
             distances.reverse();
         }
-        // At the zero itself that is a derivative: by a place aside from it.
+        // At the zero itself the quotient is a derivative: take it at a place next to the zero.
         let aside = T::epsilon().sqrt() * width;
         let is_close = |&zero: &T| (x - zero).abs() < aside;
         let is_at_zero = self.weight.zeros().get(k).is_some_and(is_close);
@@ -52,8 +54,8 @@ impl<T: Real> Several<T> {
         -self.weight.in_gap(k, x, distances) * without / T::pi()
     }
 
-    /// The strength `K/κ` that a limit would have if it were off by a length, by that length, given the
-    /// conditions on these contacts.
+    /// Returns the strength `K/κ` of a limit displaced by a length, divided by that length.
+    /// `system` holds the conditions on these contacts.
     pub fn strength_by_limit(&self, system: &System<T>, contact: usize, side: Side) -> T {
         let limit = self.parts[contact].on[side];
         let value = system.at_ends[2 * contact + usize::from(side == Side::Right)];

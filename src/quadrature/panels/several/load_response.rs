@@ -1,31 +1,32 @@
-//! What several contacts answer to a load more.
+//! Response of several contacts to a change of the load.
 //!
-//! The conditions on the limits hold under every load: so `J de = e_F dF/κ`, with the Jacobian J and 1 in the
-//! row of the load alone. A limit e acts on `P = κ S/p V/π²` by S and by V, p being left as it is, together by
+//! The conditions on the limits hold under every load, therefore `J de = e_F dF/κ`, with the
+//! Jacobian J and a vector e_F that is 1 in the row of the load and 0 elsewhere. A limit e acts on
+//! `P = κ S/p V/π²` through S and V, with p left as it is, in total by
 //!
 //! ```text
 //! ∂P/∂e = -κ S/(2 π² p) V(e)/(x - e)
 //! ```
 //!
-//! The sum of that over the free limits, times de/dF, is ∂P/∂F: the pressure of a flat punch on all contacts
-//! under a unit load, whatever the bodies.
+//! The sum of these over the free limits, each times de/dF, is ∂P/∂F: the pressure of a flat punch
+//! on all contacts under a unit load, whatever the bodies.
 
 use super::weight::Weight;
 use super::{Several, System};
 use crate::numerics::LinearSystem;
 use crate::{Ends, Interval, Real, Side};
 
-/// The pressure of a flat punch on several contacts.
+/// Pressure of a flat punch on several contacts under a unit load.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LoadResponse<T> {
     weight: Weight<T>,
-    /// The free limits e, and what is to be divided by `x - e`.
+    /// Free limits e, and the numerators over `x - e`.
     terms: Vec<[T; 2]>,
 }
 
 impl<T: Real> Several<T> {
-    /// The derivatives of all limits by F/κ, left and right of each contact, and that of the pressure by F.
-    /// `None` where the limits do not follow the load.
+    /// Returns the derivatives of all limits by F/κ, left and right of each contact, and the
+    /// derivative of the pressure by F; `None` where the limits do not follow the load.
     pub fn rates(&self, load: T) -> Option<(Vec<Ends<T>>, LoadResponse<T>)> {
         let (mut system, mut linear) = (System::new(), LinearSystem::new());
         self.system(load, &mut system);
@@ -55,7 +56,7 @@ impl<T: Real> LoadResponse<T> {
         self.weight.contacts()
     }
 
-    /// At a place strictly inside one of the contacts, by its number.
+    /// Returns the pressure at a place strictly inside a contact, given its number.
     pub fn pressure(&self, contact: usize, x: T) -> T {
         let sum = self.terms.iter().fold(T::zero(), |sum, &[e, share]| sum + share / (x - e));
         let root = self.contacts()[contact].chebyshev_weight(x);

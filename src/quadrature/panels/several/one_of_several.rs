@@ -1,4 +1,4 @@
-//! One of several contacts: the slope of the gap times the weight, and what follows from it.
+//! One of several contacts: the slope of the gap times the weight, and its integrals.
 
 use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
@@ -12,51 +12,52 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
 use crate::{ContactError, Interval, Real, Side};
 
-/// How often a panel is halved to resolve the weight: beside a gap, which may be as narrow as rounding
-/// lets it be.
+/// Most halvings of a panel to resolve the weight next to a gap, which may be as narrow as rounding
+/// allows.
 const MOST_HALVES: usize = 60;
 
-/// How often for derivatives alone, which may be noise.
+/// Most halvings for derivatives alone, which may be noise.
 const DERIVATIVE_HALVES: usize = 4;
 
-/// Panels of one contact, after which none is halved any more.
+/// Most panels of one contact; beyond it none is halved any more.
 const MOST_PANELS: usize = 1 << 12;
 
-/// By how much more than a contact is sampled, as a share of its width, so that its limits can be moved.
+/// Margin of the sampled span beyond a contact, as a share of its width, so that its limits can be
+/// moved.
 const ROOM: f64 = 0.1;
 
-/// A contact narrower than this share of the span sampled is sampled anew.
+/// Smallest width of a contact, as a share of the sampled span; a narrower one is sampled anew.
 const NARROWER: f64 = 0.4;
 
-/// A span sampled that is narrower than this share of the contact is forgotten: a panel beside a corner, as narrow as a
-/// share s of the contact, costs eps/√s of the limits.
+/// Smallest width of the sampled span, as a share of the contact; a narrower span is forgotten. A
+/// panel next to a corner, as narrow as a share s of the contact, costs eps/√s in the limits.
 const REMNANT: f64 = 1e-3;
 
-/// The distance from a contact, in half-widths, from which on the cosines that its panels are summed up in
-/// are enough for rounding: u²⁴ there.
+/// Distance from a contact, in half-widths, from which on the cosine series of its panels is exact
+/// to rounding: its error there is u²⁴.
 const AFAR: f64 = 2.0;
 
 #[derive(Clone)]
 pub(super) struct OneOfSeveral<T> {
     pub on: Interval<T>,
-    /// The slope of the gap around the contact.
+    /// Slope of the gap around the contact.
     pub panel_set: PanelSet<T>,
-    /// A place in the contact, and the height of the gap there before the bodies are turned.
+    /// Place in the contact, and the height of the gap there before the bodies are turned.
     height: Option<[T; 2]>,
-    /// `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
+    /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
-    /// Stretches still to be looked at, with how often each has been halved.
+    /// Spans still to be resolved, each with the number of its halvings.
     waiting: Vec<([T; 2], usize)>,
-    /// The largest |H|.
+    /// Bound on |H|.
     size: T,
     conjugate: HilbertTransform<T>,
-    /// H as a cosine series: all of a single panel's, or as much as is seen from afar.
+    /// H as a cosine series: all of it on a single panel, or the terms that count from afar.
     series: Series<T>,
-    /// Where there are several panels.
+    /// Sum over the panels, if there are several.
     far: NearFarSum<T>,
-    /// Of H.
+    /// Moments of H.
     pub moments: Moments<T>,
-    /// What the contacts make of the weight, and of V, in this one.
+    /// Contributions of the contacts to the weight, and to V, in this one.
     pub weight: DistantContacts<T>,
     pub value: DistantContacts<T>,
 }
@@ -81,20 +82,20 @@ impl<T: Real> OneOfSeveral<T> {
         }
     }
 
-    /// One whose slope others have sampled.
+    /// Returns a contact whose slope was sampled elsewhere.
     pub fn on_panels(panel_set: PanelSet<T>) -> Self {
         let mut one = Self::new(panel_set.tolerance);
         one.panel_set = panel_set;
         one
     }
 
-    /// Forgets the samples: the contact is another, or the bodies are.
+    /// Forgets the samples, since the contact or the bodies have changed.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panel_set.clear(same_bodies);
         self.height = None;
     }
 
-    /// Moves it to an interval, sampling what is missing of the gap. `ends` is how far it may be sampled.
+    /// Moves the contact to an interval, and samples the missing part of the gap within `ends`.
     pub fn sample(
         &mut self,
         gap: &Gap<'_, T>,
@@ -115,7 +116,7 @@ impl<T: Real> OneOfSeveral<T> {
             let room = T::of(ROOM) * (plain.right - plain.left);
             let [from, to] = ends;
             let half = T::of(0.5);
-            // Half the way to an end, where the slope may be infinite.
+            // At most half the way to an end, where the slope may be infinite.
             let span = Interval {
                 left: (plain.left - room).max(half * plain.left + half * from),
                 right: (plain.right + room).min(half * plain.right + half * to),
@@ -130,8 +131,8 @@ impl<T: Real> OneOfSeveral<T> {
         Ok(())
     }
 
-    /// Returns the height of the gap at the first of two places. Heights that contradict the slopes may tell of a narrow
-    /// feature.
+    /// Returns the height of the gap at the first of two places. If heights contradict the slopes,
+    /// probes for a narrow feature.
     fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<T, ContactError<T>> {
         let mut trials = 0;
         loop {
@@ -146,20 +147,20 @@ impl<T: Real> OneOfSeveral<T> {
         }
     }
 
-    /// The height of the gap at a place in the contact, or at its limits: one height of the bodies, and
-    /// the integral of the slope from there.
+    /// Returns the height of the gap at a place in the contact, or at its limits: one height of the
+    /// bodies plus the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
         self.height.map_or(T::zero(), |[place, height]| {
             height + self.panel_set.tilt * place + self.panel_set.rise(place, x)
         })
     }
 
-    /// The size of what such a height was added from.
+    /// Returns the size of the terms in such a height.
     pub fn height_size(&self, height: T) -> T {
         height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
     }
 
-    /// Multiplies the slope by a weight, and makes ready for the conditions on the limits.
+    /// Multiplies the slope by a weight, and prepares for the conditions on the limits.
     pub fn set(&mut self, weight: impl Fn(T) -> T) {
         let on = self.on;
         let sampled = within(&self.panel_set.panels, on);
@@ -193,21 +194,21 @@ impl<T: Real> OneOfSeveral<T> {
         });
     }
 
-    /// Makes ready for pressures in the contact.
+    /// Prepares for pressures in the contact.
     pub fn press(&mut self) {
         let over = Some(&self.series).filter(|_| self.panels.len() == 1);
         self.conjugate.set(&self.panels, over, self.on, self.size, self.panel_set.tolerance);
     }
 
-    /// `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a distance from its
-    /// nearer end.
+    /// Returns `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a
+    /// distance from its nearer end.
     pub fn outside(&self, x: T, distance: T) -> T {
         let half_width = self.on.half_width();
         let beyond = distance / half_width;
         if self.panels.len() > 1 && beyond < T::of(AFAR) {
             return self.far.outside(x, distance, self.on);
         }
-        // The power series in the Joukowski variable, as far as its powers count.
+        // Power series in the Joukowski variable, up to the last power that counts.
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let right = x > self.on.centre();
         let size = T::one() / (T::one() + beyond + root);
@@ -222,19 +223,19 @@ impl<T: Real> OneOfSeveral<T> {
         if right { -sum } else { sum }
     }
 
-    /// The same at a place that is not next to this contact.
+    /// Returns the same integral as [`outside`](Self::outside) at a place not next to this contact.
     pub fn seen_from(&self, x: T) -> T {
         self.outside(x, (self.on.left - x).max(x - self.on.right))
     }
 
-    /// Its panels as seen from below the surface.
+    /// Returns the contact, and its panels as seen from below the surface.
     pub fn in_plane(&self) -> (Interval<T>, NearFarSum<T>) {
         let mut sum = NearFarSum::new();
         sum.set(&self.panels, self.on, Seen::Below);
         (self.on, sum)
     }
 
-    /// V at one end of the contact, without what is infinite there.
+    /// Returns V at one end of the contact, without its infinite part.
     pub fn at_end(&self, side: Side) -> T {
         let Some(trend) = self.moments.derivatives else { return T::zero() };
         T::pi()
@@ -244,20 +245,21 @@ impl<T: Real> OneOfSeveral<T> {
             }
     }
 
-    /// `sqrt((x - α)(β - x)) V(x)` at so many points of the contact, and that root.
+    /// Returns `sqrt((x - α)(β - x)) V(x)` at the first `count` points, in the contact, and the
+    /// root.
     pub fn inside(&self, x: &[T; LANES], count: usize) -> ([T; LANES], [T; LANES]) {
         let edges = Edges::of(self.on, x);
         (self.conjugate.at(x, count, &edges), edges.root)
     }
 
-    /// Estimated error of the first of these.
+    /// Estimates the error of the first result of [`inside`](Self::inside).
     pub fn error(&self, x: T) -> T {
         self.conjugate.error(&self.panels, x)
     }
 }
 
-/// A panel of the product over a span, and whether its nodes are enough: for the value, and for the
-/// derivatives that dual numbers carry.
+/// Returns a panel of the product over a span, and two flags: its nodes suffice for the value, and
+/// for the derivatives that dual numbers carry.
 pub(super) fn multiply<T: Real>(
     panel: &Panel<T>,
     x: [T; 2],
@@ -291,9 +293,10 @@ pub(super) fn multiply<T: Real>(
         let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
         let noise = panel.tail * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
         product.tail = noise + last;
-        // What is not finite, no halving mends.
+        // Halving does not mend values that are not finite.
         resolved = last <= half * tolerance * all + noise || !all.is_finite();
-        // So must be what dual numbers carry: the weight bends more as a limit moves.
+        // The derivatives of dual numbers must be resolved, too: the weight bends more as a limit
+        // moves.
         let small = T::epsilon().powf(T::of(0.75));
         moved = (1..T::COMPONENTS).all(|part| {
             let size = |terms: &[T]| {
@@ -309,7 +312,7 @@ pub(super) fn multiply<T: Real>(
     (product, resolved, moved)
 }
 
-/// The rule on a span of the way through a gap.
+/// Returns the rule for one span of a gap.
 pub(super) fn gauss() -> &'static GaussLegendre {
     GaussLegendre::sixteen()
 }

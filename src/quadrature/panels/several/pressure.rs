@@ -5,13 +5,13 @@ use super::Several;
 use crate::{Real, Side};
 
 impl<T: Real> Several<T> {
-    /// The number of the contact in which a place lies.
+    /// Returns the number of the contact in which a place lies.
     fn contact_with(&self, x: T) -> Option<usize> {
         let i = self.parts().partition_point(|part| part.on.right <= x);
         self.parts().get(i).filter(|part| part.on.contains(x)).map(|_| i)
     }
 
-    /// `P/κ`, zero in the gaps between the contacts.
+    /// Computes `P/κ`, zero in the gaps between the contacts.
     pub fn pressures(&self, x: &[T], pressures: &mut [T]) {
         let mut done = 0;
         while done < x.len() {
@@ -39,12 +39,12 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// Estimated error of `P/κ` at a place in one of the contacts.
+    /// Estimates the error of `P/κ` at a place in one of the contacts.
     pub fn error(&self, x: T) -> T {
         let Some(i) = self.contact_with(x) else { return T::zero() };
         let (part, sixth) = (&self.parts[i], T::of(6.0));
-        // An error of the edge integrals is one of what is infinite at the edges; the other contacts'
-        // add to it.
+        // An error of the edge integrals is an error of the edge singularities; the errors of other
+        // contacts add to it.
         let others = self.parts().iter().enumerate().filter(|&(k, _)| k != i);
         let by_others = others.fold(T::zero(), |sum, (_, other)| {
             let away = (other.on.left - x).max(x - other.on.right);
@@ -56,7 +56,8 @@ impl<T: Real> Several<T> {
         (part.error(x) + of_edges + T::pi() * root * by_others) / scale
     }
 
-    /// The strength `K/κ` of the singularity at a corner, `P ≈ K/sin θ`; zero at a free limit.
+    /// Returns the strength `K/κ` of the singularity at a corner, `P ≈ K/sin θ`; zero at a free
+    /// limit.
     pub fn strength(&self, side: Side) -> T {
         if !self.corners()[side] {
             return T::zero();

@@ -1,15 +1,15 @@
 //! The weight of several contacts.
 //!
-//! With `R(x) = Π (x - α_j)(x - β_j)` over the contacts `[α_j, β_j]`, z their corners (the outermost limits
-//! only) and ν_k the middles of the gaps between them,
+//! With `R(x) = Π (x - α_j)(x - β_j)` over the contacts `[α_j, β_j]`, z their corners (outermost
+//! limits only) and ν_k the middles of the gaps between them,
 //!
 //! ```text
 //! p(x) = Π (x - ν_k)        S(x) = sqrt(R(x))/Π (x - z)        w = 1/S
 //! ```
 //!
-//! with the sign of `(-1)^(number of contacts to the right)`. The plain w of many contacts overflows; `w p`
-//! does not: to each factor of R there is one of p close by, and `w p` keeps its sign over a contact. With two
-//! corners the degree of p is one less, and the last gap has no zero.
+//! with the sign of `(-1)^(number of contacts to the right)`. For many contacts w alone overflows;
+//! `w p` does not: each factor of R has one of p close by, and `w p` keeps its sign over a contact.
+//! With two corners the degree of p is one less, and the last gap has no zero.
 
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
@@ -17,7 +17,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
-    /// Whether the outermost limits are corners.
+    /// True at an outermost limit that is a corner.
     corners: Ends<bool>,
     zeros: Vec<T>,
 }
@@ -46,56 +46,56 @@ impl<T: Real> Weight<T> {
         self.corners
     }
 
-    /// The zeros of p: that of gap k is number k.
+    /// Returns the zeros of p: number k lies in gap k.
     pub fn zeros(&self) -> &[T] {
         &self.zeros
     }
 
-    /// The number of the first or the last contact.
+    /// Returns the number of the first or the last contact.
     fn outermost(&self, side: Side) -> usize {
         if side == Side::Left { 0 } else { self.on.len() - 1 }
     }
 
-    /// `x - z`, z the corner on one side; 1 without it.
+    /// Returns `x - z` for the corner z on one side; 1 without a corner.
     fn corner_distance(&self, side: Side, x: T) -> T {
         let limit = self.on[self.outermost(side)][side];
         if self.corners[side] { x - limit } else { T::one() }
     }
 
-    /// `Π (x - z)` over the corners.
+    /// Returns `Π (x - z)` over the corners.
     fn corner_factor(&self, x: T) -> T {
         self.corner_distance(Side::Left, x) * self.corner_distance(Side::Right, x)
     }
 
-    /// `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
+    /// Returns `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
     pub fn on_contact(&self, i: usize, x: T) -> T {
         self.near(i, 0..self.on.len(), x)
     }
 
-    /// The same without the contacts that are not among these.
+    /// Returns [`on_contact`](Self::on_contact) without the contacts outside a range.
     pub fn near(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         self.smooth(i, contacts, x) * self.corner_factor(x)
     }
 
-    /// What the contacts that are not among these make of it.
+    /// Returns the factor of [`on_contact`](Self::on_contact) by the contacts outside a range.
     pub fn far(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         let [left, right] = [0..contacts.start, contacts.end..self.on.len()];
         (self.square(i, left, x) * self.square(i, right, x)).sqrt()
     }
 
-    /// The numbers of a contact and of those next to it, two on either side.
+    /// Returns the numbers of a contact and its neighbours, two on either side.
     pub fn next_to(&self, i: usize) -> Range<usize> {
         i.saturating_sub(2)..(i + 3).min(self.on.len())
     }
 
-    /// Some contacts' share without the corners, with the sign of all.
+    /// Returns the factor by some contacts, without the corners, with the sign of the whole.
     fn smooth(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         // Contacts and zeros of p to the right of this one.
         let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
         Self::sign(flips) * self.square(i, contacts, x).sqrt()
     }
 
-    /// The square of what some contacts make of it.
+    /// Returns the square of the factor by some contacts.
     fn square(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         contacts.filter(|&k| k != i).fold(T::one(), |square, k| {
             let [on, zero] = self.factors(i, k, x);
@@ -103,22 +103,24 @@ impl<T: Real> Weight<T> {
         })
     }
 
-    /// `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between contact k and contact i.
+    /// Returns `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between
+    /// contact k and contact i.
     fn factors(&self, i: usize, k: usize, x: T) -> [T; 2] {
         let (on, zero) = (self.on[k], self.zeros.get(if k < i { k } else { k - 1 }));
         let square = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
         [(x - on.left) * (x - on.right), square]
     }
 
-    /// The same at the left or the right corner, without the factor that vanishes there.
+    /// Returns [`on_contact`](Self::on_contact) at a corner, without the factor that vanishes
+    /// there.
     pub fn beside_corner(&self, side: Side) -> T {
         let i = self.outermost(side);
         let corner = self.on[i][side];
         self.smooth(i, 0..self.on.len(), corner) * self.corner_distance(side.other(), corner)
     }
 
-    /// `S/p` at a place in gap k, without the zero of p in that gap, by the distances to both ends of the
-    /// gap.
+    /// Returns `S/p` at a place in gap k, without the zero of p in that gap, given the distances to
+    /// both ends of the gap.
     pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
         let [left, right] = [self.on[k], self.on[k + 1]];
         let others = (0..self.on.len()).filter(|&m| m != k && m != k + 1);
@@ -131,7 +133,7 @@ impl<T: Real> Weight<T> {
         Self::sign(flips) * near * square.sqrt() / self.corner_factor(x)
     }
 
-    /// `S/p` beyond all contacts, on their left or on their right, by the distance from the outermost limit.
+    /// Returns `S/p` beyond all contacts, on one side, given the distance from the outermost limit.
     pub fn beyond(&self, side: Side, x: T, distance: T) -> T {
         let own = self.outermost(side);
         let size = distance.sqrt() * (distance + (self.on[own].right - self.on[own].left)).sqrt();
@@ -139,13 +141,13 @@ impl<T: Real> Weight<T> {
             Side::Left => (-distance, self.on.len() + self.zeros.len()),
             Side::Right => (distance, 0),
         };
-        // A corner on this side is as far as the limit is.
+        // A corner on this side is at the distance of the limit.
         let factor = if self.corners[side] { outward } else { T::one() };
         let factor = factor * self.corner_distance(side.other(), x);
         Self::sign(flips) * size / (self.square(own, 0..self.on.len(), x).sqrt() * factor)
     }
 
-    /// The sign of a root after a number of branch points.
+    /// Returns the sign of a root after a number of branch points.
     fn sign(flips: usize) -> T {
         if flips.is_multiple_of(2) { T::one() } else { -T::one() }
     }
