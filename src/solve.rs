@@ -1,9 +1,10 @@
-//! The search for the contact under a control.
+//! Search for the contact under a control.
 //!
-//! Under a load the contacts are sought from a start, moved until they meet the conditions, checked, and revised
-//! ([`topology`]). A half-width is one of these conditions, and so is the place at which the load acts ([`moment`]); a peak
-//! pressure and an approach are sought [by the load](by_load). The paper's edges, Eq. (6), own strategies and
-//! own quadratures are served by a [search of one limit at a time](one_by_one).
+//! Under a load the contacts are sought from a start, moved until they meet the conditions,
+//! checked, and revised ([`topology`]). A half-width is one of these conditions, and so is the
+//! place at which the load acts ([`moment`]); a peak pressure and an approach are sought [by the
+//! load](by_load). The paper's edges, Eq. (6), and the user's own strategies and quadratures are
+//! served by a [search of one limit at a time](one_by_one).
 
 mod active_set;
 mod by_load;
@@ -32,7 +33,8 @@ use equations::Equations;
 use std::sync::Arc;
 pub(crate) use topology::Workspace;
 
-/// The means of a search: the integrals, what is kept from one solve to the next, and the cost so far.
+/// Means of a search: the integrals, the state kept from one solve to the next, and the cost so
+/// far.
 pub(crate) struct Work<'s, T: Real> {
     pub integrator: &'s mut dyn Integrator<T>,
     pub workspace: &'s mut Workspace<T>,
@@ -40,7 +42,7 @@ pub(crate) struct Work<'s, T: Real> {
 }
 
 impl<T: Real> Work<'_, T> {
-    /// Makes the contacts found ready for their pressures, and keeps them for the next search.
+    /// Prepares the contacts found for their pressures, and keeps them for the next search.
     fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Result<(), ContactError<T>> {
         let Self { integrator, workspace, cost } = self;
         if panels::several(*integrator).is_none() {
@@ -54,26 +56,31 @@ impl<T: Real> Work<'_, T> {
 }
 
 impl<'b, T: Real> Contact<'b, T> {
-    /// Finds the contact under what is prescribed: its limits, and the load or tilt where they come out. The pressure is left for
-    /// [`Solution::pressure`].
+    /// Finds the contact under a control: its limits, and the load or the tilt if not given.
+    /// [`Solution::pressure`] computes the pressure.
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`], [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
+    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`],
+    /// [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
     /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
-    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`], [`ContactError::PeakEdge`],
-    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for what was
-    /// set; [`ContactError::NotConvex`] for what was declared;
+    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`],
+    /// [`ContactError::PeakEdge`], [`ContactError::InvalidSegments`],
+    /// [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for invalid
+    /// settings; [`ContactError::NotConvex`] for a false declaration;
     /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
-    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`], [`ContactError::NoEquilibrium`],
-    /// [`ContactError::OutsideBodies`], [`ContactError::PullOff`] for bodies and loads that do not go together; [`ContactError::Profile`],
+    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`],
+    /// [`ContactError::NoEquilibrium`], [`ContactError::OutsideBodies`], [`ContactError::PullOff`]
+    /// for bodies and loads that do not go together; [`ContactError::Profile`],
     /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
-    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`],
-    /// [`ContactError::NoPeak`], [`ContactError::InJump`], [`ContactError::BudgetSpent`], [`ContactError::InconsistentHeights`] from the search;
-    /// [`ContactError::InvalidMoment`], [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
-    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`], [`ContactError::BothRigid`] for materials;
-    /// [`ContactError::NoMaterials`], [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
-    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach; where [`certified`](Self::certified), those of
-    /// [`Solution::certify`].
+    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`], [`ContactError::NoPeak`],
+    /// [`ContactError::InJump`], [`ContactError::BudgetSpent`],
+    /// [`ContactError::InconsistentHeights`] from the search; [`ContactError::InvalidMoment`],
+    /// [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
+    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`],
+    /// [`ContactError::BothRigid`] for materials; [`ContactError::NoMaterials`],
+    /// [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
+    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach;
+    /// the errors of [`Solution::certify`] if [`certified`](Self::certified).
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
         let mut cost = Cost::default();
@@ -83,7 +90,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
     }
 
-    /// The solution that was found.
+    /// Returns the solution from the contact found.
     pub(crate) fn solution(
         &self,
         integrator: Arc<Box<dyn Integrator<T>>>,
@@ -97,8 +104,8 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 }
 
-/// Finds the limits by an integrator that has been reset, from the contacts in the workspace. The cost is that of the
-/// search, whether it succeeds or not.
+/// Finds the limits with an integrator that has been reset, from the contacts in the workspace. The
+/// cost is added whether the search succeeds or not.
 pub(crate) fn find<T: Real>(
     contact: &Contact<'_, T>,
     control: Control<T>,
@@ -109,7 +116,7 @@ pub(crate) fn find<T: Real>(
     found.map_err(|error| error.with_stiffness(contact.has_default_stiffness()))
 }
 
-/// Finds the contact of a scene that has been checked, ready for its pressures.
+/// Finds the contact of a checked scene, ready for its pressures.
 fn find_checked<T: Real>(
     contact: &Contact<'_, T>,
     control: Control<T>,
@@ -185,7 +192,7 @@ fn find_under<T: Real>(
     }
 }
 
-/// Tells whether a half-width may be that of several contacts, by the error of the search for one.
+/// Tells whether a half-width may belong to several contacts, by the error of the search for one.
 fn may_have_several<T: Real>(
     contact: &Contact<'_, T>,
     error: &ContactError<T>,
@@ -198,7 +205,7 @@ fn may_have_several<T: Real>(
     }
     match *error {
         NoEquilibrium { .. } | Overlap { .. } | Tension { .. } => Ok(true),
-        // The widest of several is another one.
+        // Several contacts may be wider.
         HalfWidthTooLarge { wanted, .. } if !contact.gap.is_convex() => {
             let look = work.workspace.look(&contact.gap, Asked::HalfWidth(wanted), work.cost)?;
             Ok(!look.bulges())

@@ -1,4 +1,4 @@
-//! Solving again: the next load, the next time step.
+//! Repeated solves: the next load, the next time step.
 
 use crate::contact::Control;
 use crate::gap::Cost;
@@ -11,15 +11,15 @@ use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
 ///
-/// The same scene under another load is solved from the samples at hand, and the curves are
-/// called again only where the contact grows beyond them. Another scene, such as the same bodies
-/// a time step later, is sampled anew, but only around the contact it had before. Once its
-/// workspace has grown to what the scenes need, solving allocates nothing, provided that a solution is
-/// dropped before the next solve. One that is kept keeps its samples, and the solver goes on with a copy.
+/// The same scene under another load is solved from the samples at hand; the curves are called
+/// again only where the contact grows beyond them. Another scene, such as the same bodies a time
+/// step later, is sampled anew, but only around its last contact. Once the workspace has grown to
+/// the size of the scenes, solving allocates nothing, provided that each solution is dropped before
+/// the next solve. A solution that is kept keeps its samples, and the solver goes on with a copy.
 ///
-/// Where the search from the last contact fails, by whatever error but [`ContactError::Cancelled`], the solver
-/// forgets all that it has and seeks from scratch, as [`Contact::solve`] does: what it refuses is refused there too.
-/// The [cost](Solution::cost) is that of both searches.
+/// If the search from the last contact fails, with any error but [`ContactError::Cancelled`], the
+/// solver forgets its state and searches from scratch, as [`Contact::solve`] does: it refuses the
+/// same scenes. The [cost](Solution::cost) is the sum of both searches.
 ///
 /// Results depend on the calls made and on nothing else. One solver serves one thread, and may be
 /// sent to another.
@@ -47,23 +47,23 @@ use std::sync::Arc;
 pub struct Solver<T: Real> {
     integrator: Option<Arc<Box<dyn Integrator<T>>>>,
     workspace: Workspace<T>,
-    /// The gap last solved, by its number; the contacts found are in the workspace.
+    /// Number of the gap last solved; its contacts are in the workspace.
     last: Option<u64>,
 }
 
 impl<T: Real> Solver<T> {
-    /// A solver that has not solved anything yet.
+    /// Creates a solver that has not solved anything yet.
     #[must_use]
     pub fn new() -> Self {
         Self { integrator: None, workspace: Workspace::new(), last: None }
     }
 
-    /// Solves a scene, as [`Contact::solve`] does. Where the quadrature of the scene is not that of the
-    /// one before ([`Quadrature::serves`](crate::quadrature::Quadrature::serves)) it is solved from
+    /// Solves a scene, as [`Contact::solve`] does. If its quadrature differs from that of the last
+    /// scene ([`Quadrature::serves`](crate::quadrature::Quadrature::serves)), it is solved from
     /// scratch.
     ///
     /// # Errors
-    /// Those of [`Contact::solve`]. After an error the next scene is solved from scratch.
+    /// The errors of [`Contact::solve`]. After an error the next scene is solved from scratch.
     pub fn solve<'b>(
         &mut self,
         contact: &Contact<'b, T>,
@@ -74,7 +74,7 @@ impl<T: Real> Solver<T> {
         let mut spent = Cost::default();
         loop {
             match self.search(contact, control, is_warm, &mut spent) {
-                // What stands in its way may be where it came from.
+                // The last contact may be the cause of the failure.
                 Err(error) if is_warm && !matches!(error, ContactError::Cancelled { .. }) => {
                     is_warm = false;
                 }
@@ -83,7 +83,8 @@ impl<T: Real> Solver<T> {
         }
     }
 
-    /// One search, from the last contact or from scratch. `spent` is what this one and those before it have cost.
+    /// Searches once, from the last contact or from scratch. Adds the cost of the search to
+    /// `spent`.
     fn search<'b>(
         &mut self,
         contact: &Contact<'b, T>,
@@ -102,7 +103,7 @@ impl<T: Real> Solver<T> {
         let own = loop {
             match Arc::get_mut(integrator) {
                 Some(own) => break &mut **own,
-                // A solution that was kept keeps its integrator.
+                // A kept solution keeps its integrator.
                 None => *integrator = Arc::new(integrator.fork()),
             }
         };
@@ -122,11 +123,11 @@ impl<T: Real> Solver<T> {
 }
 
 impl<T: Real> Solver<T> {
-    /// Solves a scene with a tangential force that friction carries, as [`Contact::partial_slip`] does. The next solve
-    /// starts from where the bodies stick.
+    /// Solves a scene with a tangential force that friction carries, as [`Contact::partial_slip`]
+    /// does. The next solve starts from the stick zones.
     ///
     /// # Errors
-    /// Those of [`Contact::partial_slip`].
+    /// The errors of [`Contact::partial_slip`].
     pub fn partial_slip<'b>(
         &mut self,
         contact: &Contact<'b, T>,
@@ -161,15 +162,16 @@ impl<T: Real> std::fmt::Debug for Solver<T> {
 }
 
 impl<'b, T: Real> Contact<'b, T> {
-    /// Finds the contact, and where in it the bodies stick under a tangential force that friction carries: see
-    /// [`Shear`]. The bodies must be alike, or both incompressible; where their materials are not known they are taken
-    /// for that. A corner that is [`Edge::Fixed`](crate::Edge::Fixed) may slip.
+    /// Finds the contact, and its stick zones under a tangential force that friction carries: see
+    /// [`Shear`]. The bodies must be alike, or both incompressible; this is assumed of bodies whose
+    /// materials are unknown. A corner that is [`Edge::Fixed`](crate::Edge::Fixed) may slip.
     ///
     /// # Errors
-    /// Those of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`], [`ContactError::InvalidShear`],
-    /// [`ContactError::SlipsEverywhere`], [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
-    /// [`ContactError::UnlikeBodies`];
-    /// [`ContactError::SlipNotSupported`] with adhesion, and with edges by the paper's Eq. (6).
+    /// The errors of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`],
+    /// [`ContactError::InvalidShear`], [`ContactError::SlipsEverywhere`],
+    /// [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
+    /// [`ContactError::UnlikeBodies`]; [`ContactError::SlipNotSupported`] with adhesion, and with
+    /// edges by the paper's Eq. (6).
     pub fn partial_slip(
         &self,
         control: Control<T>,

@@ -1,41 +1,45 @@
-//! Two bodies in contact as a spring: what a simulator asks for at each step, from a table.
+//! Two bodies in contact as a spring: load and stiffness for each step of a simulator, from a
+//! table.
 //!
-//! The table has the exact load, stiffness dF/dδ, half-width and peak pressure, with their exact derivatives, at
-//! chosen loads. Between them the logarithms of all by that of the approach δ are cubic (Hermite): power laws, such as
-//! the 10/9 of ISO/TS 16281, are met by two points. Where two solves between two points show an error
-//! above the tolerance, a point is put between them.
+//! The table has the exact load, stiffness dF/dδ, half-width and peak pressure, with their exact
+//! derivatives, at chosen loads. Between the points, the logarithms of these quantities are cubic
+//! in the logarithm of the approach δ (Hermite): for power laws, such as the exponent 10/9 of
+//! ISO/TS 16281, two points suffice. If two test solves between two points show an error above the
+//! tolerance, a point is added between them.
 
 use crate::{Contact, ContactError, Control, Interval, Real, References, Solution, Solver};
 
-/// The most points of a table.
+/// Largest number of points of a table.
 const MOST_POINTS: usize = 4096;
 
-/// The least distance of two points, as a share of the load: closer ones follow a kink, as where a corner is reached.
+/// Least distance of two points, as a share of the load: closer ones follow a kink, as where a
+/// corner is reached.
 const CLOSEST: f64 = 1e-6;
 
-/// Where the error between two points is looked at: in the middle that of the values is largest, here that of the slopes.
+/// Place of the second test between two points: here the error of the slopes is largest, in the
+/// middle the error of the values.
 const STEEPEST: f64 = 0.211_324_865_405_187_1;
 
-/// What is seen of an error may be half of it.
+/// Safety factor on the observed errors, since they may be half of the largest.
 const MARGIN: f64 = 2.0;
 
-/// The error of a cubic goes like `t² (1 - t)²`: so much larger is its steepest slope than its largest value. A kink
-/// between two looks shows in the slopes.
+/// Ratio of the steepest slope to the largest value of the error of a cubic, which goes like
+/// `t² (1 - t)²`. A kink between two tests shows in the slopes.
 const SLOPE_OF_ERROR: f64 = 3.08;
 
-/// The state of a spring.
+/// State of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpringPoint<T> {
-    /// The [approach](Solution::approach) δ: a length.
+    /// [Approach](Solution::approach) δ: a length.
     pub approach: T,
-    /// The load per unit length F: force/length.
+    /// Load per unit length F: force/length.
     pub load: T,
-    /// The [stiffness](Solution::stiffness) dF/dδ: a pressure.
+    /// [Stiffness](Solution::stiffness) dF/dδ: a pressure.
     pub stiffness: T,
-    /// The half-width L, of several contacts half of all widths together: a length.
+    /// Half-width L; for several contacts, half the sum of their widths: a length.
     pub half_width: T,
-    /// The largest pressure p₀; `None` where it is infinite, at a corner.
+    /// Largest pressure p₀; `None` if it is infinite, at a corner.
     pub peak: Option<T>,
 }
 
@@ -70,7 +74,7 @@ pub struct SpringTable<T> {
     stiffness_error: T,
 }
 
-/// A point with what the cubics need: the derivatives of the logarithms of F, L and p₀ by that of δ.
+/// Point with the data of the cubics: the derivatives of ln F, ln L and ln p₀ by ln δ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Node<T> {
@@ -105,17 +109,17 @@ fn checked<'de, T: Real + serde::Deserialize<'de>, D: serde::Deserializer<'de>>(
 }
 
 impl<T: Real> SpringTable<T> {
-    /// The table over a range of loads per unit length, from the least to the largest.
+    /// Computes the table over a range of loads per unit length, from the least to the largest.
     ///
-    /// The tolerance is a share of the load, the half-width and the peak, whichever is worst; between points as close
-    /// as a millionth of the load, as beside a load under which a corner is reached, it may not be met:
-    /// [`error`](Self::error) says what is.
+    /// The tolerance is a share of the load, the half-width and the peak, whichever is worst.
+    /// Between points as close as a millionth of the load, as next to a load under which a corner
+    /// is reached, it may not be met: [`error`](Self::error) returns the error found.
     ///
     /// # Errors
     /// [`ContactError::InvalidLoad`] for a range that is not positive and rising;
-    /// [`ContactError::InvalidTolerance`] for one that is not positive; those of [`Contact::solve`],
-    /// [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
-    /// [`ContactError::ApproachFalls`].
+    /// [`ContactError::InvalidTolerance`] for a tolerance that is not above 0 and below 1; the
+    /// errors of [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and
+    /// [`Solution::peak`]; [`ContactError::ApproachFalls`].
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,
@@ -162,22 +166,24 @@ impl<T: Real> SpringTable<T> {
         Ok(table)
     }
 
-    /// The solved points, by rising approach.
+    /// Returns the solved points, by rising approach.
     pub fn points(&self) -> impl ExactSizeIterator<Item = SpringPoint<T>> {
         self.points.iter().map(|node| node.point)
     }
 
-    /// The largest error between the points, as a share of the load, the half-width or the peak: twice what was seen.
+    /// Returns the largest error between the points, as a share of the load, the half-width or the
+    /// peak: twice the observed error.
     pub fn error(&self) -> T {
         self.error
     }
 
-    /// The same of the stiffness.
+    /// Returns the largest error of the stiffness between the points, as a share: twice the
+    /// observed error.
     pub fn stiffness_error(&self) -> T {
         self.stiffness_error
     }
 
-    /// The state at an approach within the table.
+    /// Returns the state at an approach within the table.
     ///
     /// # Errors
     /// [`ContactError::OutsideTable`].
@@ -193,7 +199,7 @@ impl<T: Real> SpringTable<T> {
     }
 }
 
-/// One solve.
+/// Returns the point of a solution.
 fn node<T: Real>(
     solution: &Solution<'_, T>,
     references: &References<T>,
@@ -219,12 +225,12 @@ fn node<T: Real>(
     Ok(Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents })
 }
 
-/// Between two points, by Hermite's cubics.
+/// Interpolates between two points by Hermite's cubics.
 fn between<T: Real>([from, to]: &[Node<T>; 2], approach: T) -> Node<T> {
     let width = (to.point.approach / from.point.approach).ln();
     let t = (approach / from.point.approach).ln() / width;
     let (one, two, three, six) = (T::one(), T::of(2.0), T::of(3.0), T::of(6.0));
-    // The value, and the derivative of its logarithm by that of the approach.
+    // The value, and the derivative of its logarithm by the logarithm of the approach.
     let cubic = |i: usize, first: T, last: T| {
         let rise = (last / first).ln();
         let slopes = [from.exponents[i] * width, to.exponents[i] * width];
@@ -243,8 +249,8 @@ fn between<T: Real>([from, to]: &[Node<T>; 2], approach: T) -> Node<T> {
     Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents }
 }
 
-/// By what share two states may differ at most between two points that far apart, and by what share their
-/// stiffnesses do.
+/// Returns the largest relative difference of two states between two points of this distance
+/// (`width`), and the relative difference of their stiffnesses.
 fn difference<T: Real>(exact: &Node<T>, other: &Node<T>, width: T) -> [T; 2] {
     let share = |exact: T, other: T| (other / exact - T::one()).abs();
     let (point, found) = (exact.point, other.point);

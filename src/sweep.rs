@@ -4,22 +4,23 @@ use crate::{Real, Solver};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Most scenes that one solver takes in a row.
+/// Largest number of scenes that one solver takes in a row.
 const MOST_IN_A_ROW: usize = 32;
-/// Rows into which even a short slice is divided, so that there is work for all cores.
+/// Number of rows into which even a short slice is divided, to keep all cores busy.
 const ROWS: usize = 64;
 
-/// Solves each scene of a slice, over all cores, and returns the results in the order of the scenes.
+/// Solves each scene of a slice, over all cores, and returns the results in the order of the
+/// scenes.
 ///
-/// A scene is whatever `solve` can make a contact of: a load, a set of parameters, a time. It is handed
-/// a [`Solver`] that has solved the scenes before it, and keeps what it wants of the solution. A scene
-/// that fails fails alone. `progress` is told how often scenes have been done, from whatever
-/// thread has done the last; two calls may overlap.
+/// A scene is anything from which `solve` can make a contact: a load, a set of parameters, a time.
+/// The closure gets a [`Solver`] that has solved the scenes before it, and keeps what it needs of
+/// the solution. A scene that fails does not stop the others. `progress` gets the number of scenes
+/// done, on the thread that has done the last one; two calls may overlap.
 ///
-/// The results do not depend on the number of threads, bit for bit: the slice is cut into rows of up to
-/// 32 scenes, by its length alone, and each row starts with a new solver, from nothing. Within a row
-/// each scene starts from the contact before, so neighbours should be alike. The threads are
-/// those of rayon's current pool.
+/// The results do not depend on the number of threads, bit for bit: the slice is cut into rows of
+/// up to 32 scenes, by its length alone, and each row starts with a new solver. Within a row each
+/// scene starts from the contact before, so neighbours should be alike. The threads are those of
+/// rayon's current pool.
 ///
 /// ```
 /// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, sweep};

@@ -1,21 +1,21 @@
-//! Where two bodies touch, roughly, from nothing but heights: a coarse active set.
+//! Rough contacts of two bodies, from heights alone: a coarse active set.
 //!
-//! The bodies are cut into cells of constant pressure. A cell is *loaded*, and the gap in it is closed;
-//! or it is *open*, and bears nothing. With the force q on each cell and K the potential of a unit force
-//! in one cell, averaged over another,
+//! The bodies are cut into cells of constant pressure. A cell is *loaded*, and the gap in it is
+//! closed; or it is *open*, and bears nothing. With the force q on each cell and K the potential of
+//! a unit force in one cell, averaged over another,
 //!
 //! ```text
 //! κ h_i + Σ_j K_ij q_j = δ,   q_i ≥ 0    in loaded cells
 //! κ h_i + Σ_j K_ij q_j ≥ δ,   q_i = 0    in open ones,      Σ q_i = F
 //! ```
 //!
-//! Where the load is to act at a place x̄ the bodies turn: `h_i + τ (x_i - x̄)` takes the place of `h_i`, and
-//! `Σ q_i (x_i - x̄) = 0` is one more condition.
-//! Cells that pull are opened and cells that overlap are loaded, all at once, until none is left
-//! (Hintermüller, Ito and Kunisch, *SIAM J. Optim.* 13, 2002, 865); where that does not lead on, one at a
-//! time, which must end (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three
-//! where the contact is not yet seen well: they grow in number with the logarithm of how small it is.
-//! The runs of loaded cells are the contacts.
+//! If the load acts at a given place x̄, the bodies turn: `h_i + τ (x_i - x̄)` takes the place of
+//! `h_i`, and `Σ q_i (x_i - x̄) = 0` is one more condition. Cells in tension are opened and cells
+//! that overlap are loaded, all at once, until none is left (Hintermüller, Ito and Kunisch, *SIAM
+//! J. Optim.* 13, 2002, 865). If this makes no progress, they change one at a time, which must end
+//! (Júdice and Pires, *Comput. Oper. Res.* 21, 1994, 587). Then cells are cut in three where the
+//! contact is not yet resolved: their number grows with the logarithm of its smallness. The runs of
+//! loaded cells are the contacts.
 
 mod balance;
 mod forces;
@@ -28,74 +28,75 @@ use forces::{line, sum};
 use potential::{CellPlace, Potential};
 use std::cmp::Ordering::Equal;
 
-/// Cells at first; where a check has failed, twice as many may see more.
+/// Number of cells at first; twice as many after a failed check may resolve more.
 pub(super) const FIRST_CELLS: usize = 33;
 
-/// Cells after which none is cut any more.
+/// Number of cells above which none is cut any more.
 const MOST_CELLS: usize = 6000;
 
-/// Times that cells are cut: enough for a contact of 1e-16 of the bodies.
+/// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MOST_CUTS: usize = 48;
 
-/// Loaded cells that a run must have.
+/// Least number of loaded cells in a run; the cells of shorter runs are cut.
 const CELLS_OF_A_RUN: usize = 4;
 
-/// How far below the level of its edges the gap of a round contact is on an average, times κ/F: two thirds of
-/// `κ h(L)/F`, that is one.
+/// Mean depth of the gap of a round contact below the level of its edges, in units of F/κ: two
+/// thirds of `κ h(L)/F`, which is one.
 const ABOVE: f64 = 2.0 / 3.0;
 
-/// Changes of the set of loaded cells before the search is given up.
+/// Updates of the set of loaded cells before the search is given up.
 const MOST_CHANGES: usize = 400;
 
-/// Changes of all wrong cells that may leave as many wrong ones, before only one is changed.
+/// Full updates without progress before switching to one cell at a time.
 const MOST_IN_VAIN: usize = 4;
 
-/// Cells times steps in all systems of equations of a search before it is given up: half a minute at worst.
+/// Largest sum of cells times steps over all linear systems of a search: half a minute at worst.
 const MOST_WORK: usize = 200_000_000;
 
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T> {
     pub kappa: T,
     pub load: T,
-    /// Where the load is to act, if the bodies turn.
+    /// Place where the load acts, if the bodies turn.
     pub at: Option<T>,
-    /// Where both bodies are, or up to their corners.
+    /// Range that both bodies cover, up to their corners.
     pub range: [T; 2],
-    /// Cells at first, such as [`FIRST_CELLS`].
+    /// Number of cells at first, such as [`FIRST_CELLS`].
     pub cells: usize,
-    /// Heights of the gap that are known, `[x, h]` by rising x; may be none.
+    /// Known heights of the gap, `[x, h]` by rising x; may be empty.
     pub known: &'s [[T; 2]],
-    /// Where the bodies touched last; may be none.
+    /// Last contacts; may be empty.
     pub start: &'s [Interval<T>],
 }
 
-/// Where the bodies touch, to some per cent of each width.
+/// Contacts, to some per cent of each width.
 #[derive(Clone, Debug)]
 pub(super) struct Coarse<T> {
-    /// From left to right.
+    /// Contacts, from left to right.
     pub intervals: Vec<Interval<T>>,
-    /// By how much body 2 is turned counter-clockwise.
+    /// Angle by which body 2 is turned counter-clockwise.
     pub tilt: T,
-    /// Whether the contact reaches the left and the right end of the range.
+    /// Flags: the contact reaches this end of the range.
     pub reaches: Ends<bool>,
 }
 
-/// Why no contact is found.
+/// Reason why no contact is found.
 #[derive(Debug, PartialEq)]
 pub(super) enum NotFound<T: Real> {
-    /// A height cannot be had.
+    /// Error of a height that cannot be computed.
     Height(ContactError<T>),
-    /// A height is not finite.
+    /// Height that is not finite.
     NotFinite { x: T, height: T },
-    /// The range is empty, or the load or κ not positive and finite.
+    /// Empty range, or a load or κ that is not positive and finite.
     Scene { kappa: T, load: T, range: [T; 2] },
-    /// The set of loaded cells does not converge.
+    /// Set of loaded cells that does not converge.
     Unsettled { solves: usize },
 }
 
 type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
 
-/// Finds the contacts of a scene, with the height of the gap at any x of the range; adds to the `work` of the search.
+/// Finds the contacts of a scene from the height of the gap at any x of the range; adds to the
+/// `work` of the search.
 pub(super) fn active_set<T: Real>(
     scene: &Scene<'_, T>,
     work: &mut usize,
@@ -112,10 +113,10 @@ struct Cell<T> {
     left: T,
     right: T,
     height: T,
-    /// As a share of the load.
+    /// Force as a share of the load.
     force: T,
     loaded: bool,
-    /// Its number before cells were cut, unless it is new.
+    /// Number of the cell before cells were cut; `None` for a new one.
     number: Option<usize>,
 }
 
@@ -139,22 +140,22 @@ struct ActiveSet<T> {
     kappa: T,
     load: T,
     at: Option<T>,
-    /// κ h/F above the lowest cell, and the potential.
+    /// Rise κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
     matrix: Potential<T>,
-    /// What their sum is in loaded cells: a level, and a slope from where the load is to act.
+    /// Sum of rise and potential in loaded cells: a level, and a slope about the place of the load.
     level: T,
     slope: T,
-    /// Whether cells were cut since these were found.
+    /// True if cells were cut since rise and potential were computed.
     changed: bool,
-    /// Systems of linear equations.
+    /// Number of linear systems solved.
     solves: usize,
     work: usize,
 }
 
 impl<T: Real> ActiveSet<T> {
-    /// Loads the cells in which the bodies touch, cut as far as it takes to see them.
+    /// Loads the cells in which the bodies touch, cut as finely as needed to resolve the contacts.
     fn settle(&mut self, scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<(), NotFound<T>> {
         self.take_up(scene.start, height)?;
         for _ in 0..MOST_CUTS {
@@ -200,13 +201,13 @@ impl<T: Real> ActiveSet<T> {
         for i in 1..=cells {
             let share = T::count(i) / T::count(cells);
             let right = if i == cells { range[1] } else { range[0] + share * width };
-            // A range of a few units in the last place has fewer cells.
+            // A range of a few units in the last place has room for fewer cells.
             if right > left {
                 set.add([left, right], None, height)?;
                 left = right;
             }
         }
-        // There have to be cells on both sides of the place where the load acts.
+        // Cells are needed on both sides of the place where the load acts.
         while let (Some(_), Some(last)) = (at, set.cells.len().checked_sub(1)) {
             let [left, right] = [0, last].map(|i| set.arm(set.cells[i].centre()) > T::zero());
             let marks: Vec<_> = (0..=last).map(|i| i == 0 && left || i == last && !right).collect();
@@ -226,13 +227,13 @@ impl<T: Real> ActiveSet<T> {
         (0..self.cells.len()).min_by(by_height)
     }
 
-    /// How far to the right of the place where the load is to act, as a share of the range.
+    /// Returns the distance to the right of the place of the load, as a share of the range.
     fn arm(&self, x: T) -> T {
         self.at.map_or(T::zero(), |at| (x - at) / (self.range[1] - self.range[0]))
     }
 
-    /// Loads cells to start with, as if each gave way for itself: those that are below a line on which the load
-    /// acts where it has to. What [`ABOVE`] says of the line is right for one round contact.
+    /// Loads cells to start with, as if each yielded independently: those below a line on which the
+    /// load acts at its place. The level of the line by [`ABOVE`] is right for one round contact.
     fn rest(&mut self) {
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         let arms: Vec<T> = self.cells.iter().map(|cell| self.arm(cell.centre())).collect();
@@ -258,8 +259,8 @@ impl<T: Real> ActiveSet<T> {
         loaded.iter().for_each(|&i| self.cells[i].loaded = true);
     }
 
-    /// The cells that rigid bodies would rest on: the lowest, or the two of which the line between them is the
-    /// lowest where the load acts.
+    /// Returns the cells that rigid bodies would rest on: the lowest one, or the pair whose
+    /// connecting line is lowest where the load acts.
     fn supports(&self, arms: &[T]) -> [usize; 2] {
         let middle = arms.partition_point(|&arm| arm <= T::zero());
         let line = |&[i, j]: &[usize; 2]| {
@@ -272,7 +273,7 @@ impl<T: Real> ActiveSet<T> {
         pairs.min_by(by_line).unwrap_or([lowest; 2])
     }
 
-    /// Tells whether forces in the loaded cells, of which there must be one, can act where they have to.
+    /// Tells whether there are loaded cells whose forces can act where they have to.
     fn bears(&self) -> bool {
         let arms = || {
             let loaded = self.cells.iter().filter(|cell| cell.loaded);
@@ -282,7 +283,7 @@ impl<T: Real> ActiveSet<T> {
         arms().any(|arm| arm <= T::zero()) && (!turns || arms().any(|arm| arm > T::zero()))
     }
 
-    /// How far open the gap is in a cell.
+    /// Returns the gap in a cell, as a multiple of F/κ.
     fn gap(&self, i: usize) -> T {
         let aside = self.slope * self.arm(self.cells[i].centre());
         self.rise[i] + self.potential[i] - self.level - aside
@@ -312,8 +313,8 @@ impl<T: Real> ActiveSet<T> {
         Ok(&mut self.cells[number])
     }
 
-    /// Cuts the marked cells in three, of which those are loaded that lie in intervals; whether there were any that
-    /// can be.
+    /// Cuts the marked cells in three, and loads the parts that lie in intervals. Tells whether any
+    /// cell was cut.
     fn cut(
         &mut self,
         marks: &[bool],
@@ -326,7 +327,7 @@ impl<T: Real> ActiveSet<T> {
         for (cell, &mark) in cells.iter().zip(marks) {
             let Cell { left, right, height: middle, force, .. } = *cell;
             let third = cell.width() / T::of(3.0);
-            // The centre stays where it is.
+            // The centre stays in place.
             let [from, to] = [left + third, right - third];
             let finest = T::of(64.0) * T::epsilon() * left.abs().max(right.abs());
             if !mark || cut >= room || cell.width() <= finest || from >= to {
@@ -348,12 +349,12 @@ impl<T: Real> ActiveSet<T> {
         Ok(cut > 0)
     }
 
-    /// κ h/F above the lowest cell.
+    /// Returns the rise κ h/F above the lowest cell.
     fn rise_of(&self, height: T, lowest: T) -> T {
         (height - lowest) / self.load * self.kappa
     }
 
-    /// Starts from the contacts found last.
+    /// Cuts and loads the cells in the contacts found last.
     fn take_up(&mut self, start: &[Interval<T>], height: Height<'_, T>) -> Result<(), NotFound<T>> {
         let start: Vec<_> = start.iter().map(Interval::plain).collect();
         let touched = |cell: &Cell<T>| {
@@ -379,7 +380,7 @@ impl<T: Real> ActiveSet<T> {
         Ok(())
     }
 
-    /// Makes ready for forces on cells that were cut.
+    /// Prepares the matrix and the rises for cells that were cut.
     fn prepare(&mut self) {
         let [left, right] = self.range;
         let place = |cell: &Cell<T>| CellPlace {
@@ -393,14 +394,15 @@ impl<T: Real> ActiveSet<T> {
             cell.number = Some(i);
         }
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
-        // Beyond that it is all one how high a cell is.
+        // Beyond this rise the height of a cell no longer matters.
         let highest = T::epsilon().recip().powi(4);
         let rise = |cell: &Cell<T>| self.rise_of(cell.height, lowest).min(highest);
         self.rise = self.cells.iter().map(rise).collect();
         self.changed = false;
     }
 
-    /// Changes the set of loaded cells until none pulls and none overlaps, but for one at a limit of many cells.
+    /// Changes the set of loaded cells until none is in tension and none overlaps, except next to a
+    /// run of enough cells.
     fn converge(&mut self) -> Result<(), NotFound<T>> {
         if self.changed {
             self.prepare();
@@ -421,7 +423,7 @@ impl<T: Real> ActiveSet<T> {
                 })
                 .collect();
             let runs = self.runs();
-            // A limit is known where but the cell next to a run of some overlaps.
+            // If only cells next to long enough runs are wrong, the limits are known.
             let is_limit = |&i: &usize| {
                 let next = runs.partition_point(|run| run[1] + 1 < i);
                 let beside = |&[from, to]: &[usize; 2]| i + 1 == from || i == to + 1;
@@ -467,7 +469,7 @@ mod tests {
         Ok(set(scene, h)?.found())
     }
 
-    /// The same on many even cells.
+    /// Returns the contacts found on many equal cells.
     fn even(scene: &Scene<'_, f64>, cells: usize, h: impl Fn(f64) -> f64) -> Coarse<f64> {
         let scene = Scene { cells, known: &[], start: &[], ..*scene };
         let mut set = ActiveSet::new(&scene, &mut |x| Ok(h(x))).unwrap();
@@ -480,7 +482,7 @@ mod tests {
         (0..n as i32).map(|i| [x(i), h(x(i))]).collect()
     }
 
-    /// A load needs a loaded cell, also where the bodies do not turn.
+    /// A load needs a loaded cell, even if the bodies do not turn.
     #[test]
     fn no_cell_bears_no_load() {
         let mut set = set(&scene(0.1, [-2.0, 2.0]), |x| 0.5 * x * x).unwrap();
@@ -489,7 +491,7 @@ mod tests {
         assert!(!set.bears());
     }
 
-    /// By how much the limits are off, as a share of the width.
+    /// Returns the largest error of the limits, as a share of the width.
     fn off(on: Interval<f64>, exact: Interval<f64>) -> f64 {
         let width = exact.right - exact.left;
         (on.left - exact.left).abs().max((on.right - exact.right).abs()) / width
@@ -512,7 +514,7 @@ mod tests {
             (-2.0 * (1.0 - self.unit()).ln()).sqrt() * (2.0 * PI * self.unit()).cos()
         }
 
-        /// One wave, or twelve of any length: amplitude, wave number, phase.
+        /// Returns one wave, or twelve of any length: amplitude, wave number, phase.
         fn waves(&mut self, one: bool) -> Vec<[f64; 3]> {
             if one {
                 let (steep, length) = (10f64.powf(self.within(-1.7, 0.5)), self.within(0.15, 0.8));
@@ -547,7 +549,6 @@ mod tests {
             let &[on] = found.intervals.as_slice() else { panic!("{load}: {found:?}") };
             all.push(off(on, Interval { left: c - half, right: c + half }));
             assert!(set.cells.len() <= 130 && found.reaches == Ends::both(false), "{found:?}");
-            // δ = F (1/2 - ln(L/2)) for distances in units of 1, here of 4.
         }
         all.sort_by(f64::total_cmp);
         assert!(all[50] < 0.015 && all[100] < 0.08, "{} {}", all[50], all[100]);
@@ -589,7 +590,7 @@ mod tests {
             let found = set.found();
             counted.push(set.cells.len());
             let fine = even(&scene, 801, h);
-            // Of runs of a few of its cells the fine one does not know the width.
+            // The fine cells do not resolve the width of a run of few cells.
             let far = |(&on, &fine): (&Interval<f64>, &Interval<f64>)| {
                 fine.half_width() > 0.05 && off(on, fine) > 0.12
             };
@@ -616,7 +617,7 @@ mod tests {
         for (&on, &fine) in found.intervals.iter().zip(&fine.intervals) {
             assert!(off(on, fine) < 0.12, "{on:?} {fine:?}");
         }
-        // From there to a little more load: contacts are born, none dies.
+        // Under a little more load, contacts are born and none dies.
         (scene.start, scene.load) = (&found.intervals, 0.11);
         let more = find(&scene, h).unwrap();
         assert!(more.intervals.len() >= found.intervals.len());
@@ -646,7 +647,8 @@ mod tests {
         }
     }
 
-    /// x²/2 rolls until it touches around the line of the load, by elimination and by conjugate gradients.
+    /// The parabola x²/2 rolls until it touches around the line of the load, by elimination and by
+    /// conjugate gradients.
     #[test]
     fn a_parabola_rolls() {
         for (load, at) in [(1e-6, 0.3), (0.01, -0.7), (0.3, 0.01), (0.3, 0.9)] {
@@ -677,7 +679,7 @@ mod tests {
         let warm = set(&scene, h).unwrap();
         assert_eq!(warm.found().intervals.len(), 2);
         assert!(warm.solves <= 4 && 3 * warm.solves < cold.solves);
-        // A start that is nowhere near costs some more, but leads to the same.
+        // A start far from the contacts costs some more, but leads to the same ones.
         scene.start = &[Interval { left: 1.9, right: 1.900_001 }];
         assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
         scene.start =
@@ -699,7 +701,7 @@ mod tests {
             };
             let found = active_set(&scene, &mut 0, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
             let half = f64::from(4.0 * load / std::f32::consts::PI).sqrt();
-            // What 3 has cost of the heights shows under light loads.
+            // Under light loads the rounding of heights near 3 shows.
             for Interval { left, right } in &found.intervals {
                 let on = Interval { left: f64::from(*left), right: f64::from(*right) };
                 assert!(off(on, Interval { left: -half, right: half }) < 0.15, "{load}: {on:?}");
@@ -735,11 +737,11 @@ mod tests {
         let outside = ContactError::OutsideBodies { x: 0.0, range: [0.0, 1.0] };
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut 0, &mut |_| Err(outside.clone()));
         assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
-        // The search has spent all it may before.
+        // The search has spent all its work before.
         let mut spent = MOST_WORK + 1;
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut spent, &mut |x| Ok(x * x));
         assert_eq!(refused.map(|_| ()), Err(NotFound::Unsettled { solves: 0 }));
-        // Noise, from cell to cell: whatever comes, it ends.
+        // Noise from cell to cell: the search ends in any case.
         let noise = |x: f64| (x.to_bits().wrapping_mul(0x9e3779b97f4a7c15) >> 11) as f64 * 1e-16;
         for load in [1e-6, 1e-2, 1.0] {
             let known = heights(1000, [-1.0, 1.0], noise);

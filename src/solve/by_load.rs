@@ -1,7 +1,7 @@
-//! The contact under which a quantity that grows with the load has a given value.
+//! Contact under which a quantity that grows with the load has a given value.
 //!
-//! The peak pressure, the approach of the bodies and the half-width never fall with the load without adhesion, however
-//! many contacts there are, and their derivatives are known:
+//! Without adhesion the peak pressure, the approach of the bodies and the half-width never fall
+//! with the load, whatever the number of contacts, and their derivatives are known:
 //!
 //! ```text
 //! peak         ∂P/∂F at its place, a flat punch on the contacts
@@ -9,10 +9,10 @@
 //! half-width   (da/dF + db/dF)/2
 //! ```
 //!
-//! So Newton's method on ln q over ln F finds the load, between loads that are too small and too large; a power law
-//! takes it one step. Each trial is a solve by load, and the samples of one serve the next. A quantity may jump: the
-//! half-width where a contact is born outside the others, the peak where a corner is reached. A value inside a jump has
-//! no load.
+//! So Newton's method on ln q over ln F finds the load, between loads that are too small and too
+//! large; for a power law it takes one step. Each trial is a solve by load, and its samples serve
+//! the next. A quantity may jump: the half-width when a contact is born outside the others, the
+//! peak when a corner is reached. A value inside a jump has no load.
 
 use super::capacity::Capacity;
 use super::edges::{Conditions, Given};
@@ -23,19 +23,20 @@ use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
 use crate::{ContactError, Edge, Ends, Interval, Real, References};
 
-/// Loads tried before the value is given up.
+/// Loads tried before the search is given up.
 const MOST_LOADS: usize = 100;
 
-/// The first load for an approach as a share of `κ δ`: that of a contact a millionth as wide as the bodies is a twentieth.
+/// First load for an approach, as a share of `κ δ`: a contact a millionth as wide as the bodies
+/// needs a twentieth.
 const FIRST: f64 = 0.05;
 
-/// By how much the load changes at most from one trial to the next.
+/// Largest factor between the loads of two trials.
 const MOST_STEP: f64 = 1e3;
 
-/// How far the load may go from the first one while the quantity is not even finite.
+/// Largest factor between a load and the first one while the load is not enclosed.
 const FARTHEST: f64 = 1e12;
 
-/// A quantity that is given instead of the load.
+/// Quantity that is given instead of the load.
 #[derive(Clone, Copy)]
 pub(super) enum Quantity<T> {
     HalfWidth,
@@ -43,8 +44,8 @@ pub(super) enum Quantity<T> {
     Approach { references: References<T>, bodies: Option<[Elasticity<T>; 2]> },
 }
 
-/// Checks the edges for a peak: a corner on the bodies may end them; at any other edge but a free one the pressure is
-/// infinite.
+/// Checks the edges for a given peak: a corner on the bodies may end them; at any other edge that
+/// is not free the pressure is infinite.
 pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
     let edges = contact.checked_edges()?;
     if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
@@ -56,7 +57,7 @@ pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), Conta
     }
 }
 
-/// A search for the load under which a quantity has the wanted value.
+/// Search for the load under which a quantity has the wanted value.
 pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     quantity: Quantity<T>,
@@ -64,18 +65,18 @@ pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
     work: &'s mut Work<'w, T>,
 }
 
-/// A reading of a trial that failed.
+/// Conclusion from a failed trial.
 enum Bound<T> {
-    /// About how large the quantity is under a load.
+    /// Load, and an estimate of the quantity under it.
     At(T, T),
-    /// The widest contact has the wanted value.
+    /// Widest contact, which has the wanted value.
     Widest(ContactState<T>),
 }
 
-/// A contact, its quantity, and the derivative of that by the load.
+/// Contact, its quantity, and the derivative of the quantity by the load.
 type Trial<T> = (ContactState<T>, [T; 2]);
 
-/// Loads that are too small and too large, each with the quantity under it.
+/// Loads that are too small and too large, each with its quantity.
 #[derive(Clone, Copy)]
 struct Enclosure<T> {
     low: Option<[T; 2]>,
@@ -87,7 +88,8 @@ impl<T: Real> Enclosure<T> {
         *(if at[1] < wanted { &mut self.low } else { &mut self.high }) = Some(at);
     }
 
-    /// Returns a load that is not known to be too small or too large: this one, or one between.
+    /// Returns this load, or one within the enclosure if this one is known to be too small or too
+    /// large.
     fn inside(&self, load: T) -> T {
         let step = T::of(MOST_STEP);
         match [self.low, self.high].map(|end| end.map(|[load, _]| load)) {
@@ -98,7 +100,7 @@ impl<T: Real> Enclosure<T> {
         }
     }
 
-    /// Tells whether nothing is left between.
+    /// Tells whether the enclosure has no load left inside.
     fn is_closed(&self) -> bool {
         let nothing = T::one() + T::epsilon().sqrt();
         matches!((self.low, self.high), (Some([low, _]), Some([high, _])) if high <= low * nothing)
@@ -106,7 +108,7 @@ impl<T: Real> Enclosure<T> {
 }
 
 impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
-    /// Finds the contact under the load.
+    /// Finds the contact under the load sought.
     pub fn find(
         contact: &'s Contact<'b, T>,
         quantity: Quantity<T>,
@@ -120,7 +122,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let mut first = self.first()?;
         let (mut load, mut fault) = (first, None);
         let mut enclosure = Enclosure { low: None, high: None };
-        // Steps that are still to be made without a look at them, once the next squares what is left.
+        // Number of steps left without a check, once the next one squares the error.
         let mut last_steps: Option<usize> = None;
         for _ in 0..MOST_LOADS {
             // So small a number has no digits left.
@@ -138,7 +140,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                     }
                     last_steps = match last_steps {
                         Some(left) => Some(left - 1),
-                        // The rate of a peak is known to half the digits only.
+                        // The rate of a peak is known to only half the digits.
                         None => (size <= T::epsilon().sqrt()).then_some(2 * T::DERIVATIVE_ORDER),
                     };
                     if last_steps.is_some() {
@@ -151,7 +153,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 Err(error) => match self.bound(&error, load)? {
                     Bound::Widest(found) => return Ok(found),
                     Bound::At(at, value) => {
-                        // The load that the bodies bear is nearer than the first guess.
+                        // The capacity of the bodies is a better estimate than the first guess.
                         (first, load) = (if at < load { at } else { first }, at);
                         fault = Some(error);
                         [value, T::zero()]
@@ -203,7 +205,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let (at, doubt) = match self.quantity {
             Quantity::HalfWidth => {
                 let (on, wanted, peak) = (found.interval, self.wanted, T::one() / T::zero());
-                // From corner to corner no load makes it wider.
+                // No load widens a contact from corner to corner.
                 if found.free == Ends::both(false) && on.half_width() < wanted {
                     let widest = Capacity { on, end: on.right, load, peak };
                     return Err(widest.too_wide(wanted));
@@ -239,7 +241,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 (at, T::zero())
             }
         };
-        // The half-width goes with the peak, and is known no better.
+        // The half-width follows from the peak, and is known no better.
         let error = found.error.map(|error| error + doubt);
         Ok((ContactState { error, ..found }, at))
     }
@@ -253,17 +255,17 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         Ok(found)
     }
 
-    /// Returns the next load by Newton's rule for the logarithms, as far as it may be trusted.
+    /// Returns the next load by Newton's method for the logarithms, within its trusted range.
     fn next(&self, load: T, [value, rate]: [T; 2]) -> T {
         let power = value / (load * rate);
-        // As of a round body, where the rate is not known.
+        // The exponent of a round body, if the rate is unknown.
         let power = if power.is_finite() { power } else { T::of(2.0) };
         let (step, largest) = ((self.wanted / value).powf(power), T::of(MOST_STEP));
         let step = if step.is_finite() && value > T::zero() { step } else { largest };
         load.component(0) * step.component(0).min(largest).max(largest.recip())
     }
 
-    /// Tells what the failure of a trial says about its load.
+    /// Returns the conclusion from a failed trial on its load.
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Result<Bound<T>, ContactError<T>> {
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
         Ok(match *error {
@@ -300,7 +302,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                             kappa_is_default,
                         },
                     ),
-                    // How much nearer the bodies would come is not known.
+                    // The further approach of the bodies is unknown.
                     Quantity::Approach { .. } => (infinite, error.clone()),
                 };
                 if (value - wanted).abs() <= T::of(8.0) * T::epsilon() * wanted {
@@ -312,7 +314,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 }
                 Bound::At(at, value)
             }
-            // A corner does not hold so small a load, or it does not close a hollow.
+            // So small a load is not held by a corner, or does not close a hollow.
             ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
                 Bound::At(load, T::zero())
             }
@@ -320,7 +322,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         })
     }
 
-    /// Returns the error for a value that no load has.
+    /// Returns the error for a value that occurs under no load.
     fn none(&self, enclosure: &Enclosure<T>, fault: Option<ContactError<T>>) -> ContactError<T> {
         let (wanted, Enclosure { low, high }) = (self.wanted, *enclosure);
         match (fault, low, high, self.quantity) {
@@ -330,7 +332,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 ContactError::ApproachTooLarge { wanted, approach, load }
             }
             (Some(error), ..) => error,
-            // At any load.
+            // The peak is too large under any load.
             (None, None, high, Quantity::Peak) => {
                 let half_width = self.work.workspace.hull().unwrap_or(self.whole()).half_width();
                 let found = high.map_or(T::of(f64::NAN), |[_, found]| found);

@@ -1,8 +1,8 @@
-//! What the bodies bear: the last of their balanced contacts.
+//! Capacity of the bodies: the last of their balanced contacts.
 //!
-//! For each half-width there is one balanced contact, and with the half-width its load and its largest
-//! pressure grow. The family ends where a limit reaches the end of a body. That contact depends on the
-//! bodies alone: it is found on panels of its own, whatever was asked for and by whatever means.
+//! For each half-width there is one balanced contact, whose load and largest pressure grow with the
+//! half-width. The family ends where a limit reaches the end of a body. This last contact depends
+//! on the bodies alone: it is found on panels of its own, whatever the control and the method.
 
 use super::Contact;
 use super::edges::Conditions;
@@ -13,38 +13,39 @@ use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The error, as a share, to which contacts are sampled until the largest is between two of them: the whole of the
-/// bodies may be hard to sample, and all that counts is which way it would move.
+/// Relative tolerance of the samples until the largest contact is bracketed: the whole of the
+/// bodies may be hard to sample, and only the direction of the shift counts.
 const ROUGH: f64 = 3e-2;
 
-/// The share of its load by which a contact that was sampled so must be out of balance.
+/// Least imbalance of a roughly sampled contact, as a share of its load, that makes its sign
+/// certain.
 const SURE: f64 = 0.1;
 
-/// By how much narrower contacts at the end become from one to the next until one is too narrow.
+/// Factor by which contacts at the end become narrower until one is too narrow.
 const NARROWER: f64 = 8.0;
 
-/// How often: what that takes from the largest number to the smallest.
+/// Largest number of such steps: enough from the largest number to the smallest.
 const MOST_WIDTHS: usize = 700;
 
-/// The widest balanced contact.
+/// Widest balanced contact.
 #[derive(Clone, Copy)]
 pub(super) struct Capacity<T> {
     pub on: Interval<T>,
-    /// The end of the bodies that it reaches.
+    /// End of the bodies that the contact reaches.
     pub end: T,
     pub load: T,
-    /// Its largest pressure; infinite at a corner, or where the slope of the gap jumps up.
+    /// Largest pressure; infinite at a corner, or where the slope of the gap jumps up.
     pub peak: T,
 }
 
 impl<T: Real> Capacity<T> {
-    /// Returns the capacity of bodies that touch at an end first: nothing.
+    /// Returns the zero capacity of bodies that first touch at an end.
     pub fn nothing(end: T) -> Self {
         let zero = T::zero();
         Self { on: Interval { left: end, right: end }, end, load: zero, peak: zero }
     }
 
-    /// The error for a load that is more than the bodies bear.
+    /// Returns the error for a load beyond the capacity.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;
         ContactError::DomainTooShort {
@@ -57,7 +58,7 @@ impl<T: Real> Capacity<T> {
         }
     }
 
-    /// The error for a width that the bodies have no room for.
+    /// Returns the error for a width that has no room on the bodies.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
         ContactError::HalfWidthTooLarge {
@@ -71,7 +72,7 @@ impl<T: Real> Capacity<T> {
     }
 }
 
-/// The balanced contact that reaches one of the ends; `None` where there is none, as between
+/// Returns the balanced contact that reaches one of the ends; `None` if there is none, as for
 /// bodies that do not open towards their ends.
 pub(super) fn capacity<T: Real>(
     contact: &Contact<'_, T>,
@@ -105,23 +106,24 @@ pub(super) fn capacity<T: Real>(
         Some(Capacity { on, end: ends[side], load, peak })
     });
     *cost += integrator.cost() + rough.cost();
-    // Without adhesion one that would have to be pulled at is none: the bodies touch beside a hollow.
+    // Without adhesion, a contact in total tension does not count: the bodies touch next to a
+    // hollow.
     let pulled = conditions.edges.are_adhesive();
     let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
     capacity.filter(bears)
 }
 
-/// Contacts that reach an end.
+/// Search among contacts that reach an end.
 struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     equations: Equations<T>,
     full: &'s mut dyn Integrator<T>,
-    /// One that samples to within [`ROUGH`].
+    /// Integrator that samples to within [`ROUGH`].
     rough: &'s mut dyn Integrator<T>,
 }
 
 impl<T: Real> Pinned<'_, T> {
-    /// The balanced one, and which end it reaches.
+    /// Returns the balanced contact, and the side of the end that it reaches.
     fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, Side)> {
         let Interval { left, right } = whole;
         match self.equations.limits() {
@@ -134,7 +136,8 @@ impl<T: Real> Pinned<'_, T> {
         if at_whole.is_zero() {
             return Some((whole, side));
         }
-        // One limit stays at the end towards which all of the bodies would shift, the other moves in.
+        // One limit stays at the end towards which the whole interval would shift; the other moves
+        // in.
         let on = |x: T| match side {
             Side::Left => Interval { left, right: x },
             Side::Right => Interval { left: x, right },
@@ -163,7 +166,8 @@ impl<T: Real> Pinned<'_, T> {
         None
     }
 
-    /// Positive: the contact must move to the right. To no more than its sign, where that is sure.
+    /// Returns a shift that is positive if the contact must move to the right. If rough samples
+    /// make its sign certain, only the sign is exact.
     fn rough_shift(&mut self, on: Interval<T>) -> Option<T> {
         let rough = residual(self.contact, &self.equations, self.rough, on).filter(|rough| {
             rough.shift().abs() > (T::of(SURE) + T::of(16.0) * rough.error) * rough.size
@@ -171,7 +175,7 @@ impl<T: Real> Pinned<'_, T> {
         rough.map(|rough| rough.shift()).or_else(|| self.shift(on))
     }
 
-    /// The same in full.
+    /// Returns the shift from full samples.
     fn shift(&mut self, on: Interval<T>) -> Option<T> {
         Some(residual(self.contact, &self.equations, self.full, on)?.shift())
     }
@@ -183,7 +187,7 @@ fn residual<T: Real>(
     integrator: &mut dyn Integrator<T>,
     on: Interval<T>,
 ) -> Option<Residual<T>> {
-    // Panels much wider than a contact would not see what is narrow in it.
+    // Panels much wider than a contact would miss narrow features in it.
     let covered = integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
     if covered > T::of(2.0 * NARROWER) * on.half_width() {
         integrator.clear_samples();

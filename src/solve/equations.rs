@@ -1,4 +1,4 @@
-//! By how much a trial contact misses its conditions.
+//! Residual of the conditions of a trial contact.
 
 use super::EdgePressure;
 use super::edges::Conditions;
@@ -6,56 +6,57 @@ use crate::gap::{Cost, Gap};
 use crate::quadrature::{Integrator, LoadCase, Moments, complete};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The conditions at the edges, as two numbers to be brought to zero.
+/// Conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
 pub(super) enum Equations<T> {
     /// Singularities of given strength.
     Strength { conditions: Conditions<T>, load: T },
-    /// Eq. (6).
+    /// Pressures by Eq. (6).
     Pressure { kappa: T, load: T, wanted: EdgePressure<T> },
 }
 
-/// By how much a trial contact misses its conditions, as forces per unit length. Positive at an
-/// edge: the edge must move outward (the paper's readjustment rule).
+/// Residual of a trial contact, as forces per unit length. Positive at an edge: the edge must move
+/// outward (the paper's readjustment rule).
 #[derive(Clone, Copy)]
 pub(super) struct Residual<T> {
-    /// At `a`.
+    /// Residual at `a`.
     pub at_a: T,
-    /// At `-b`.
+    /// Residual at `-b`.
     pub at_b: T,
-    /// Up to this, shift and spread are zero to rounding, or to the tolerances.
+    /// Value up to which shift and spread count as zero, by rounding or by the tolerances.
     floor: T,
-    /// The load that the contact carries, where that is known.
+    /// Load that the contact carries, if known.
     pub carried: Option<T>,
-    /// The force that the conditions are missed by a share of.
+    /// Force to which the residual is compared.
     pub size: T,
-    /// By what factor the width of a round body should change, whose load goes with its square.
+    /// Factor by which the width of a round body should change; its load is proportional to its
+    /// square.
     pub growth: T,
     /// Estimated error of the edges relative to the half-width, from the quadrature.
     pub error: T,
 }
 
 impl<T: Real> Residual<T> {
-    /// Positive: the whole contact must move to the right.
+    /// Returns the shift; positive if the whole contact must move to the right.
     pub fn shift(&self) -> T {
         self.above(self.floor, self.at_a - self.at_b)
     }
 
-    /// The shift, or zero if it is converged well enough for the load to be looked at: moving a
-    /// contact changes its spread by less than its shift, so with a shift a thousandth of the
-    /// spread the sign of the spread is certain. As the spread vanishes this tightens.
+    /// Returns the shift, or zero if it is small enough to judge the load: moving a contact changes
+    /// its spread by less than its shift, so with a shift a thousandth of the spread the sign of
+    /// the spread is certain. As the spread vanishes this tightens.
     pub fn rough_shift(&self) -> T {
         let spread = self.at_a + self.at_b;
         self.above(self.floor.max(T::of(1e-3) * spread.abs()), self.at_a - self.at_b)
     }
 
-    /// Positive: the contact must widen.
+    /// Returns the spread; positive if the contact must widen.
     pub fn spread(&self) -> T {
         self.above(self.floor, self.at_a + self.at_b)
     }
 
-    /// The spread on a scale on which the width is found in fewer steps: the logarithm of the
-    /// load over the load carried, which falls evenly whatever the shape of the bodies.
+    /// Returns the spread on a scale on which the width is found in fewer steps: the logarithm of
+    /// the load over the load carried, which falls evenly whatever the shape of the bodies.
     pub fn deficit(&self) -> T {
         let (half, spread) = (T::of(0.5), self.spread());
         match self.carried {
@@ -64,7 +65,7 @@ impl<T: Real> Residual<T> {
                 // Close to zero from the difference, elsewhere from the ratio, which may be huge.
                 if residual.abs() < half { residual.ln_1p() } else { self.growth.ln() / half }
             }
-            // Nothing is carried: larger than any logarithm.
+            // No load is carried: a value larger than any logarithm.
             Some(_) => T::epsilon().recip(),
             None => spread,
         }
@@ -79,19 +80,19 @@ impl<T: Real> Residual<T> {
     }
 }
 
-/// Far from x = 0 the abscissae themselves are rounded: by how much, relative to the half-width.
+/// Returns the rounding of the abscissae, relative to the half-width: it matters far from x = 0.
 fn rounding<T: Real>(on: Interval<T>) -> T {
     T::epsilon() * on.left.abs().max(on.right.abs()) / on.half_width()
 }
 
-/// Estimated error of the edges relative to the half-width, where the conditions there are that a sum of
-/// the moments of this size is what it is.
+/// Returns the estimated error of the edges relative to the half-width, if their conditions fix a
+/// sum of the moments of this size.
 pub(super) fn relative_error<T: Real>(on: Interval<T>, m: &Moments<T>, sum: T) -> T {
     m.error / sum + m.inversion / on.half_width() + rounding(on)
 }
 
 impl<T: Real> Equations<T> {
-    /// The limits -b and a, where they are given.
+    /// Returns the limits -b and a, if given.
     pub fn limits(&self) -> Ends<Option<T>> {
         match *self {
             Self::Strength { conditions, .. } => conditions.limits(),
@@ -99,14 +100,14 @@ impl<T: Real> Equations<T> {
         }
     }
 
-    /// Whether adhesion pulls at one edge more than at the other.
+    /// Tells whether adhesion is stronger at one edge than at the other.
     pub fn is_lopsided(&self) -> bool {
         let Self::Strength { conditions, .. } = self else { return false };
         let pulls = conditions.edge_strengths(T::one());
         pulls.left != pulls.right
     }
 
-    /// Whether the conditions can be looked at on bodies that cover this range of x.
+    /// Checks that the conditions can be evaluated on bodies that cover this range of x.
     pub fn check(&self, range: [T; 2]) -> Result<(), ContactError<T>> {
         if let Self::Pressure { wanted, .. } = self {
             for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
@@ -118,7 +119,7 @@ impl<T: Real> Equations<T> {
         Ok(())
     }
 
-    /// A contact must be wider than this.
+    /// Returns the width that a contact must exceed.
     pub fn least_width(&self) -> T {
         match self {
             Self::Strength { .. } => T::zero(),
@@ -126,7 +127,7 @@ impl<T: Real> Equations<T> {
         }
     }
 
-    /// Tries a contact.
+    /// Returns the residual of a trial contact.
     pub fn residual(
         &self,
         gap: &Gap<'_, T>,
@@ -147,14 +148,15 @@ impl<T: Real> Equations<T> {
 }
 
 impl<T: Real> Residual<T> {
-    /// Returns `π L K` at each edge: forces, which stay finite as the contact shrinks.
+    /// Returns `π L K` at each edge: a force, which stays finite as the contact shrinks.
     fn of_strengths(conditions: &Conditions<T>, load: T, on: Interval<T>, m: &Moments<T>) -> Self {
         let (half, rounding) = (T::of(0.5), rounding(on));
         let stiffness = conditions.kappa * on.half_width();
         let [carried, balance] = [stiffness * m.m1, stiffness * m.m0];
         let pulls = conditions.edge_strengths(on.half_width()).map(|pull| pull + pull);
         let needed = pulls.map(|pull| load + pull);
-        // Beside a corner, where the free edge alone counts, the two moments may cancel, and little load be left.
+        // At a corner only the free edge counts: there the two moments may cancel, with little load
+        // left.
         let (missing, needed, borne, sum) = match conditions.limits().only_free() {
             Some(side) => {
                 let borne = if side == Side::Left { carried - balance } else { carried + balance };
@@ -174,7 +176,7 @@ impl<T: Real> Residual<T> {
         } else if ratio > least && ratio < least.recip() {
             ratio.sqrt()
         } else {
-            // By roots, so as not to underflow.
+            // Roots avoid underflow.
             needed.sqrt() / borne.sqrt()
         };
         Self {
@@ -190,8 +192,8 @@ impl<T: Real> Residual<T> {
     }
 }
 
-/// Returns `π sqrt((x + b)(a - x)) (P - A)` at both places: a narrow contact is in balance where it is in the middle,
-/// however unlike the two distances are.
+/// Returns `π sqrt((x + b)(a - x)) (P - A)` at both places: a narrow contact is then in balance in
+/// the middle, however different the two distances are.
 fn of_pressures<T: Real>(
     kappa: T,
     load: T,

@@ -1,51 +1,51 @@
-//! What the pressure does outside the contacts, from a few of its values.
+//! Effect of the pressure outside the contacts, from a few of its values.
 //!
-//! With `P w = q₀ + Σ q_n cos nθ` over a contact, w² = (x + b)(a - x), and u the Joukowski variable of a place
-//! outside it (|u| <= 1 there, and 1 at the edge)
+//! With `P w = q₀ + Σ q_n cos nθ` over a contact, w² = (x + b)(a - x), and u the Joukowski variable
+//! of a place outside it (|u| <= 1 there, and 1 at the edge)
 //!
 //! ```text
 //! ∫ P ln|x - s| ds = π (q₀ ln(L/(2|u|)) - Σ q_n uⁿ/n)
 //! ```
 //!
-//! Values at 32 angles are enough for rounding where the pressure is smooth, and for a thousandth of it
-//! elsewhere; more are taken where it turns on that.
+//! Values at 32 angles suffice for rounding if the pressure is smooth, and for a thousandth of it
+//! otherwise; more are taken if the result depends on them.
 
 use crate::{Ends, Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Angles at which the pressure is looked at, and as many coefficients.
+/// Number of angles at which the pressure is evaluated, and of coefficients.
 pub(crate) const POINTS: usize = 32;
 
-/// cos(m π/(2 POINTS))
+/// Table of cos(m π/(2 POINTS)).
 static COSINES: LazyLock<[f64; 4 * POINTS]> =
     LazyLock::new(|| std::array::from_fn(|m| (m as f64 * PI / (2 * POINTS) as f64).cos()));
 
-/// The pressure of one contact as a cosine series.
+/// Pressure of one contact as a cosine series.
 #[derive(Clone)]
 pub(crate) struct ExteriorField<T> {
     on: Interval<T>,
     pressures: [T; POINTS],
     q: [T; POINTS],
-    /// More coefficients in place of q, if any.
+    /// Coefficients from more values in place of `q`, if any.
     finer: Vec<T>,
-    /// The limits at which the pressure is zero.
+    /// Flags: the pressure is zero at this limit.
     free: Ends<bool>,
     doubt: T,
 }
 
 impl<T: Real> ExteriorField<T> {
-    /// The places at which the pressure is wanted, from right to left.
+    /// Returns the places at which the pressure is needed, from right to left.
     pub fn places(on: Interval<T>) -> [T; POINTS] {
         std::array::from_fn(|i| Self::place(on, i, POINTS))
     }
 
-    /// One of so many.
+    /// Returns place i of `count` such places.
     pub fn place(on: Interval<T>, i: usize, count: usize) -> T {
         on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(count))
     }
 
-    /// From the pressures at those places.
+    /// Creates the series from the pressures at [`places`](Self::places).
     pub fn new(
         on: Interval<T>,
         free: Ends<bool>,
@@ -59,7 +59,7 @@ impl<T: Real> ExteriorField<T> {
         Self { on, pressures: *pressures, q, finer: Vec::new(), free, doubt }
     }
 
-    /// From the pressures at more places.
+    /// Recomputes the coefficients from the pressures at more places.
     pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
         let count = x.len();
         let step = PI / (2 * count) as f64;
@@ -69,12 +69,12 @@ impl<T: Real> ExteriorField<T> {
         self.doubt = tail(&self.finer, self.free);
     }
 
-    /// q₀, q₁, ...
+    /// Returns the coefficients q₀, q₁, ...
     pub fn coefficients(&self) -> &[T] {
         if self.finer.is_empty() { &self.q } else { &self.finer }
     }
 
-    /// `∫ P ln|x - s| ds` at a place that is not inside the contact.
+    /// Returns `∫ P ln|x - s| ds` at a place that is not inside the contact.
     pub fn potential(&self, x: T) -> T {
         let half_width = self.on.half_width();
         let right = x > self.on.centre();
@@ -103,12 +103,12 @@ impl<T: Real> ExteriorField<T> {
         &self.pressures
     }
 
-    /// Returns what the coefficients left out may add to the potential.
+    /// Returns the uncertainty of the potential due to the coefficients left out.
     pub fn doubt(&self) -> T {
         self.doubt
     }
 
-    /// `∫ P/(x - s) ds` at a place outside the contact.
+    /// Returns `∫ P/(x - s) ds` at a place outside the contact.
     pub fn slope(&self, x: T) -> T {
         let half_width = self.on.half_width();
         let right = x > self.on.centre();
@@ -122,19 +122,20 @@ impl<T: Real> ExteriorField<T> {
         if right { pull } else { -pull }
     }
 
-    /// The load of the contact.
+    /// Returns the load of the contact.
     pub fn load(&self) -> T {
         T::pi() * self.q[0]
     }
 }
 
-/// Returns what coefficients beyond those of a cosine series may add to a potential.
+/// Returns a bound on the potential of the coefficients that a cosine series leaves out.
 ///
-/// Where they fall with 1/n², as those of a kink beside a limit, all of them add as much as the last quarter of those that
-/// are known, and these are off by about as much. Of the first few nobody knows whether they fall yet.
+/// If the coefficients fall as 1/n², as for a kink next to a limit, those left out add as much as
+/// the last quarter of the known ones, which are off by about as much. The first few coefficients
+/// may not fall yet.
 ///
-/// At a free limit `P w` is zero: what the series leaves of it there falls within the last half step of the angle, δ, and
-/// takes `(2/π) h δ` off each coefficient up to n = 1/δ, where h is that rest.
+/// At a free limit `P w` is zero. A rest h of the series there falls to zero within the last half
+/// step of the angle, δ, and takes `(2/π) h δ` off each coefficient up to n = 1/δ.
 fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
     let zero = T::zero();
     let [even, odd] =
@@ -152,7 +153,7 @@ fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
     T::of(4.0) * T::pi() * last + beside
 }
 
-/// Number n of the coefficients of a cosine series, from its values, the number of which is a power of two.
+/// Returns coefficient n of a cosine series from its values; their number is a power of two.
 fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64]) -> T {
     let count = values.len();
     let (mut sum, mut angle) = (T::zero(), n);
@@ -179,7 +180,7 @@ mod tests {
         assert!((field.load() / 0.045 - 1.0).abs() < 1e-14);
         for x in [0.3001f64, 0.4, 1.0, 30.0, -0.31, -2.0] {
             let pushed = field.potential(x) - field.potential(0.3);
-            // h(x) - h(L) = (z sqrt(z² - 1) - arcosh z) L²/2 + that, z = |x|/L.
+            // h(x) - h(L) = (z sqrt(z² - 1) - arcosh z) L²/2 + potential, z = |x|/L.
             let z = x.abs() / 0.3;
             let open = 0.045 * (z * (z * z - 1.0).sqrt() - z.acosh());
             let due = 0.5 * x * x - 0.045 - open;

@@ -1,5 +1,5 @@
-//! Where the bodies touch first: the point at which the slope of the gap passes from negative to
-//! positive. Every single contact of a gap whose slope rises contains it.
+//! Point of first contact: the slope of the gap passes there from negative to positive. Every
+//! single contact of a gap whose slope rises contains it.
 
 use crate::gap::{Gap, Sampler};
 use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
@@ -11,7 +11,8 @@ struct Signs<T> {
     slope: [T; 2],
 }
 
-/// Finds it, looking first at the start, or else in the middle of the bodies.
+/// Finds the point of first contact, looking first at the start, or else in the middle of the
+/// bodies.
 pub(super) fn first_contact<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
@@ -25,8 +26,8 @@ pub(super) fn first_contact<T: Real>(
     }
 }
 
-/// Widens until the slope is negative on the left and positive on the right. The ends of the
-/// bodies are approached but not reached: the slope of a round body may be infinite there.
+/// Widens an interval until the slope is negative on the left and positive on the right. The ends
+/// of the bodies are approached but not reached: the slope of a round body may be infinite there.
 fn widen<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
@@ -63,7 +64,7 @@ fn widen<T: Real>(
     Ok(Signs { x, slope })
 }
 
-/// Looks between the ends of the start for what was not found outside it.
+/// Looks for the change of sign between the ends of the start, if none was found outside it.
 fn scan<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
@@ -84,8 +85,8 @@ fn scan<T: Real>(
     Err(not_found)
 }
 
-/// A wedge touches at a breakpoint, where the slope has no zero but jumps through it. Where no breakpoint
-/// is the place, they narrow the bracket.
+/// Returns the breakpoint at which the slope jumps through zero, as for a wedge; other breakpoints
+/// narrow the bracket.
 fn jump<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
@@ -108,14 +109,16 @@ fn jump<T: Real>(
     Ok(None)
 }
 
-/// Finds the zero of the slope in the bracket, whose ends are about those of the contact or say nothing of it.
+/// Finds the zero of the slope in the bracket. The flag tells that its ends are about those of the
+/// contact.
 fn zero<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     Signs { x, slope }: Signs<T>,
     is_about_contact: bool,
 ) -> Result<T, ContactError<T>> {
-    // Beside x = 0 a relative tolerance is no end; that of the share of the bracket, plus one, is.
+    // Near x = 0 a relative tolerance never ends the search; for the share of the bracket, plus
+    // one, it does.
     let [one, width] = [T::one(), x[1] - x[0]];
     let by_share = is_about_contact && x[0] < T::zero() && x[1] > T::zero();
     let at = |u: T| if by_share { x[0] + (u - one) * width } else { u };

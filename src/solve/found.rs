@@ -1,4 +1,4 @@
-//! A contact that was found, from its limits and moments.
+//! A contact found, from its limits and moments.
 
 use super::edges::Conditions;
 use crate::quadrature::Moments;
@@ -37,7 +37,8 @@ impl<T: Real> ContactState<T> {
         }
     }
 
-    /// Whether the contact ends at those corners that are said to hold it, to rounding.
+    /// Tells on which sides the contact ends, to rounding, at the corner declared to hold it; true
+    /// without a corner.
     pub(crate) fn reaches(&self, edges: Ends<Edge<T>>) -> Ends<bool> {
         let rounding = T::epsilon().sqrt() * self.interval.half_width();
         let ends = Ends { left: self.interval.left, right: self.interval.right };
@@ -47,7 +48,8 @@ impl<T: Real> ContactState<T> {
         edges.zip(ends).map(is_near)
     }
 
-    /// A corner that is said to hold the contact, and would have to pull at it, or is not reached.
+    /// Returns the error for a corner declared to hold the contact that is in tension or not
+    /// reached.
     pub(crate) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
         let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
         let mean = T::of(0.5) * load.abs() / interval.half_width();

@@ -1,8 +1,8 @@
-//! The contact under a load that acts at a given place: the bodies turn until it does.
+//! Contact under a load that acts at a given place: the bodies turn until it does.
 //!
-//! The tilt is one more unknown of every search: [eliminated](super::newton::single) of one interval, with all
-//! limits of [several](super::newton::several), and with the forces of the [active set](super::active_set). A change
-//! of the tilt samples nothing.
+//! The tilt is one more unknown of every search: for one interval it is
+//! [eliminated](super::newton::single), for [several](super::newton::several) it joins the limits,
+//! and for the [active set](super::active_set) the forces. A change of the tilt needs no samples.
 
 use super::edges::{Conditions, Given};
 use super::topology::{self, Borne};
@@ -11,18 +11,18 @@ use crate::quadrature::panels::{self, Several};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
 
-/// How often the way from the middle of the bodies to a place where the load cannot act is halved.
+/// Halvings of the way from the middle of the bodies to a place where the load cannot act.
 const MOST_HALVES: usize = 14;
 
-/// The share of the bodies that is left beyond a contact which cannot be moved any further.
+/// Share of the bodies left beyond a contact that cannot be moved any further.
 const AT_END: f64 = 0.01;
 
-/// The line in which a load acts.
+/// Line of action of a load.
 #[derive(Clone, Copy)]
 pub(super) struct LineOfLoad<T> {
     load: T,
     at: T,
-    /// How far `at` may be off by rounding.
+    /// Uncertainty of `at` due to rounding.
     rounding: T,
 }
 
@@ -45,7 +45,7 @@ impl<T: Real> LineOfLoad<T> {
     }
 }
 
-/// Finds the contact under a load in a given line, with the tilt of its bodies.
+/// Finds the contact under a load along a given line, with the tilt of its bodies.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     line: LineOfLoad<T>,
@@ -66,7 +66,7 @@ pub(super) fn find<T: Real>(
     let conditions = Conditions { kappa: contact.kappa, edges, given: Given::Centre { load, at } };
     let given = !edges.are_sought();
     let ends = contact.ends();
-    // All that presses lies on one side of it then.
+    // Otherwise all pressure would lie on one side of the line.
     if !(given || at > ends.left && at < ends.right) {
         let range = [ends.left, ends.right];
         return Err(ContactError::OutsideBodies { x: at, range });
@@ -94,15 +94,16 @@ pub(super) fn find<T: Real>(
     Ok(found)
 }
 
-/// Whether a search may fail like this because the contact would leave the bodies.
+/// Tells whether a search may have failed with this error because the contact would leave the
+/// bodies.
 fn may_be_beyond<T: Real>(error: &ContactError<T>) -> bool {
     use ContactError::{LiftsOff, Overlap, Tension};
     let fails = matches!(error, Tension { .. } | Overlap { .. });
     fails || error.may_be_several() && !matches!(error, LiftsOff { .. })
 }
 
-/// How near to a place at which a load cannot act it can: between that and the middle of the bodies. Where it
-/// cannot act there either, or no limit is near an end, none.
+/// Returns the error with the nearest place where the load can act, between `at` and the middle of
+/// the bodies. `None` if it cannot act in the middle, either, or if no limit is near an end.
 fn nearest<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,

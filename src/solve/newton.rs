@@ -1,11 +1,12 @@
-//! Newton's method on all limits of the contacts at once, and on the load or the tilt where that is sought.
+//! Newton's method on all limits of the contacts at once, and on the load or the tilt if sought.
 //!
-//! A search goes from trial to trial. Each states the equations and their exact Jacobian, which come from the
-//! quadrature, and takes the step by them, cut short where it would lead too far. The search ends where the next step
-//! would be less than rounding, or where rounding keeps the steps from falling any further.
+//! A search goes from trial to trial. Each trial takes the equations and their exact Jacobian from
+//! the quadrature, and makes the Newton step, cut short if it would lead too far. The search ends
+//! when the next step would be below rounding, or when rounding keeps the steps from shrinking
+//! further.
 //!
-//! [One contact](single) has its tilt eliminated and moves by the balance of its two limits; [several](several) close
-//! gaps and lose contacts.
+//! [One contact](single) has its tilt eliminated and moves by the balance of its two limits;
+//! [several](several) close gaps and lose contacts.
 
 pub(super) mod linearised;
 pub(super) mod several;
@@ -14,14 +15,15 @@ pub(super) mod single;
 use crate::gap::Gap;
 use crate::{Interval, Real, Side};
 
-/// Why a search has ended without limits.
+/// Reason for a search to end without limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stop<T> {
-    /// The gap after this contact closes.
+    /// Gap after this contact, which closes.
     Closed(usize),
-    /// This contact vanishes.
+    /// Contact that vanishes.
     Lost(usize),
-    /// Step after step leads beyond an end of the bodies; how far they went.
+    /// End of the bodies beyond which step after step leads; `reached` is the last interval within
+    /// them.
     Beyond {
         side: Side,
         reached: Interval<T>,
@@ -29,24 +31,25 @@ pub(super) enum Stop<T> {
     Failed,
 }
 
-/// The longest step, as a share of a half-width, that tells of the next one.
+/// Longest step, as a share of a half-width, that predicts the next one.
 const TELLING: f64 = 0.25;
 
-/// The share of the step before that a step has at least where rounding keeps it from falling.
+/// Least ratio of a step to the one before at which rounding is taken to keep the steps from
+/// shrinking.
 const STALLED: f64 = 0.25;
 
-/// The steps of a search, by which the next one is foretold: their sizes fall by squares.
+/// Steps of a search, which predict the next one: their sizes fall quadratically.
 #[derive(Clone, Copy)]
 pub(super) struct Progress<T> {
-    /// The sizes of the step before, of both limits of a contact or of all limits as one, as shares of a half-width;
-    /// unless it was too long, or cut short.
+    /// Sizes of the last step, as shares of a half-width: of both limits of one contact, or of all
+    /// limits as one. `None` if the step was too long, or cut short.
     before: Option<[T; 2]>,
 }
 
-/// The judgement of a search by its last step.
+/// Judgement of a search by its last step.
 #[derive(Clone, Copy)]
 pub(super) struct Judged<T> {
-    /// The sizes of the next step.
+    /// Predicted sizes of the next step.
     pub next: [T; 2],
     pub is_done: bool,
     pub is_stalled: bool,
@@ -57,12 +60,13 @@ impl<T: Real> Progress<T> {
         Self { before: None }
     }
 
-    /// Forgets the last step, which tells nothing of the next.
+    /// Forgets the last step, which predicts nothing.
     pub fn forget(&mut self) {
         self.before = None;
     }
 
-    /// Judges the search by the sizes of a step. Beside a jump of the slope one limit may close in slower than the other.
+    /// Judges the search by the sizes of a step. Next to a jump of the slope, one limit may
+    /// converge more slowly than the other.
     pub fn judge(&self, sizes: [T; 2]) -> Judged<T> {
         let size = sizes[0] + sizes[1];
         let next: [T; 2] = std::array::from_fn(|i| match self.before {
@@ -78,13 +82,13 @@ impl<T: Real> Progress<T> {
         }
     }
 
-    /// Takes note of a step.
+    /// Records the sizes of a step.
     pub fn note(&mut self, sizes: [T; 2]) {
         self.before = Some(sizes).filter(|&[one, other]| one + other <= T::of(TELLING));
     }
 }
 
-/// Tells whether a limit passes a breakpoint from one trial to the next, or comes as close to one as rounding.
+/// Tells whether a limit crosses a breakpoint between two trials, or comes within rounding of one.
 pub(super) fn crosses_breakpoint<T: Real>(
     gap: &Gap<'_, T>,
     from: Interval<T>,

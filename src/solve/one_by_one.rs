@@ -1,9 +1,9 @@
-//! The search for the limits.
+//! Search for the limits, one at a time.
 //!
 //! Two conditions, one at each edge, fix two unknowns. They are taken as a *balance* (their
-//! difference, which decides where a contact of given width sits) inside a *load* (their sum,
-//! which decides how wide it is). Where the slope of the gap rises with x both are monotone,
-//! each has one root, and each is a problem of one unknown for any [`LimitSearch`]:
+//! difference, which decides where a contact of given width sits) inside a *load* (their sum, which
+//! decides how wide it is). If the slope of the gap rises with x, both are monotone, each has one
+//! root, and each is a problem of one unknown for any [`LimitSearch`]:
 //!
 //! ```text
 //! outer:  half-width L        spread(L, u(L)) = 0
@@ -11,13 +11,13 @@
 //!                                             or   -b = x₀ - u,  a = x₀ - u + 2L
 //! ```
 //!
-//! u belongs to the edge closer to `x₀`, which may be a millionth of the width away: it keeps its digits.
-//! `x₀` is a point of first contact, where the slope of the gap passes through zero. Every
-//! contact contains it, so `u` and the half-width are positive lengths of the contact's own
-//! size, and a relative tolerance means the same on either side and wherever the origin is.
+//! The distance u belongs to the edge closer to `x₀`, which may be a millionth of the width away:
+//! so u keeps its digits. `x₀` is a point of first contact, where the slope of the gap passes
+//! through zero. Every contact contains it, so `u` and the half-width are positive lengths of the
+//! contact's own size, and a relative tolerance means the same on either side and for any origin.
 //!
-//! Both searches are handed a narrow bracket: the inner one steps out from the place that the
-//! last width had, the outer one from the start, by factors that a round body would need.
+//! Both searches get a narrow bracket: the inner one steps out from the place of the last width,
+//! the outer one from the start, by factors for a round body.
 
 mod centre;
 mod derivatives;
@@ -34,12 +34,12 @@ use crate::{ContactError, Ends, Interval, Real};
 use centre::Centred;
 use derivatives::differentiate;
 
-/// How much wider than a contact the panels may be that it is tried on: a tip of the bodies that is
-/// as much narrower would fall between the nodes.
+/// Largest ratio of the width of the panels to that of a contact tried on them: a tip of the bodies
+/// that is as much narrower would fall between the nodes.
 const WIDEST: f64 = 16.0;
 
-/// Contacts side by side that are looked at for one that is pulled away from the point of first
-/// contact. (A parabola that is pulled at one edge presses at the other up to two half-widths away.)
+/// Contacts tried side by side for one that is pulled away from the point of first contact. (A
+/// parabola that is pulled at one edge presses at the other up to two half-widths away.)
 const MOST_BESIDE: usize = 16;
 
 /// Limits that meet the conditions at the edges.
@@ -49,7 +49,7 @@ pub(super) struct Nested<T> {
     pub error: T,
 }
 
-/// Finds the limits that meet the conditions, from a start or without one.
+/// Finds the limits that meet the conditions, with or without a start.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
@@ -87,14 +87,14 @@ pub(super) fn find<T: Real>(
     if let Equations::Pressure { wanted, .. } = equations {
         wanted.met(trial.on, [trial.residual.at_a, trial.residual.at_b])?;
     }
-    // What the quadrature leaves open, and what the search has left of the conditions.
+    // The error of the quadrature, and the residual that the search has left.
     let Residual { at_a, at_b, size, .. } = trial.residual;
     let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / size;
     let on = differentiate(&equations, gap, search.integrator, trial.on, None, search.cost)?;
     Ok(Nested { on, error: trial.residual.error + missed })
 }
 
-/// The balanced contact of a given half-width.
+/// Finds the balanced contact of a given half-width.
 fn place<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
@@ -108,7 +108,7 @@ fn place<T: Real>(
     let first = first_contact(&mut sampler, gap, start);
     *cost += sampler.cost;
     let (origin, range) = (first?, gap.range());
-    // The load is not known, and tells nothing of how well the contact has to be in balance.
+    // The unknown load does not tell how well the contact has to be balanced.
     let unbalance = Residual::shift;
     let mut search = NestedSearch {
         unbalance,
@@ -134,7 +134,7 @@ fn place<T: Real>(
                 let x = [search.origin - half_width, search.origin + half_width][end];
                 return Err(ContactError::OutsideBodies { x, range });
             }
-            // Pulled at one edge more than at the other, it may sit further on.
+            // If one edge is pulled more than the other, the contact may sit further on.
             Centred::Adrift(on) if equations.is_lopsided() => {
                 let before = search.origin;
                 search.origin = if on.left < before { on.left } else { on.right };
@@ -145,7 +145,7 @@ fn place<T: Real>(
     Err(search.no_balance(half_width))
 }
 
-/// A contact tried, and by how much it misses the conditions.
+/// Trial contact, and the residual of its conditions.
 #[derive(Clone, Copy)]
 struct TrialContact<T> {
     on: Interval<T>,
@@ -158,16 +158,16 @@ struct NestedSearch<'s, T: Real> {
     integrator: &'s mut dyn Integrator<T>,
     cost: &'s mut Cost,
     strategy: &'s dyn LimitSearch<T>,
-    /// The point of first contact.
+    /// Point of first contact.
     origin: T,
     range: [T; 2],
-    /// The edge whose distance from the origin is looked for: the left (0) or the right one (1).
+    /// Number of the edge whose distance from the origin is sought: left (0) or right (1).
     near: usize,
-    /// The share of the width that lay between it and the origin the last time.
+    /// Last share of the width between this edge and the origin.
     share: T,
-    /// By how much the shift fell the last time for each unit of length moved to the right.
+    /// Last decrease of the shift per unit of length moved to the right.
     stiffness: Option<T>,
-    /// What has to vanish where a contact of given width sits.
+    /// Residual that vanishes at the place of a contact of given width.
     unbalance: fn(&Residual<T>) -> T,
 }
 
@@ -195,7 +195,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
     }
 
     fn attempt(&mut self, on: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
-        // Panels much wider than the contact are not as good as they look.
+        // Panels much wider than the contact are less accurate than they seem.
         let covered =
             self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
         if covered > T::of(WIDEST) * on.half_width() {
@@ -235,12 +235,12 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         }
     }
 
-    /// Far from x = 0, contacts closer than this are the same numbers.
+    /// Returns the distance below which contacts far from x = 0 are the same numbers.
     fn resolution(&self) -> T {
         T::of(2.0) * T::epsilon() * self.origin.abs()
     }
 
-    /// How far a contact can reach to the left and to the right of the origin.
+    /// Returns the distances that a contact can reach to the left and to the right of the origin.
     fn room(&self) -> [T; 2] {
         [self.origin - self.range[0], self.range[1] - self.origin]
     }

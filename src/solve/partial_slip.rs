@@ -1,4 +1,4 @@
-//! The scene whose contacts are where the bodies stick.
+//! Scene whose contacts are the stick zones.
 
 use crate::contact::{Contact, Edge};
 use crate::material::Elasticity;
@@ -6,7 +6,7 @@ use crate::solution::{Shear, Solution};
 use crate::{ContactError, Real};
 
 impl<'b, T: Real> Contact<'b, T> {
-    /// Whether partial slip can be asked for.
+    /// Checks that partial slip can be solved for this shear.
     pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
         let Shear { friction, force, tension } = *shear;
         if !(friction.is_finite() && friction > T::zero()) {
@@ -33,7 +33,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(())
     }
 
-    /// The scene whose contacts are where the bodies stick, and its load.
+    /// Returns the scene whose contacts are the stick zones, and its load.
     pub(crate) fn sticking(
         &self,
         normal: &Solution<'b, T>,
@@ -44,7 +44,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if force.abs() >= limit {
             return Err(ContactError::SlipsEverywhere { force, limit });
         }
-        // The traction is a difference, of which nothing would be left.
+        // The traction is a difference, of which no digits would be left.
         let least = T::epsilon().powf(T::of(0.75)) * limit;
         if !force.is_zero() && force.abs() < least {
             return Err(ContactError::SticksEverywhere { force, limit });

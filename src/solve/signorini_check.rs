@@ -1,8 +1,8 @@
-//! Whether what solves the equations is a contact: nothing pulls inside, nothing overlaps outside.
+//! Check that a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! Inside, a slope of the gap that rises on every panel proves it: P is an integral of the rate of g'
-//! with a kernel that is nowhere negative. Only otherwise pressures are looked at. Outside, the gap
-//! between the loaded bodies is looked at where their heights are known.
+//! Inside, a slope of the gap that rises on every panel is proof: P is an integral of the rate of
+//! g' with a kernel that is nowhere negative. Otherwise pressures are evaluated. Outside, the gap
+//! between the loaded bodies is evaluated where their heights are known.
 
 mod outside;
 mod passed;
@@ -19,39 +19,42 @@ pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
 pub(super) use step::step_of_heights;
 
-/// Breakpoints of a contact at which the pressure is looked at, besides those where the slope jumps down.
+/// Largest number of breakpoints of a contact at which the pressure is evaluated, besides those
+/// where the slope jumps down.
 const MOST_JOINTS: usize = 64;
 
-/// Places with tension of which it is asked how far they can be trusted.
+/// Largest number of places with tension whose uncertainty is estimated.
 const MOST_DOUBTFUL: usize = 256;
 
-/// The most places in a contact at which the pressure is looked at for the gap beside it.
+/// Largest number of places in a contact at which the pressure is evaluated for the gap next to it.
 const MOST_POINTS: usize = 4096;
 
-/// The least distance of such a place from a limit, in units of rounding of the contact.
+/// Least distance of such a place from a limit, in units of rounding of the contact.
 const FROM_LIMIT: f64 = 8.0;
 
-/// Places from that of a tension to the end of the contact at which the pressure is looked at.
+/// Number of places between a tension and the end of the contact at which the pressure is
+/// evaluated: enough to halve the distance down to rounding.
 const HALVES: usize = 52;
 
-/// Steps to a least pressure between those that were looked at.
+/// Largest number of steps to a minimum of the pressure between the places evaluated.
 const MOST_STEPS: usize = 4;
 
-/// The contacts of a solution, ready to be checked.
+/// Contacts of a solution, ready to be checked.
 pub(super) struct SignoriniCheck<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
     pub integrator: &'c dyn Integrator<T>,
     pub kappa: T,
     pub found: &'c ContactState<T>,
-    /// Where two contacts have met with nothing but rounding between them: a concave kink, say.
+    /// Places where two contacts have met within rounding, as at a concave kink.
     pub closed: &'c [Interval<T>],
-    /// The contacts under a heavier load, if known: outside them nothing can be touched.
+    /// Contacts under a heavier load, if known: the bodies touch nowhere outside them.
     pub widest: &'c [Interval<T>],
-    /// Those under a lighter load, if known: inside them nothing pulls that does not pull outside.
+    /// Contacts under a lighter load, if known: tension inside them comes with tension outside
+    /// them.
     pub pressed: &'c [Interval<T>],
 }
 
-/// Where the bodies would pull at each other, and room for pressures `[x, P]`.
+/// Spans of tension, and room for pressures `[x, P]`.
 #[derive(Clone)]
 pub(super) struct TensionSpans<T> {
     pub spans: Vec<Interval<T>>,
@@ -86,7 +89,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         LoadCase { kappa: self.kappa, load: self.found.load, free: self.found.free }
     }
 
-    /// The pressures in each contact.
+    /// Computes the series of the pressure in each contact.
     pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
         fields.clear();
         let (contacts, free) = (self.contacts(), self.found.free);
@@ -105,8 +108,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         self.integrator.pressures(self.gap, &self.load_case(), x, pressures, cost)
     }
 
-    /// Takes more pressures of those contacts whose series leaves more than a share of the load open: they hide many
-    /// waves, or kinks. Whether there were any.
+    /// Takes more pressures in contacts whose series leave more than a share of the load uncertain:
+    /// they hide many waves, or kinks. Tells whether there were any.
     fn resolve(&self, fields: &mut [ExteriorField<T>], share: T) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
         // The outermost of N places is `L (π/N)²/8` from a limit.
@@ -130,8 +133,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(is_finer)
     }
 
-    /// Where the bodies would have to pull at each other inside a contact, and the pressure there: the worst
-    /// such place, and in `tension_spans` all spans on which they would.
+    /// Finds tension inside the contacts: returns the place and the pressure of the largest one,
+    /// and puts all spans of tension into `tension_spans`.
     pub fn tension(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
@@ -151,7 +154,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         self.fields(fields)?;
         let mut found: Vec<[T; 2]> = Vec::new();
         let mut meet = |x: T, pressure: T, allowed: T| {
-            // NaN does not press either.
+            // NaN counts as tension.
             let presses = pressure >= -allowed;
             if !presses && !self.closed.iter().any(|closed| closed.contains(x)) {
                 found.push([x, pressure]);
@@ -160,13 +163,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for (i, field) in fields.iter().enumerate() {
             let on = field.interval();
             let mean = field.load().abs() / on.half_width();
-            // What is in doubt of a pressure is asked for below.
+            // The uncertainty of a pressure is estimated below.
             let allowed = ContactState::<T>::rounding()
                 * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
             seen.clear();
             let both = ExteriorField::places(on).into_iter().zip(field.pressures());
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));
-            // What the panels resolve is not narrower than their nodes.
+            // Features that the panels resolve are not narrower than the spacing of their nodes.
             let (mut places, mut count) = ([T::zero(); POINTS], 0);
             let mut look = |places: &[T]| {
                 let mut pressures = [T::zero(); POINTS];
@@ -189,7 +192,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             look(&places[..count])?;
             seen.sort_by(|one, other| by_size(one[0], other[0]));
             seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
-            // Between them, at the vertex of the parabola through each least value and its neighbours.
+            // Between these places, at the vertex of the parabola through each minimum and its
+            // neighbours.
             for near in seen.windows(3) {
                 let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
                 if !(p[1] <= p[0] && p[1] <= p[2]) || self.is_pressed(x[1]) {
@@ -202,7 +206,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     let slope = (fall * two + rise * one) / (one + two);
                     let vertex = x[1] - T::of(0.5) * slope / bend;
                     let below = p[1] - T::of(0.25) * slope * slope / bend;
-                    // A least value that is far above nothing needs no closer look.
+                    // A minimum far above zero needs no closer look.
                     let is_near = below < T::of(0.5) * p[1];
                     if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
                         break;
@@ -217,7 +221,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     };
                 }
             }
-            // Where the slope jumps down the pressure goes to minus infinity.
+            // Where the slope jumps down, the pressure goes to minus infinity.
             for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
                 let doubt = self.integrator.doubt(breakpoint).unwrap_or(T::zero());
                 if self.gap.jump(breakpoint)[0].abs() > T::of(16.0) * doubt {
@@ -233,7 +237,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if tension_spans.iter().any(|span| span.contains(x)) {
                 continue;
             }
-            // Beside a kink that nobody declared a value may be all doubt.
+            // Next to an undeclared kink a value may be all uncertainty.
             if pressure.is_finite() {
                 let cost = &mut Cost::default();
                 let estimate = self.integrator.estimate(self.gap, &self.load_case(), x, cost)?;
@@ -250,8 +254,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(worst)
     }
 
-    /// The place nearest to one without pressure, of some that lie twice as far away each, where there is some;
-    /// or else the end of the contact.
+    /// Returns the nearest place with pressure to one without, among places each twice as far away
+    /// as the one before; or else the end of the contact.
     fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
         let on = self.contacts().iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
         let end = on[side];

@@ -1,12 +1,13 @@
 //! One contact, from a start to the limits with as few samples as possible.
 //!
-//! First a span in which the contact is expected is sampled with four nodes a panel, and Newton's method
-//! finds the contact of this guess; if that is much narrower than the span, or beside it, a span
-//! around it is sampled anew for the next guess. Then a span a little wider than the contact is sampled in full, and
-//! Newton's method finds the limits on that. Where it goes astray it starts again where the bodies [touch
-//! first](super::first_contact), with a width that may bear the load. Where that finds no contact either, or leads to
-//! an end of the bodies time and again, it is asked what they [bear](super::capacity). The [nested
-//! search](super::one_by_one) serves strategies of the user's, and quadratures that know no derivatives.
+//! First, a span in which the contact is expected is sampled with four nodes a panel, and Newton's
+//! method finds the contact of this guess. If it is much narrower than the span, or outside it, a
+//! span around it is sampled anew for the next guess. Then a span a little wider than the contact
+//! is sampled in full, and Newton's method finds the limits on it. If it goes astray, it starts
+//! again at the [first contact](super::first_contact) of the bodies, with a width that may bear the
+//! load. If it finds no contact from there either, or leads to an end of the bodies time and again,
+//! their [capacity](super::capacity) is computed. The [nested search](super::one_by_one) serves the
+//! user's own strategies, and quadratures that know no derivatives.
 
 mod guess;
 mod pull;
@@ -25,44 +26,46 @@ use crate::quadrature::{Integrator, Moments, panels};
 use crate::solution::ContactState;
 use crate::{ContactError, Edge, Interval, ProfileError, Real, Side};
 
-/// More doubt than this, as a share of the half-width, is no contact found.
+/// Largest uncertainty of a contact, as a share of the half-width, to count as found.
 pub(super) const MOST_DOUBT: f64 = 0.03;
 
 /// Initial guesses before the search is given up.
 const MOST_GUESSES: usize = 120;
 
-/// Steps beyond an end of the bodies in an initial guess, after which another is made; and in full, after which it is
-/// asked what they bear. (Each goes half the way: a contact may come as close to an end as 1e-7 of its width.)
+/// Largest number of steps beyond an end of the bodies: in an initial guess, before another is
+/// made; in full, before the capacity is computed. (Each goes half the way: a contact may come as
+/// close to an end as 1e-7 of its width.)
 const MOST_AT_END: [usize; 2] = [2, 24];
 
-/// By how much a contact that is about right may be off, and what is sampled beyond it, as a share of its
+/// Uncertainty of a contact that is about right, and margin sampled beyond it, as a share of its
 /// width.
 const ABOUT: f64 = 0.02;
 
-/// A contact of the bodies as one interval.
+/// Search for the contact of the bodies as one interval.
 pub(super) struct Single<'s, 'b, T: Real> {
     pub contact: &'s Contact<'b, T>,
     pub conditions: Conditions<T>,
-    /// Where it is sought first; or else at the lowest gap, where that is known.
+    /// Interval of the first search; if `None`, the lowest gap, if known.
     pub start: Option<Interval<T>>,
     pub look: Option<&'s Survey<T>>,
     pub integrator: &'s mut dyn Integrator<T>,
     pub cost: &'s mut Cost,
-    /// What the bodies bear, once looked at. Bodies that touch in several places bear more than one contact.
+    /// Capacity of the bodies, once computed. The inner `None`: unknown, as for one of several
+    /// contacts, since bodies that touch in several places bear more than one.
     pub bears: Option<Option<Capacity<T>>>,
 }
 
-/// Where one contact is sought after a search that has found none.
+/// Start of another search after one that has found no contact.
 #[derive(Clone, Copy, PartialEq)]
 enum Elsewhere {
-    /// Where the gap is low, as it looks.
+    /// Low places of the gap in the survey.
     Low,
     FirstContact,
-    /// About the place of first contact as in a contact that leans.
+    /// Place of first contact, with the limits around it as in a leaning contact.
     Leaning,
 }
 
-/// How far a limit lies beyond a corner on its side.
+/// Returns the distance of a limit beyond a corner on its side.
 fn beyond<T: Real>(on: Interval<T>, side: Side, corner: T) -> T {
     match side {
         Side::Left => corner - on.left,
@@ -74,8 +77,8 @@ impl<T: Real> Single<'_, '_, T> {
     /// Finds the contact, first around the last one.
     pub fn find(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
         let corners = self.conditions.edges;
-        // A corner holds the contact as long as it presses there; a width may be had without it, unless
-        // it held the last one. It cannot hold both edges.
+        // A corner holds the contact as long as it presses there; a given width may fit without the
+        // corner, unless it held the last contact. A given width cannot be held at both corners.
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         let mut one_held = false;
         for side in Side::BOTH {
@@ -89,7 +92,7 @@ impl<T: Real> Single<'_, '_, T> {
         }
         let mut found = match self.between_edges(last) {
             Err(error) if self.conditions.edges != corners => {
-                // A corner that is far off may not be held at all.
+                // A corner that is far off may not be reached at all.
                 let let_go =
                     |edge| if matches!(edge, Edge::FreeUntil(_)) { Edge::Free } else { edge };
                 self.conditions.edges = corners.map(let_go);
@@ -117,17 +120,17 @@ impl<T: Real> Single<'_, '_, T> {
         let on = found.interval;
         for side in Side::BOTH {
             let Edge::FreeUntil(x) = corners[side] else { continue };
-            // Neither held by the corner nor within it.
+            // The contact is neither held by the corner nor within it.
             if beyond(on, side, x) > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
                 return Err(ContactError::NoEquilibrium { half_width: on.half_width(), near: x });
             }
         }
-        // What the bodies were turned by before.
+        // The bodies were turned before the search.
         found.tilt += self.contact.gap.tilt();
         Ok(found)
     }
 
-    /// The same for edges of which each is either fixed or not.
+    /// Finds the contact with edges that are each either fixed or not.
     fn between_edges(
         &mut self,
         last: Option<Interval<T>>,
@@ -138,7 +141,7 @@ impl<T: Real> Single<'_, '_, T> {
         if pulled && adhesive && edges.are_sought() { self.pull(last) } else { self.press(last) }
     }
 
-    /// The same for a load that presses.
+    /// Finds the contact under a load that presses, with edges that are each either fixed or not.
     fn press(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
         let (gap, range) = (&self.contact.gap, self.contact.gap.range());
         if let Some(on) = self.conditions.both_limits() {
@@ -163,7 +166,7 @@ impl<T: Real> Single<'_, '_, T> {
         if is_one_of_several {
             return Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() });
         }
-        // From elsewhere, or on a span far wider, the way there may be blocked.
+        // From another start, or on a far wider span, the way to the contact may be blocked.
         for from in [Elsewhere::Low, Elsewhere::FirstContact, Elsewhere::Leaning] {
             let Some(start) = self.elsewhere(from)? else { continue };
             self.start = Some(start);
@@ -174,14 +177,14 @@ impl<T: Real> Single<'_, '_, T> {
         Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() })
     }
 
-    /// By Newton's method; `None` where that goes astray.
+    /// Finds the contact by Newton's method; `None` if it goes astray.
     fn by_newton(
         &mut self,
         last: Option<Interval<T>>,
     ) -> Result<Option<Converged<T>>, ContactError<T>> {
         if let Some(last) = last {
-            // What was sampled for the last load serves for the next. About the contact of another scene an
-            // error says nothing, but that the bodies bear less.
+            // Samples of the last load serve for the next one. Around the contact of another scene
+            // an error means nothing, unless it is that the bodies bear less.
             let known = |result| match result {
                 Err(
                     error @ (ContactError::DomainTooShort { .. }
@@ -215,8 +218,8 @@ impl<T: Real> Single<'_, '_, T> {
         self.in_full(guess, doubt)
     }
 
-    /// Newton's method on the samples at hand. Where it leads to an end of the bodies time and again that is
-    /// perhaps more than they bear.
+    /// Runs Newton's method on the samples at hand. If it leads to an end of the bodies time and
+    /// again, the load may exceed their capacity.
     fn converge(
         &mut self,
         from: Interval<T>,
@@ -240,7 +243,7 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(verdict)
     }
 
-    /// By one limit at a time.
+    /// Finds the contact by one limit at a time.
     fn by_nested_search(&mut self) -> Result<ContactState<T>, ContactError<T>> {
         self.integrator.clear_samples();
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
@@ -263,7 +266,7 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(ContactState::new(&conditions, on, load, Some(error), &m))
     }
 
-    /// The contact between limits that are both known. What is not given is the load.
+    /// Returns the contact between two known limits. The load is sought unless given.
     fn given(&mut self, on: Interval<T>) -> Result<ContactState<T>, ContactError<T>> {
         let (gap, range, conditions) =
             (&self.contact.gap, self.contact.gap.range(), &self.conditions);
@@ -276,7 +279,7 @@ impl<T: Real> Single<'_, '_, T> {
         super::check_within(on, range.into(), if sought { rounding } else { T::zero() })?;
         let on = Interval { left: on.left.max(range[0]), right: on.right.min(range[1]) };
         self.integrator.prescribe_limits(gap, conditions.limits());
-        // What was sampled for the last load serves for the next.
+        // Samples of the last load serve for the next one.
         let serves = |covered: Interval<T>| {
             let within = covered.left <= on.left && covered.right >= on.right;
             within && on.half_width() >= T::of(0.3) * covered.half_width()
@@ -293,7 +296,7 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(ContactState::new(conditions, on, load, error, &m))
     }
 
-    /// The contact that Newton's method has converged on.
+    /// Returns the contact on which Newton's method has converged.
     fn contact_of(&mut self, converged: Converged<T>) -> Result<ContactState<T>, ContactError<T>> {
         let (Converged { on, load, error, force }, conditions) = (converged, &self.conditions);
         let m = self.integrator.moments(&self.contact.gap, on)?;
@@ -307,8 +310,8 @@ impl<T: Real> Single<'_, '_, T> {
         })
     }
 
-    /// Returns the load of a contact of given width, if rounding of the limits changes it by less than itself: on a flat
-    /// such a contact lies anywhere, and bears nothing.
+    /// Returns the load of a contact of given width, if rounding of the limits changes it by less
+    /// than its own size: on a flat, such a contact lies anywhere and bears nothing.
     fn known(&self, on: Interval<T>, load: T, m: &Moments<T>) -> Result<T, ContactError<T>> {
         let (half_width, stiffness) = (on.half_width(), self.conditions.kappa * on.half_width());
         let rate = m.derivatives.map(|rates| rates.by_1.abs() + rates.by_2.abs());
@@ -320,7 +323,7 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(load)
     }
 
-    /// Samples a span around a contact that is nearly right, and finds the limits on that.
+    /// Samples a span around a contact that is nearly right, and finds the limits on it.
     fn in_full(
         &mut self,
         guess: Interval<T>,
@@ -336,7 +339,7 @@ impl<T: Real> Single<'_, '_, T> {
             let Ok(converged) = self.converge(guess, Effort::Full)? else {
                 return Ok(None);
             };
-            // Panels much wider than the contact are not as good as they look.
+            // Panels much wider than the contact are less accurate than they seem.
             let covered = self.integrator.sampled_interval().unwrap_or(span);
             if converged.on.half_width() >= T::of(0.8) * covered.half_width() {
                 return Ok(Some(converged));
@@ -346,16 +349,17 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(best)
     }
 
-    /// Whether the bodies bear as much, where that can be told.
+    /// Tells whether the bodies bear the load or width; false if their capacity is unknown. Fails
+    /// if it is exceeded.
     fn may_bear(&mut self) -> Result<bool, ContactError<T>> {
         self.check()?;
         Ok(!matches!(self.bears, Some(None)))
     }
 
-    /// Refuses more than the bodies bear.
+    /// Refuses a load or a width beyond the capacity of the bodies.
     fn check(&mut self) -> Result<(), ContactError<T>> {
         let Self { contact, conditions, cost, .. } = self;
-        // Turned, they bear another load.
+        // Bodies that turn bear another load.
         if matches!(conditions.given, Given::Centre { .. }) {
             return Ok(());
         }
@@ -372,13 +376,13 @@ impl<T: Real> Single<'_, '_, T> {
         }
     }
 
-    /// That, where it is the reason for an error of a search.
+    /// Replaces an error of the search by the exceeded capacity that caused it, if any.
     fn because(&mut self, error: ContactError<T>) -> ContactError<T> {
         match error {
             ContactError::NoEquilibrium { .. }
             | ContactError::OutsideBodies { .. }
             | ContactError::Overflow { .. }
-            // As at an end of the bodies.
+            // Occurs at an end of the bodies.
             | ContactError::Profile { source: ProfileError::NotFinite { .. }, .. } => self.check().err().unwrap_or(error),
             _ => error,
         }

@@ -1,12 +1,13 @@
-//! The intervals in which the bodies touch: start, converge, check, revise.
+//! Intervals in which the bodies touch: start, converge, check, revise.
 //!
-//! A contact is sought as one interval first, from where it was, or from the lowest gap; several valleys of the gap are
-//! several contacts at once. What is found is [checked](check): corners press, nothing pulls inside, nothing overlaps
-//! outside. What a search or a check says [revises](revise) the set of contacts, from which [all
-//! limits](super::newton::several) are sought anew; where it says too little a coarse [active
-//! set](super::active_set) tells about where the contacts are. A search that leads to an end of the bodies asks what
-//! they [bear](bears). Without adhesion a contact problem has one solution: what passes the checks is it, whatever
-//! the way there.
+//! A contact is first sought as one interval, around the last one or at the lowest gap; if the gap
+//! has several valleys, several contacts are sought at once. A solution is [checked](check):
+//! corners press, no tension inside, no overlap outside. A failed search or check [revises](revise)
+//! the set of contacts, from which [all limits](super::newton::several) are sought anew; if it says
+//! too little, a coarse [active set](super::active_set) locates the contacts roughly. A search that
+//! leads to an end of the bodies computes the load that they [bear](bears). Without adhesion a
+//! contact problem has one solution: a set that passes the checks is this solution, however it was
+//! found.
 
 mod bears;
 mod check;
@@ -35,7 +36,7 @@ pub(super) fn find<T: Real>(
     work.workspace.look_for_features(&contact.gap);
     let found = Search::new(contact, conditions, work).find();
     found.map_err(|error| match error {
-        // A step of the heights of which no slope tells is no crest that could be pressed flat.
+        // A step of the heights that no slope shows is not a crest that could be pressed flat.
         ContactError::Overlap { x, interval, .. } => {
             step_of_heights(&contact.gap, interval, x).unwrap_or(error)
         }
@@ -43,20 +44,20 @@ pub(super) fn find<T: Real>(
     })
 }
 
-/// A search for the contacts.
+/// Search for the contacts.
 struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     conditions: Conditions<T>,
     work: &'s mut Work<'w, T>,
-    /// Cells that the next active set starts with.
+    /// Number of cells of the next active set.
     cells: usize,
-    /// Where gaps have closed.
+    /// Places where gaps have closed.
     closed: Vec<Interval<T>>,
-    /// The end of the bodies that contacts reach, where no corner holds them.
+    /// End of the bodies that contacts reach with no corner to hold them.
     runs_out: Option<Side>,
-    /// Whether it was asked what the bodies bear.
+    /// True if the load that the bodies bear has been sought.
     has_run_out: bool,
-    /// The end of the bodies that the contacts are to reach, where the load is sought under which they do.
+    /// End of the bodies that the contacts are to reach, if the load for it is sought.
     end: Option<Side>,
 }
 
@@ -81,7 +82,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if self.work.workspace.last.len() > 1 {
             return self.several(None);
         }
-        // Of several valleys heights tell at less cost what a search for one contact fails at.
+        // If the gap has several valleys, heights show at less cost why a search for one contact
+        // fails.
         if self.has_valleys()? {
             match self.several(None) {
                 Err(error) if !matches!(error, ContactError::DomainTooShort { .. }) => {}
@@ -98,13 +100,13 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         self.work.workspace.report.add(start, outcome);
     }
 
-    /// Seeks one contact and checks it. The inner error is one that several contacts may not have.
+    /// Seeks one contact and checks it. The inner error is one that several contacts may avoid.
     fn one_checked(&mut self) -> Result<Result<ContactState<T>, ContactError<T>>, ContactError<T>> {
         let (turns, is_said) = (self.turns(), self.contact.gap.is_convex());
         let looks = !is_said && !turns && self.contact.edges.are_sought();
         let mut start = self.start_of_one(looks);
         let mut found = self.one(start, looks);
-        // Without a look at the bodies.
+        // The first search had no survey of the bodies.
         if is_said && !turns && matches!(found, Err(ContactError::NoEquilibrium { .. })) {
             self.report(start, Outcome::NotFound);
             start = self.start_of_one(true);
@@ -116,7 +118,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                     self.report(start, Outcome::Passed);
                     return Ok(Ok(found));
                 }
-                // Of bodies that turn, more contacts may press at the corner.
+                // If the bodies turn, more contacts may press at the corner.
                 Some(error @ ContactError::LiftsOff { .. }) if self.is_convex() || !turns => {
                     return Err(error);
                 }
@@ -129,7 +131,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Ok(Err(fault))
     }
 
-    /// Tells whether the error of a search for one contact is that of a search for several, too.
+    /// Tells whether a search for several contacts would fail with the error of this search for
+    /// one.
     fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
         if !self.contact.edges.are_sought() || !error.may_be_several() {
             return Ok(true);
@@ -138,13 +141,14 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if is_shut && self.end_touched_first().is_some() {
             return Ok(true);
         }
-        // Of bodies that turn, one contact may be hard to find too; so it may among waves that nothing has shown yet.
+        // If the bodies turn, one contact may be hard to find, too; likewise among waves not yet
+        // seen.
         let is_lost = matches!(error, ContactError::NoEquilibrium { .. });
         Ok(!self.turns() && (self.is_convex() || !is_lost && self.look()?.bulges()))
     }
 
-    /// Returns the start of a search for one contact: where it was, where the user says, or at the lowest gap;
-    /// without a look at the bodies in their middle.
+    /// Returns the start of a search for one contact: the last contact, the user's start, or the
+    /// lowest gap; without a survey, the line of the load or the middle of the bodies.
     fn start_of_one(&self, looks: bool) -> Start {
         match (self.work.workspace.last.first(), self.contact.start) {
             (Some(_), _) => Start::Last,
@@ -155,7 +159,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         }
     }
 
-    /// Seeks one contact, again as long as its panels miss narrow features.
+    /// Seeks one contact, and repeats as long as its panels miss narrow features.
     fn one(&mut self, start: Start, looks: bool) -> Result<ContactState<T>, ContactError<T>> {
         if start == Start::LowestGap {
             self.look()?;
@@ -170,7 +174,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Ok(found)
     }
 
-    /// Seeks one contact around the last one, if any; without it where a survey may say.
+    /// Seeks one contact around the last one, if any; without it, from the survey if `looks` is
+    /// set.
     fn one_from(
         &mut self,
         last: Option<Interval<T>>,
@@ -182,7 +187,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Single { contact, conditions, start, look, integrator: *integrator, cost, bears }.find(last)
     }
 
-    /// Tells whether the gap has several low places, and nothing else says where to start.
+    /// Tells whether the gap has several valleys, and no other start is known.
     fn has_valleys(&mut self) -> Result<bool, ContactError<T>> {
         let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
         let told = given || !self.work.workspace.last.is_empty();
@@ -192,13 +197,13 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Ok(!self.look()?.is_one_valley() && self.end_touched_first().is_none())
     }
 
-    /// Tells whether the gap is known to be convex: the bodies say so, or it is proved.
+    /// Tells whether the gap is known to be convex, declared or proved.
     fn is_convex(&self) -> bool {
         let gap = &self.contact.gap;
         gap.is_convex() || self.work.workspace.survey_of(gap).is_some_and(Survey::is_convex)
     }
 
-    /// Surveys the bodies as closely as the load asks for.
+    /// Surveys the bodies as closely as the load requires.
     fn look(&mut self) -> Result<&Survey<T>, ContactError<T>> {
         let asked = asked_by(&self.conditions);
         self.work.workspace.look(&self.contact.gap, asked, self.work.cost)
@@ -209,7 +214,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         self.conditions.at().is_some()
     }
 
-    /// Tells whether several contacts can be sought: by own quadratures, the paper's and own searches only one can.
+    /// Tells whether several contacts can be sought. The user's own quadratures and searches, and
+    /// the paper's, find only one.
     fn may_be_several(&self) -> bool {
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         by_load
@@ -219,7 +225,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 }
 
-/// Returns the request to the survey.
+/// Returns the request to the survey for these conditions.
 fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
     match conditions.given {
         Given::HalfWidth(half_width) => Asked::HalfWidth(half_width),

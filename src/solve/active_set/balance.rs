@@ -1,23 +1,25 @@
-//! Forces that make up for what is missed of closed gaps, and add nothing to the load: what
-//! conjugate gradients go by.
+//! Preconditioner of the conjugate gradients: forces that close the remaining gaps and add nothing
+//! to the load.
 
 use super::forces::{multiples, sum};
 use crate::Real;
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DVector, Dyn};
 
-/// The share of what is missed that may be rounding beside its level.
+/// Largest share of rounding in the product of gaps and forces, before level and slope are taken
+/// off the gaps.
 const ROUNDED: f64 = 1e-3;
 
-/// How forces among loaded cells are kept to one sum, and to one moment where the bodies turn.
+/// Constraint on the forces of loaded cells: one sum, and one moment if the bodies turn.
 pub(super) struct Balance<'a, T: Real> {
     arms: &'a [T],
-    /// How many neighbours have their equations solved together, and their matrix, factored.
+    /// Groups of neighbours whose equations are solved together: their number, and their factored
+    /// matrix.
     alone: Vec<(usize, Option<Cholesky<T, Dyn>>)>,
-    /// The forces that make up for a level, and for a slope.
+    /// Forces that close a level gap, and a sloped one.
     even: Vec<T>,
     leaning: Vec<T>,
-    /// Those of the level with the level, of either with the other, of the slope with the slope.
+    /// Products of level with level, of level with slope, of slope with slope.
     products: [T; 3],
 }
 
@@ -32,7 +34,7 @@ impl<'a, T: Real> Balance<'a, T> {
         balance
     }
 
-    /// Returns the forces that close the gaps missed, each group of neighbours by itself.
+    /// Returns the forces that close the remaining gaps, each group of neighbours by itself.
     fn made_up(&self, missed: &[T]) -> Vec<T> {
         let (mut forces, mut rest) = (Vec::with_capacity(missed.len()), missed);
         for (count, factor) in &self.alone {
@@ -46,7 +48,7 @@ impl<'a, T: Real> Balance<'a, T> {
         forces
     }
 
-    /// Takes from forces what they have too much of: a sum, and a moment.
+    /// Takes an excess sum and an excess moment off forces.
     pub fn without(&self, forces: Vec<T>, excess: [T; 2]) -> Vec<T> {
         self.less(forces, multiples(self.products, excess))
     }
@@ -59,12 +61,11 @@ impl<'a, T: Real> Balance<'a, T> {
         forces
     }
 
-    /// Returns forces without sum and moment that close the gaps missed, and their product with
-    /// those gaps.
+    /// Returns forces without sum and moment that close the remaining gaps, and their product with
+    /// these gaps.
     ///
-    /// What is missed loses the level and the slope with which it makes up no forces before the
-    /// rest is lost in rounding beside them (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23,
-    /// 2001, 1376).
+    /// The gaps lose the level and the slope that cause no such forces before the rest is lost in
+    /// rounding (Gould, Hribar and Nocedal, *SIAM J. Sci. Comput.* 23, 2001, 1376).
     pub fn step(&self, missed: &mut [T]) -> (Vec<T>, T) {
         let forces = self.made_up(missed);
         let excess = [sum(&forces), dot(&forces, self.arms)];

@@ -1,4 +1,4 @@
-//! The forces that close the gap in a set of loaded cells.
+//! Forces that close the gap in a set of loaded cells.
 
 use super::ActiveSet;
 use super::balance::Balance;
@@ -6,20 +6,20 @@ use crate::Real;
 use crate::numerics::dot;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Loaded cells up to which their equations are solved by elimination.
+/// Largest number of loaded cells whose equations are solved by elimination.
 const DENSE: usize = 120;
 
-/// Neighbours whose equations are solved together in each step of conjugate gradients.
+/// Number of neighbours whose equations are solved together in each step of conjugate gradients.
 const NEIGHBOURS: usize = 32;
 
-/// The share of the forces that conjugate gradients may miss.
+/// Relative tolerance of the forces from conjugate gradients.
 const ENOUGH: f64 = 1e-4;
 
-/// Steps of conjugate gradients for one system.
+/// Largest number of steps of conjugate gradients for one system.
 const MOST_STEPS: usize = 300;
 
 impl<T: Real> ActiveSet<T> {
-    /// Closes the gap in the loaded cells; returns how far off the forces may be.
+    /// Closes the gap in the loaded cells; returns the uncertainty of the forces.
     pub(super) fn solve(&mut self) -> T {
         self.solves += 1;
         let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
@@ -46,13 +46,13 @@ impl<T: Real> ActiveSet<T> {
 
     /// Factors the matrix of some loaded cells.
     fn factor(&self, on: &[usize]) -> Option<Cholesky<T, Dyn>> {
-        // The lower half is enough.
+        // The lower half suffices.
         let entry = |i, j| if i < j { T::zero() } else { self.matrix.entry(on[i], on[j]) };
         DMatrix::from_fn(on.len(), on.len(), entry).cholesky()
     }
 
-    /// Returns the forces by elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, where the bodies turn,
-    /// `Σ q arm = 0`.
+    /// Returns the forces by elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, if
+    /// the bodies turn, `Σ q arm = 0`.
     fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
         let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
         let factor = self.factor(on)?;
@@ -66,8 +66,9 @@ impl<T: Real> ActiveSet<T> {
         forces.iter().all(|force| force.is_finite()).then(|| forces.data.into())
     }
 
-    /// Returns the forces by conjugate gradients among forces of one sum, and one moment where the bodies turn. What is missed is
-    /// made up for in each contact as if it were alone.
+    /// Returns the forces by conjugate gradients among forces of one sum, and of one moment if the
+    /// bodies turn. The preconditioner closes the gaps of each group of neighbours as if it were
+    /// alone.
     fn iterate(&self, on: &[usize], arms: &[T]) -> Vec<T> {
         let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];
@@ -117,14 +118,15 @@ pub(super) fn sum<T: Real>(values: &[T]) -> T {
     values.iter().fold(T::zero(), |sum, &value| sum + value)
 }
 
-/// Returns the level and the slope of the line through values of which the sum and the moment are given; level where no
-/// arm is any but zero.
+/// Returns the level and the slope of the line through values with given sum and moment; the slope
+/// is zero if all arms are.
 pub(super) fn line<T: Real>(arms: &[T], of_values: [T; 2]) -> [T; 2] {
     multiples([T::count(arms.len()), sum(arms), dot(arms, arms)], of_values)
 }
 
-/// Returns the multiples of two vectors with given products with both, from the products of the first with itself, with
-/// the second, and of that with itself. The second may be zero.
+/// Returns the multiples of two vectors whose sum has given products with both, from the products
+/// of the first with itself, of both with each other, and of the second with itself. The second may
+/// be zero.
 pub(super) fn multiples<T: Real>([own, with, other]: [T; 3], [first, second]: [T; 2]) -> [T; 2] {
     let share = with / own;
     let rest = other - share * with;

@@ -1,15 +1,15 @@
-//! The cells in which contacts are not yet seen well, and the contacts that cells show.
+//! Cells in which contacts are not yet resolved, and the contacts that cells show.
 
 use super::{ActiveSet, CELLS_OF_A_RUN, Coarse};
 use crate::{Ends, Interval, Real};
 
-/// How much finer than a contact the cells at a narrow gap in it may become.
+/// Least width of the cells at a narrow gap in a contact, as a share of the contact.
 const FINEST: f64 = 1.0 / 40.0;
 
-/// The shortest cell that is cut for known heights, as a share of the distance between them.
+/// Least width of a cell that is cut for known heights, as a share of their spacing.
 const CLOSEST: f64 = 1.0 / 16.0;
 
-/// The share of the wider of two runs that the gap between them must have.
+/// Least gap between two runs, as a share of the wider one; closer runs are one.
 const LEAST_GAP: f64 = 1e-3;
 
 impl<T: Real> ActiveSet<T> {
@@ -25,7 +25,7 @@ impl<T: Real> ActiveSet<T> {
         runs
     }
 
-    /// Marks the cells in which the contact is not yet seen well.
+    /// Marks the cells in which the contact is not yet resolved.
     pub(super) fn marks(&self, known: &[[T; 2]]) -> Vec<bool> {
         let n = self.cells.len();
         let mut marks = vec![false; n];
@@ -54,7 +54,7 @@ impl<T: Real> ActiveSet<T> {
                 mark(from - 1, to + 1);
             }
         }
-        // A minimum of the open gap that may close: lower than what it rises by to a neighbour.
+        // A minimum of the open gap that may close: it is lower than its rise to a neighbour.
         let gap = |i: usize| self.gap(i);
         for i in (0..n).filter(|&i| !self.cells[i].loaded) {
             let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
@@ -82,7 +82,7 @@ impl<T: Real> ActiveSet<T> {
         marks
     }
 
-    /// Marks cells with heights inside that their centres know nothing of.
+    /// Marks cells whose centres miss features of the known heights inside.
     fn mark_by(&self, known: &[[T; 2]], marks: &mut [bool]) {
         let Some(lowest) = self.lowest().map(|lowest| self.cells[lowest].height) else { return };
         let [first, end] = self.range;
@@ -96,7 +96,7 @@ impl<T: Real> ActiveSet<T> {
                 i += 1;
             }
             let cell = &self.cells[i];
-            // Much closer together than they are nothing is known.
+            // Heights say nothing of cells much shorter than their spacing.
             let beside = known[(k + 1).min(known.len() - 1)][0] - known[k.saturating_sub(1)][0];
             if cell.width() < T::of(CLOSEST) * beside.component(0) {
                 continue;
@@ -110,10 +110,10 @@ impl<T: Real> ActiveSet<T> {
                 before = None;
                 continue;
             }
-            // In the centre the gap is closed.
+            // The gap is closed at the centre.
             for (there, gap_there) in before.into_iter().chain([(cell.centre(), T::zero())]) {
                 let (along, rise) = ((x - there).abs(), (gap - gap_there).abs());
-                // A wave of this slope has pressures of up to a πth of it.
+                // A wave of this slope has pressures of up to 1/π of it.
                 marks[i] |= along > cell.width() / T::of(64.0)
                     && rise > T::of(0.5) * T::pi() * pressure * along;
             }
@@ -123,7 +123,7 @@ impl<T: Real> ActiveSet<T> {
         }
     }
 
-    /// Returns the potential at a place in a cell, on a line between the centres.
+    /// Returns the potential at a place in a cell, linear between the centres.
     fn potential_at(&self, x: T, i: usize) -> T {
         let aside = x - self.cells[i].centre();
         let beside = if aside < T::zero() { i.checked_sub(1) } else { Some(i + 1) };
@@ -167,14 +167,14 @@ impl<T: Real> ActiveSet<T> {
             Interval { left, right }
         };
         let mut intervals: Vec<_> = runs.iter().map(interval).collect();
-        // An edge is not further into the open cells than a third of the way to the next.
+        // An edge lies at most a third of the way to the next run.
         for (i, pair) in runs.windows(2).enumerate() {
             let [from, to] = [self.cells[pair[0][1]].right, self.cells[pair[1][0]].left];
             let third = (to - from) / T::of(3.0);
             intervals[i].right = intervals[i].right.min(from + third);
             intervals[i + 1].left = intervals[i + 1].left.max(to - third);
         }
-        // Where the pressure all but vanishes rounding parts cells: as close as that, runs are one.
+        // Where the pressure nearly vanishes, rounding parts cells: runs this close are one.
         intervals.dedup_by(|next, on| {
             let wider = (next.right - next.left).max(on.right - on.left);
             let one = next.left - on.right < T::of(LEAST_GAP) * wider;
@@ -187,17 +187,17 @@ impl<T: Real> ActiveSet<T> {
     }
 }
 
-/// Returns the right edge of a run, from its cells `[left, right, force]` from right to left: what the cells
-/// beyond a place bear grows with the power 3/2 of its distance from the edge. Of cells of constant pressure
-/// that is not quite so: of Hertz's contact they have the edge at a quarter of the outermost cell and three
-/// quarters of this distance.
+/// Returns the right edge of a run, from its cells `[left, right, force]` from right to left: the
+/// load of the cells beyond a place grows as the power 3/2 of its distance from the edge. Cells of
+/// constant pressure deviate a little: for Hertz's contact the edge is at a quarter of the
+/// outermost cell and three quarters of this distance.
 fn edge<T: Real>(mut cells: impl Iterator<Item = [T; 3]>) -> T {
     let Some([near, right, outermost]) = cells.next() else { return T::zero() };
     let Some([far, _, next]) = cells.next() else { return right };
     let ratio = (outermost / (outermost + next)).powf(T::of(2.0 / 3.0));
     let extrapolated = (near - far) * ratio / (T::one() - ratio);
     let edge = near + T::of(0.25) * (right - near) + T::of(0.75) * extrapolated;
-    // It is in the outermost cell, or not far into the next, which is open.
+    // The edge is in the outermost cell, or not far into the next one, which is open.
     let furthest = right + T::of(0.5) * (right - near);
     if edge.is_finite() { edge.max(near).min(furthest) } else { right }
 }

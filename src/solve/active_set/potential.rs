@@ -1,22 +1,24 @@
-//! How far forces on cells press the surface in: the logarithm of the distance, averaged over the
-//! cell that bears the force and over the cell that is looked at.
+//! Displacement of the surface by forces on cells: the logarithm of the distance, averaged over the
+//! loaded cell and over the observed one.
 //!
-//! Of a few hundred cells each that bears a force has a column of a matrix, which is kept from cut to cut.
-//! Of more, cells next to each other have matrices; the forces of those far off act through their moments (Barnes and Hut, *Nature* 324, 1986, 446), and what they do is
-//! interpolated between a few places of a block of cells.
+//! Up to a few hundred cells, each loaded cell has a column of a matrix, kept from cut to cut. With
+//! more cells, neighbouring ones have matrices. The forces of distant cells act through their
+//! moments (Barnes and Hut, *Nature* 324, 1986, 446), whose effect is interpolated between a few
+//! places of a block of cells.
 
 use crate::Real;
 use crate::numerics::dot;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Cells up to which there are columns.
+/// Largest number of cells with columns.
 const FULL: usize = 320;
 
-/// Cells of a block, where there are more.
+/// Largest number of cells in a block, with more cells than `FULL`.
 const BLOCK: usize = 16;
 
-/// Moments of the forces of a group, and places in a block: both leave errors of about 1e-5.
+/// Numbers of moments of the forces of a group, and of places in a block: both leave errors of
+/// about 1e-5.
 const MOMENTS: usize = 10;
 const PLACES: usize = 8;
 
@@ -27,14 +29,14 @@ const GAUSS: [(f64, f64); 3] = [
     (0.387_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// A cell, in shares of a length that no two cells are further apart than.
+/// Cell, in units of a length no less than the distance of any two cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CellPlace<T> {
     pub centre: T,
     pub width: T,
 }
 
-/// The mean of `-ln|x - s|` for x in one cell and s in the other.
+/// Returns the mean of `-ln|x - s|` for x in one cell and s in the other.
 pub(super) fn mean_log<T: Real>(one: CellPlace<T>, other: CellPlace<T>) -> T {
     let distance = (one.centre - other.centre).abs();
     let (v, w) = (one.width, other.width);
@@ -45,7 +47,7 @@ pub(super) fn mean_log<T: Real>(one: CellPlace<T>, other: CellPlace<T>) -> T {
         let fourth = (v * v + w * w) / T::of(320.0) + v * w / T::of(96.0);
         return second + fourth - distance.ln();
     }
-    // In shares of the wider one, the rest is exact.
+    // This formula, in units of the wider cell, is exact.
     let size = v.max(w);
     let [distance, v, w] = [distance / size, v / size, w / size];
     let twice = |y: T| {
@@ -58,32 +60,32 @@ pub(super) fn mean_log<T: Real>(one: CellPlace<T>, other: CellPlace<T>) -> T {
     (inner - outer) / (v * w) - size.ln()
 }
 
-/// The potential of forces on given cells.
+/// Potential of forces on given cells.
 pub(super) struct Potential<T> {
     cells: Vec<CellPlace<T>>,
-    /// What a unit force on a cell does to each; empty until it is asked for.
+    /// Potential in each cell of a unit force on a cell; empty until needed.
     columns: Vec<Vec<T>>,
-    /// Where there are many cells.
+    /// Groups and blocks, if there are many cells.
     groups: Vec<CellGroup<T>>,
     blocks: Vec<Block<T>>,
 }
 
-/// Cells in a row, and the powers of their places about the middle of the group.
+/// Adjacent cells, and the powers of their places about the middle of the group.
 struct CellGroup<T> {
     cells: [usize; 2],
     centre: T,
     radius: T,
     powers: Vec<[T; MOMENTS]>,
-    /// The two halves, by their numbers; none of a block.
+    /// Numbers of the two halves; `None` for a block.
     halves: Option<[usize; 2]>,
 }
 
-/// A smallest group, and what acts on its cells.
+/// Smallest group, and the matrices that act on its cells.
 struct Block<T> {
     cells: [usize; 2],
-    /// Ranges of cells near by, and a matrix for each, by rows of the cells of the block.
+    /// Ranges of nearby cells, each with a matrix whose rows are the cells of the block.
     near: Vec<([usize; 2], Vec<T>)>,
-    /// Groups far off, and what their moments do at the places.
+    /// Distant groups, and the potential of their moments at the places.
     far: Vec<(usize, [[T; MOMENTS]; PLACES])>,
     /// Shares of the values at the places in the mean over each cell.
     shares: Vec<[T; PLACES]>,
@@ -95,7 +97,7 @@ impl<T: Real> Potential<T> {
         Self { cells, columns, groups: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Turns to other cells, some of which had a number before. The columns of those that are wanted are kept.
+    /// Takes other cells, some of which had a number before. Keeps the columns of the wanted ones.
     pub fn set(
         &mut self,
         cells: Vec<CellPlace<T>>,
@@ -127,7 +129,7 @@ impl<T: Real> Potential<T> {
         }
     }
 
-    /// Makes ready for forces on a cell.
+    /// Computes the column for a force on a cell.
     pub fn load(&mut self, j: usize) {
         if self.columns.get(j).is_some_and(Vec::is_empty) {
             // The matrix is symmetric.
@@ -143,7 +145,7 @@ impl<T: Real> Potential<T> {
         mean_log(self.cells[i], self.cells[j])
     }
 
-    /// The share of the force on one cell in the potential of another.
+    /// Returns the potential in cell i of a unit force on cell j.
     pub fn entry(&self, i: usize, j: usize) -> T {
         if let Some(column) = self.columns.get(j) {
             return column[i];
@@ -158,7 +160,8 @@ impl<T: Real> Potential<T> {
         }
     }
 
-    /// The potential of the forces in every cell, of many where it is wanted.
+    /// Computes the potential of the forces in every cell; with many cells, only in the wanted
+    /// ones.
     pub fn of(&self, forces: &[T], wanted: impl Fn(usize) -> bool, potential: &mut [T]) {
         if !self.columns.is_empty() {
             potential.fill(T::zero());
@@ -189,7 +192,7 @@ impl<T: Real> Potential<T> {
     }
 }
 
-/// Adds a group and all those within it; its number.
+/// Adds a group and all groups within it; returns its number.
 fn group<T: Real>(
     cells: &[CellPlace<T>],
     [from, to]: [usize; 2],
@@ -235,7 +238,7 @@ impl<T: Real> CellGroup<T> {
         moments
     }
 
-    /// What the moments do at x.
+    /// Returns the potential of each moment at x.
     fn transfer(&self, x: T) -> [T; MOMENTS] {
         let distance = x - self.centre;
         let ratio = self.radius / distance;
@@ -299,15 +302,15 @@ impl<T: Real> Block<T> {
     }
 }
 
-/// Chebyshev's polynomials at the places.
+/// Chebyshev polynomials at the places.
 static AT_PLACES: LazyLock<[[f64; PLACES]; PLACES]> = LazyLock::new(|| {
     let angle = |m: usize| PI * (m as f64 + 0.5) / PLACES as f64;
     std::array::from_fn(|m| std::array::from_fn(|k| (k as f64 * angle(m)).cos()))
 });
 
-/// The polynomials that are one at one of the places and zero at the others, at t.
+/// Returns, at t, the polynomials that are one at one of the places and zero at the others.
 fn cardinals<T: Real>(t: T) -> [T; PLACES] {
-    // By the discrete orthogonality of Chebyshev's polynomials at their own zeros.
+    // By the discrete orthogonality of Chebyshev polynomials at their own zeros.
     let mut twice = [T::one(); PLACES];
     let (mut before, mut chebyshev) = (T::one(), t);
     for twice in &mut twice[1..] {
@@ -359,7 +362,7 @@ mod tests {
     }
 
     fn gauss(n: usize) -> (Vec<f64>, Vec<f64>) {
-        // The midpoint rule in the angle is enough away from the diagonal.
+        // The midpoint rule in the angle suffices off the diagonal.
         let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / n as f64;
         let weight = |i: usize| {
             let series =

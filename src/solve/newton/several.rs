@@ -1,9 +1,9 @@
 //! Newton's method on all limits of several contacts at once.
 //!
-//! The equations and their exact Jacobian are those of the quadrature. A step is cut short where a contact or a
-//! gap would lose more than two thirds of its width at once. A gap that shrinks step after step, or until the heights
-//! of the bodies no longer tell where it is, is one that closes; a contact that does so is one that the bodies do not
-//! have: the caller starts again without it.
+//! The equations and their exact Jacobian are those of the quadrature. A step is cut short if a
+//! contact or a gap would lose more than two thirds of its width at once. A gap that shrinks step
+//! after step, or until the heights of the bodies no longer resolve it, closes. A contact that
+//! shrinks so does not exist: the caller starts again without it.
 
 mod widths;
 
@@ -19,44 +19,46 @@ use std::ops::Range;
 /// Steps before the search is given up.
 const MOST_STEPS: usize = 60;
 
-/// Steps in a row that are cut short by the same width, or end, before it is taken not to exist: a gap at a kink, or a
-/// contact where the bodies have just met, may be as narrow as rounding.
+/// Largest number of steps in a row cut short by the same width or end, before that contact or gap
+/// is taken not to exist: a gap at a kink, or a contact where the bodies have just met, may be as
+/// narrow as rounding.
 const MOST_CUT: i32 = 12;
 
-/// What is sought besides the limits.
+/// Unknown besides the limits.
 #[derive(Clone, Copy)]
 pub(in super::super) enum Besides<T> {
-    /// The tilt under which the load acts at this place.
+    /// Tilt under which the load acts at this place.
     Tilt(T),
-    /// The load under which the outermost limit is at an end of the bodies.
+    /// Load under which the outermost limit on this side is at the end of the bodies.
     Load(Side),
 }
 
-/// A contact (even) or a gap (odd), by twice its number.
+/// Width number: twice that of its contact (even), plus one for the gap after it (odd).
 type Width = usize;
 
-/// What cuts a step short.
+/// Width or end that cuts a step short.
 #[derive(Clone, Copy, PartialEq)]
 enum Cut {
     Width(Width),
     End(Side),
 }
 
-/// The conditions that several contacts have to meet.
+/// Conditions that several contacts have to meet.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Conditions<'s, 'b, T: Real> {
     pub gap: &'s Gap<'b, T>,
-    /// F/κ.
+    /// Load as F/κ.
     pub load: T,
-    /// The sides at which a corner holds the contacts.
+    /// Flags: a corner holds the contacts on this side.
     pub corners: Ends<bool>,
-    /// The ends of the bodies.
+    /// Ends of the bodies.
     pub ends: Ends<T>,
     pub besides: Option<Besides<T>>,
 }
 
 impl<T: Real> Conditions<'_, '_, T> {
-    /// Returns the end that the outermost limit is put at while the load under which it is there is sought.
+    /// Returns the side whose outermost limit is put at an end of the bodies, if the load for it is
+    /// sought.
     fn end(&self) -> Option<Side> {
         match self.besides {
             Some(Besides::Load(side)) => Some(side),
@@ -67,27 +69,28 @@ impl<T: Real> Conditions<'_, '_, T> {
 
 #[derive(Clone)]
 pub(in super::super) struct NewtonSeveral<T> {
-    /// By how much body 2 is turned.
+    /// Angle by which body 2 is turned.
     pub tilt: T,
-    /// What the contacts bear: F/κ.
+    /// Load carried by the contacts: F/κ.
     pub load: T,
-    /// The contacts, from left to right.
+    /// Contacts, from left to right.
     pub on: Vec<Interval<T>>,
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
     pub errors: Vec<T>,
-    /// The outermost limits that stay where they are.
+    /// Flags: the outermost limit on this side stays in place.
     held: Ends<bool>,
     progress: Progress<T>,
-    /// What cut the last step short, and how often in a row.
+    /// Width or end that cut the last step short, and the number of such steps in a row.
     cut: Option<(Cut, i32)>,
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
-    /// What the limits move by.
+    /// Steps of all limits.
     moves: Vec<T>,
-    /// The widths between them, from the narrowest to the widest.
+    /// Numbers of the widths, from the narrowest to the widest.
     order: Vec<usize>,
-    /// What the conditions leave open: of one of them, and of what that makes of the limits.
+    /// Right-hand side with the uncertainty of one condition, and the uncertainty of the limits due
+    /// to all.
     unit: Vec<T>,
     open: Vec<T>,
 }
@@ -116,8 +119,8 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Moves the contacts until they bear a load; and turns the bodies until it acts at a place, or changes the load
-    /// until an outermost limit is where it has been put, at an end of the bodies.
+    /// Moves the contacts until they bear a load. Turns the bodies until it acts at a given place,
+    /// or changes the load until an outermost limit is at the end of the bodies, if that is sought.
     pub fn converge(
         &mut self,
         several: &mut Several<T>,
@@ -168,14 +171,14 @@ impl<T: Real> NewtonSeveral<T> {
         Ok(Err(Stop::Failed))
     }
 
-    /// States the equations of the contacts at hand, and solves them for the step.
+    /// Assembles the equations of the contacts at hand, and solves them for the step.
     fn assemble(
         &mut self,
         several: &mut Several<T>,
         turned: &Gap<'_, T>,
         conditions: &Conditions<'_, '_, T>,
     ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
-        // Between two contacts at a concave kink the gap falls exponentially with the load.
+        // Between two contacts at a concave kink the gap shrinks exponentially with the load.
         if let Some(i) = self.closed() {
             return Ok(Err(Stop::Closed(i)));
         }
@@ -197,7 +200,7 @@ impl<T: Real> NewtonSeveral<T> {
         Ok(Ok(()))
     }
 
-    /// Takes the step of the tilt, or of the load, where that is sought.
+    /// Takes the step of the tilt or of the load, if sought.
     fn turn(&mut self, turned: &mut Gap<'_, T>, besides: Option<Besides<T>>) {
         match (besides, self.step.last()) {
             (Some(Besides::Tilt(_)), Some(&step)) => {
@@ -209,7 +212,8 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Takes the step of the limits, cut short where a width would be lost or an end passed; tells whether it was.
+    /// Takes the step of the limits, cut short if a width would be lost or an end passed; tells
+    /// whether it was cut.
     fn limit(
         &mut self,
         narrowed: Option<Width>,
@@ -218,7 +222,7 @@ impl<T: Real> NewtonSeveral<T> {
         let (hull, ends) = (self.hull(), conditions.ends);
         self.advance();
         let mut cut = narrowed.map(Cut::Width);
-        // Where one load reaches both ends, one of them is passed by rounding.
+        // If one load reaches both ends, one of them is passed by rounding.
         let rounding = match conditions.end() {
             Some(_) => T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width(),
             None => T::zero(),
@@ -238,7 +242,7 @@ impl<T: Real> NewtonSeveral<T> {
             // Nothing is left of a contact that was cut short time and again.
             return Err(Stop::Lost(i));
         }
-        // A contact may have left the bodies as a whole.
+        // A whole contact may have left the bodies.
         if !(self.on.iter().all(|on| on.left < on.right)
             && self.on.windows(2).all(|pair| pair[0].right < pair[1].left))
         {
@@ -259,7 +263,7 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Tells whether the last step, of this size, was short enough, or as short as rounding lets it be.
+    /// Tells whether the last step, of this size, was short enough, or as short as rounding allows.
     fn accept(&mut self, size: T) -> bool {
         let judged = self.progress.judge([size, T::zero()]);
         let is_short = size <= T::epsilon().sqrt();
@@ -293,7 +297,7 @@ impl<T: Real> NewtonSeveral<T> {
         conditions: &Conditions<'_, '_, T>,
     ) -> ContactState<T> {
         let on = &self.on;
-        // The load goes about with the square of a width.
+        // The load is about proportional to the square of a width.
         let [mut sum, mut all] = [T::zero(); 2];
         for (on, errors) in on.iter().zip(self.errors.chunks_exact(2)) {
             let square = on.half_width() * on.half_width();
@@ -315,7 +319,7 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Returns the limits that are sought, of all from left to right.
+    /// Returns the range of the limits sought, among all from left to right.
     fn free(&self) -> Range<usize> {
         usize::from(self.held.left)..2 * self.on.len() - usize::from(self.held.right)
     }
@@ -330,8 +334,8 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Returns the largest step, as a share of the half-width of its contact or of the gap beside it: next to a kink
-    /// the pressure tells how narrow the gap is.
+    /// Returns the largest step, as a share of the half-width of its contact or of the gap next to
+    /// it: next to a kink the pressure shows how narrow the gap is.
     fn size(&self) -> T {
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
         let half_width = |i: Width| half * self.width(i);
@@ -347,19 +351,19 @@ impl<T: Real> NewtonSeveral<T> {
         self.on.iter().flat_map(|on| [on.half_width(); 2])
     }
 
-    /// Tells whether no limit has moved by more than it may be in doubt.
+    /// Tells whether no limit has moved by more than the largest uncertainty allowed.
     fn is_small(&self) -> bool {
         let mut moves = self.moves.iter().zip(self.half_widths());
         moves.all(|(step, half_width)| step.abs() <= T::of(MOST_DOUBT) * half_width)
     }
 
-    /// Tells whether no limit has moved by more than it is in doubt.
+    /// Tells whether no limit has moved by more than its own uncertainty.
     fn is_all_doubt(&self) -> bool {
         let mut moves = self.moves.iter().zip(self.half_widths()).zip(&self.errors);
         moves.all(|((step, half_width), &error)| step.abs() <= error * half_width)
     }
 
-    /// Estimates the errors of the limits: what the equations leave open, and rounding.
+    /// Estimates the errors of the limits, from the uncertainty of the equations and rounding.
     fn estimate(&mut self) {
         let n = self.step.len();
         self.open.clear();
@@ -383,7 +387,7 @@ impl<T: Real> NewtonSeveral<T> {
     }
 }
 
-/// Returns the outermost contact at a side.
+/// Returns the outermost contact on a side.
 pub(in super::super) fn outermost<T: Real>(on: &mut [Interval<T>], side: Side) -> &mut Interval<T> {
     let last = on.len() - 1;
     &mut on[if side == Side::Left { 0 } else { last }]
@@ -451,7 +455,7 @@ mod tests {
             for (x, p) in x.into_iter().zip(p) {
                 let due = 2.0 * x * ((x * x - al * al) * (be * be - x * x)).sqrt();
                 let got = p * std::f64::consts::FRAC_PI_2;
-                // Beside a limit its rounding counts.
+                // Next to a limit, its rounding counts.
                 let rounding = f64::EPSILON * due / (x - al);
                 assert!(
                     (got - due).abs() <= 1e-11 * top + rounding,
@@ -463,7 +467,7 @@ mod tests {
 
     #[test]
     fn kinks_inside_each_contact() {
-        // m |T|/N with T = 2 x² - 1 scaled: kinks at ±sqrt(1/2), declared.
+        // The function m |T|/N with T = 2 x² - 1 scaled: declared kinks at ±sqrt(1/2).
         let piece = |from: f64, to: f64, sign: f64| {
             Curve::new([from, to], move |k: f64| CurvePoint {
                 x: k,
@@ -477,7 +481,8 @@ mod tests {
             Piecewise::new(vec![piece(-1.5, -r, 1.0), piece(-r, r, -1.0), piece(r, 1.5, 1.0)])
                 .unwrap();
         for load in [0.01f64, 0.2, 0.6] {
-            // The wedge |v| bears F = 2 a/π with κ = 1, on |v| <= a; each of N contacts a half.
+            // The wedge |v| bears F = 2 a/π with κ = 1, on |v| <= a; each of the two contacts bears
+            // half.
             let a = load * std::f64::consts::PI / 2.0;
             let [al, be] = [((1.0 - a) / 2.0).sqrt(), ((1.0 + a) / 2.0).sqrt()];
             let off = 0.05 * (be - al);

@@ -1,10 +1,11 @@
-//! Newton's method on one contact: both limits, and its load where that is sought.
+//! Newton's method on one contact: both limits, and its load if sought.
 //!
-//! A step is halved where the next one by the same Jacobian would be longer (the natural monotonicity test: P.
-//! Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, §3.3), as across a jump of the slope, on whose two sides
-//! limits are unlike stiff; and where the limits do not act on the slope, as on a flat. Where a contact carries too
-//! little, and a wider one less, as under adhesion, it is widened until it grows with its load. A step that would
-//! leave the bodies goes half the way to their end.
+//! A step is halved if the next one by the same Jacobian would be longer (the natural monotonicity
+//! test: P. Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, §3.3), as across a jump of
+//! the slope, whose two sides differ in stiffness; and where the limits do not act on the slope, as
+//! on a flat. A contact that carries too little, and would carry less if wider, as under adhesion,
+//! is widened until it grows with its load. A step that would leave the bodies goes half the way to
+//! their end.
 
 use super::super::edges::Conditions;
 use super::super::single_contact::MOST_DOUBT;
@@ -13,19 +14,20 @@ use super::{Progress, Stop, crosses_breakpoint};
 use crate::quadrature::{Integrator, Moments};
 use crate::{ContactError, Ends, Gap, Interval, Real, Side};
 
-/// Trials before the search is given up, in an initial guess and in full. An initial guess that takes long has no contact.
+/// Trials before the search is given up: for an initial guess, and in full. An initial guess that
+/// takes long has no contact.
 const MOST_TRIALS: [usize; 2] = [16, 200];
 
-/// Steps in full that may be longer than half of the half-width.
+/// Largest number of steps in full that are longer than half of the half-width.
 const MOST_LONG: usize = 8;
 
-/// The least share of a step that is taken.
+/// Least share of a step that is taken.
 const LEAST_SHARE: f64 = 1e-12;
 
-/// The longest step that a guess may end with, in half-widths.
+/// Longest last step of a guess, in half-widths.
 const GUESSED: f64 = 0.03;
 
-/// A guess that is narrower than this share of its start is to be seen in a closer span.
+/// Share of its start below which a guess is too narrow, and is sought again in a closer span.
 const NARROW: f64 = 1e-6;
 
 /// A contact that meets its conditions.
@@ -35,41 +37,42 @@ pub(in super::super) struct Converged<T> {
     pub load: T,
     /// Estimated error of the limits relative to the half-width.
     pub error: T,
-    /// The load that such an error stands for.
+    /// Load that corresponds to this error.
     pub force: T,
 }
 
-/// The limits found, or the reason for none.
+/// Limits found, or the reason for none.
 pub(in super::super) type Verdict<T> = Result<Converged<T>, Stop<T>>;
 
-/// How well a contact has to meet its conditions.
+/// Accuracy to which a contact has to meet its conditions.
 #[derive(Clone, Copy, PartialEq)]
 pub(in super::super) enum Effort {
-    /// To a few hundredths of its width, or until it is known to be much narrower than the start.
+    /// A few hundredths of the width; the search also ends once the contact is much narrower than
+    /// its start.
     Guess,
-    /// To rounding.
+    /// Rounding.
     Full,
 }
 
-/// A search for the limits of one contact.
+/// Search for the limits of one contact.
 pub(in super::super) struct NewtonSingle<'s, 'b, T: Real> {
     pub integrator: &'s mut dyn Integrator<T>,
     pub gap: &'s Gap<'b, T>,
     pub conditions: &'s Conditions<T>,
     pub effort: Effort,
-    /// Steps that may lead beyond an end of the bodies: each takes samples closer to that.
+    /// Largest number of steps beyond an end of the bodies: each takes samples closer to that end.
     pub most_at_end: usize,
 }
 
-/// The last trial of a search, and what led to it.
+/// Last trial of a search, and the step that led to it.
 struct Trial<T: Real> {
-    /// Where the search started.
+    /// Interval from which the search started.
     start: Interval<T>,
     on: Interval<T>,
     load: T,
     last: Option<Step<T>>,
     progress: Progress<T>,
-    /// Steps so far that led beyond an end of the bodies, and long ones.
+    /// Numbers of steps so far that led beyond an end of the bodies, and of long ones.
     at_end: usize,
     long: usize,
 }
@@ -114,12 +117,12 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok(Err(Stop::Failed))
     }
 
-    /// Tells whether a step leads to the contact that is sought.
+    /// Tells whether a step leads to the contact sought.
     fn leads(&self, system: &Linearised<T>) -> bool {
         !system.is_open() || system.is_stable(self.conditions)
     }
 
-    /// Halves the last step where the next one shows that it led too far.
+    /// Halves the last step if the next one shows that it led too far.
     fn shortens(&self, trial: &mut Trial<T>, next: &Linearised<T>, step: Option<&Step<T>>) -> bool {
         let Some(last) = &mut trial.last else { return false };
         if last.share <= T::of(LEAST_SHARE) || step.is_some() && !last.grew_to(next, trial.on) {
@@ -132,8 +135,8 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         true
     }
 
-    /// Widens a contact that carries less than asked for, and less still if it were wider: one that is wider yet grows
-    /// with its load.
+    /// Widens a contact that carries less than the load, and would carry still less if wider: a
+    /// much wider one grows with its load.
     fn widen(&self, trial: &mut Trial<T>, system: &Linearised<T>) -> Result<(), Stop<T>> {
         let one = T::one();
         let wider = moved(self.conditions, trial.on, system.lean(), [-one, one], one);
@@ -150,7 +153,8 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok(())
     }
 
-    /// Keeps a step within the bodies; tells whether it was cut. A guess ends where it is much narrower than its start.
+    /// Keeps a step within the bodies; tells whether it was cut. A guess much narrower than its
+    /// start ends the search.
     fn limit(&self, trial: &mut Trial<T>, from: Interval<T>, size: T) -> Result<bool, Verdict<T>> {
         let Trial { on, load, .. } = *trial;
         if self.effort == Effort::Guess
@@ -176,7 +180,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok(true)
     }
 
-    /// Ends the search where the last step was short enough.
+    /// Ends the search if the last step was short enough.
     fn accept(
         &mut self,
         trial: &mut Trial<T>,
@@ -193,7 +197,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
                 .then(|| if self.is_sound(system, on) { Ok(guessed) } else { Err(Stop::Failed) }));
         }
         let judged = trial.progress.judge(sizes);
-        // Across a kink a step is as much too long as the one before has been.
+        // A step across a kink is as much too long as the one before it was.
         let crossed = judged.is_done
             && size > T::of(4.0) * T::epsilon()
             && crosses_breakpoint(self.gap, step.from, on);
@@ -222,12 +226,13 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         if crossed {
             trial.progress.forget();
         }
-        // Each of these takes samples: what is so far off was no guess.
+        // Each long step takes samples; so far off, the start was no guess.
         trial.long += usize::from(size > T::of(0.5));
         Ok(None)
     }
 
-    /// Tells whether the bodies, turned, open at the free edges of a contact that grows with its load.
+    /// Tells whether the bodies, turned, open at the free edges of a contact that grows with its
+    /// load.
     fn is_sound(&self, system: &Linearised<T>, on: Interval<T>) -> bool {
         let edges = self.conditions.edges;
         let opens = |side: Side| {
@@ -235,13 +240,13 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             let slope = self.integrator.slope(on[side]);
             slope.is_none_or(|slope| (slope + system.tilt) * outward >= T::zero())
         };
-        // Under adhesion the bodies need not open at the other edge either.
+        // Under adhesion the bodies need not open at the other edge, either.
         let open = edges.are_adhesive()
             || Side::BOTH.into_iter().all(|side| !edges[side].is_free() || opens(side));
         open && system.is_stable(self.conditions)
     }
 
-    /// Takes steps beyond the convergence of the value: from one to the next, one more derivative is exact.
+    /// Takes steps beyond the convergence of the value: each makes one more derivative exact.
     fn derivative_steps(
         &mut self,
         mut on: Interval<T>,
@@ -258,14 +263,14 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok((on, load))
     }
 
-    /// Returns the reason to end a search that was led beyond the bodies, and how far within them it went.
+    /// Returns the reason to end a search that left the bodies, with the last interval within them.
     fn beyond(&self, to: Interval<T>, reached: Interval<T>) -> Stop<T> {
         let side = if to.left < self.gap.range()[0] { Side::Left } else { Side::Right };
         Stop::Beyond { side, reached }
     }
 
-    /// Moves a step that would leave the bodies so that it goes half the way to their end, where the slope may be
-    /// infinite; cuts what is too wide for that.
+    /// Replaces a step that would leave the bodies by one that goes half the way to their end,
+    /// where the slope may be infinite; cuts an interval that is still too wide.
     fn before_ends(&self, from: Interval<T>, to: Interval<T>) -> Interval<T> {
         let range = self.gap.range();
         if to.left >= range[0] && to.right <= range[1] {
@@ -283,7 +288,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
     }
 }
 
-/// Puts a contact that fills the bodies within them, where it is rounded beyond them.
+/// Puts a contact that fills the bodies, and was rounded beyond them, within them.
 fn rounded_within<T: Real>(on: Interval<T>, range: [T; 2]) -> Interval<T> {
     let rounded = |x: T, end: T, beyond: T| {
         let rounding = T::of(8.0) * T::epsilon() * (end.abs() + on.half_width());

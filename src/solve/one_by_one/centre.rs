@@ -1,4 +1,4 @@
-//! The inner search: where a contact of given width sits.
+//! Inner search: the place of a contact of given width.
 
 use super::width::ulps;
 use super::{NestedSearch, TrialContact, nearer};
@@ -6,21 +6,22 @@ use crate::search::Bracket;
 use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real};
 
-/// What became of a contact of given width.
+/// Outcome of the search for the place of a contact of given width.
 pub(super) enum Centred<T> {
-    /// It sits here.
+    /// Contact found.
     At(TrialContact<T>),
-    /// It would have to reach beyond the left (0) or the right (1) end of the bodies.
+    /// End of the bodies, left (0) or right (1), beyond which the contact would have to reach.
     Beyond(usize),
-    /// It would have to let go of the point of first contact, and be no contact; or one beyond this.
+    /// Contact that would have to let go of the point of first contact: it does not exist, or lies
+    /// further on.
     Adrift(Interval<T>),
 }
 
-/// Two contacts with the balance between them, or the end of the search for them.
+/// Two contacts that enclose the balance, or the end of the search for them.
 type SteppedOut<T> = Result<[TrialContact<T>; 2], Centred<T>>;
 
 impl<T: Real> NestedSearch<'_, T> {
-    /// Finds where a contact of given half-width sits.
+    /// Finds the place of a contact of given half-width.
     pub fn centre(&mut self, half_width: T) -> Result<Centred<T>, ContactError<T>> {
         let width = T::of(2.0) * half_width;
         let ([first, last], room) = (self.range, self.room());
@@ -35,7 +36,7 @@ impl<T: Real> NestedSearch<'_, T> {
         let (near, far) = (self.near, 1 - self.near);
         let (lo, hi) = ((width - room[far]).max(T::zero()), width.min(room[near]));
         if lo >= hi {
-            // All of the bodies, up to rounding, may be just wide enough.
+            // The whole width of the bodies, up to rounding, may just suffice.
             let trial = self.attempt(Interval { left: first, right: last })?;
             let shift = (self.unbalance)(&trial.residual);
             let rounding = ulps::<T>() * (first.abs() + last.abs());
@@ -64,8 +65,8 @@ impl<T: Real> NestedSearch<'_, T> {
         Ok(self.placed(trial, width))
     }
 
-    /// Steps from where the last contact was until the balance is between two reaches of the near edge; or returns what
-    /// became of the contact before.
+    /// Steps from the place of the last contact until the balance is between two reaches of the
+    /// near edge; otherwise returns the outcome of the last trial.
     fn step_out(&mut self, width: T, [lo, hi]: [T; 2]) -> Result<SteppedOut<T>, ContactError<T>> {
         let (zero, near, room) = (T::zero(), self.near, self.room());
         let mut reach = (self.share * width).max(lo).min(hi);
@@ -77,7 +78,7 @@ impl<T: Real> NestedSearch<'_, T> {
             if shift == zero {
                 return Ok(Err(Centred::At(trial)));
             }
-            // Twice as far as the balance seems to be, so as to pass it.
+            // Twice the estimated distance of the balance, to pass it.
             let past = self.stiffness.map(|stiffness| shift.abs() / stiffness * factor);
             let step = past.filter(|&past| past < widest).unwrap_or(widest * factor * T::of(0.5));
             let step = step.max(ulps::<T>() * reach).max(self.resolution());
@@ -89,8 +90,8 @@ impl<T: Real> NestedSearch<'_, T> {
                     _ if reach == room[near] => Centred::Beyond(near),
                     _ if reach == width - room[1 - near] => Centred::Beyond(1 - near),
                     Equations::Strength { .. } => Centred::Adrift(trial.on),
-                    // Not balanced, it still tells whether to widen; then it may find its
-                    // balance, and if not, the pressures at its edges show it.
+                    // The unbalanced contact still tells whether to widen, and a wider one may be
+                    // balanced. If not, the pressures at its edges show it.
                     Equations::Pressure { .. } => Centred::At(trial),
                 }));
             }
@@ -136,7 +137,7 @@ impl<T: Real> NestedSearch<'_, T> {
     }
 }
 
-/// How far a contact reaches to the left and to the right of a point in it.
+/// Returns the distances that a contact reaches to the left and to the right of a point in it.
 fn reaches<T: Real>(on: Interval<T>, origin: T) -> [T; 2] {
     [origin - on.left, on.right - origin]
 }

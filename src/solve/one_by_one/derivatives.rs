@@ -1,21 +1,23 @@
-//! The derivatives of limits that a search of one unknown at a time has found.
+//! Derivatives of limits found by a search of one unknown at a time.
 //!
-//! Such a search ends when the limits have converged, and knows nothing of what they carry besides
-//! their values. A few steps with a fixed Jacobian, from differences, make up for that: each leaves
-//! a share of what is missing that is as small as the differences are good. Plain numbers need none.
+//! Such a search ends when the values of the limits have converged, whatever their derivatives. A
+//! few steps with a fixed Jacobian, from finite differences, supply the derivatives: each step
+//! reduces their error by a factor as small as the relative error of the differences. Plain numbers
+//! need no steps.
 
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Integrator;
 use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real};
 
-/// Steps taken; each gains three to five digits.
+/// Number of steps; each gains three to five digits.
 const STEPS: usize = 6;
 
-/// The step of the differences, as a share of the half-width.
+/// Step of the differences, as a share of the half-width.
 const SHARE: f64 = 1e-5;
 
-/// The limits, or with a given half-width the place, of a contact that meets its conditions.
+/// Returns the limits that meet the conditions, with their derivatives; with a given half-width,
+/// only the place is sought.
 pub(super) fn differentiate<T: Real>(
     equations: &Equations<T>,
     gap: &Gap<'_, T>,
@@ -31,7 +33,7 @@ pub(super) fn differentiate<T: Real>(
     let size = found.half_width().component(0);
     let Ends { left: left_given, right: right_given } = equations.limits();
     let start = found.plain();
-    // Where the limits start, and what the unknowns do to them: inward, so as not to leave the bodies.
+    // Start of the limits, and their directions for each unknown: inward, to stay on the bodies.
     let (start, ways): (Interval<T>, [[T; 2]; 2]) = match (half_width, left_given, right_given) {
         (Some(half_width), ..) => {
             let (left, right) = (start.centre() - half_width, start.centre() + half_width);
@@ -68,7 +70,7 @@ pub(super) fn differentiate<T: Real>(
         let other = (by_one[1] * first - by_one[0] * second) / determinant;
         on = moved(on, [one, other]);
     }
-    // What is found must still be the contact that the search has found, within its tolerance.
+    // The result must still be the contact that the search has found, within its tolerance.
     let shift = (on.left - found.left).abs().max((on.right - found.right).abs());
     if shift <= T::of(0.25) * size {
         Ok(on)

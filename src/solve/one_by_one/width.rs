@@ -1,4 +1,4 @@
-//! The outer search: how wide the contact is.
+//! Outer search: the width of the contact.
 
 use super::centre::Centred;
 use super::{NestedSearch, TrialContact, nearer};
@@ -6,11 +6,11 @@ use crate::search::Bracket;
 use crate::solve::equations::{Equations, Residual};
 use crate::{ContactError, Ends, Interval, Real};
 
-/// Widths tried before the search gives up bracketing the load: what halving takes from the
-/// largest number to the smallest.
+/// Widths tried before the search gives up bracketing the load: enough to halve the largest number
+/// down to the smallest.
 const MOST_WIDTHS: usize = 2200;
 
-/// The largest power of the width that a load is taken to go with.
+/// Largest exponent of the power of the width that the load is taken to follow.
 const STEEPEST: f64 = 40.0;
 
 impl<T: Real> NestedSearch<'_, T> {
@@ -31,10 +31,10 @@ impl<T: Real> NestedSearch<'_, T> {
         })
     }
 
-    /// Finds a contact too narrow for the load and one too wide, or twice the one that is right.
+    /// Finds a contact too narrow for the load and one too wide, or the exact one twice.
     fn enclose(&mut self, guess: T) -> Result<[TrialContact<T>; 2], ContactError<T>> {
         let (zero, half) = (T::zero(), T::of(0.5));
-        // Closer to a given limit the other is the same number.
+        // Closer to a given limit than this, the other limit is the same number.
         let given = self.equations.limits() != Ends::both(None);
         let resolution = if given { self.resolution() } else { zero };
         let least = (half * self.equations.least_width()).max(resolution);
@@ -71,7 +71,7 @@ impl<T: Real> NestedSearch<'_, T> {
             half_width = next_width.after(last, trial.residual.growth, spread > zero);
             *(if spread > zero { &mut narrow } else { &mut wide }) = Some(trial);
             if let (Some(narrow), Some(wide)) = (narrow, wide) {
-                // A wide bracket is narrowed from the end last tried, as long as that helps.
+                // A wide bracket is narrowed from the end last tried, as long as this helps.
                 let (from, to) = (narrow.on.half_width(), wide.on.half_width());
                 let inside = half_width > from && half_width < to;
                 if !inside || to <= T::of(1.5) * from {
@@ -94,14 +94,15 @@ impl<T: Real> NestedSearch<'_, T> {
         Err(self.no_balance(half_width))
     }
 
-    /// Tells whether the free limit of a contact whose other one is given is at an end of the bodies.
+    /// Tells whether a contact with one given limit has its free limit at an end of the bodies.
     fn is_at_end(&self, on: Interval<T>) -> bool {
         let ends = Ends::from(self.range);
         let free = self.equations.limits().only_free();
         free.is_some_and(|side| on[side] == ends[side])
     }
 
-    /// The balanced contact that reaches just to one end of the bodies, wider than a given one.
+    /// Returns the balanced contact that just reaches one end of the bodies, wider than a given
+    /// one.
     fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
         let (origin, range, room) = (self.origin, self.range, self.room());
         let on = |other: T| match end {
@@ -119,7 +120,7 @@ impl<T: Real> NestedSearch<'_, T> {
         self.run(&ends, &mut best, Residual::shift, |search, other| search.attempt(on(other)))
     }
 
-    /// The error for a contact that reaches the end of the bodies and must still widen.
+    /// Returns the error for a contact that reaches the end of the bodies and must still widen.
     fn too_short(&mut self, on: Interval<T>) -> ContactError<T> {
         let missed = match self.equations {
             Equations::Pressure { wanted, .. } => self
@@ -132,20 +133,20 @@ impl<T: Real> NestedSearch<'_, T> {
     }
 }
 
-/// A relative step that is certain to change a number.
+/// Returns a relative step that is certain to change a number.
 pub(super) fn ulps<T: Real>() -> T {
     T::of(8.0) * T::epsilon()
 }
 
-/// Guesses widths from how the load has answered to the last ones: it is taken to go with a power
-/// of the width, which is 2 for bodies round where they touch, and is seen after two trials.
+/// Predictor of widths from the loads of the last ones: the load is taken to follow a power of the
+/// width, 2 for bodies round at the contact, and known after two trials.
 struct NextWidth<T> {
     exponent: T,
-    /// The last half-width and the growth asked for there.
+    /// Last half-width, and the growth required there.
     before: Option<[T; 2]>,
-    /// By which power of the expected factor to change the width, so as to pass the root and so
-    /// enclose it, and by how much beyond that factor at most. At first a little; if that did not
-    /// pass it, twice and four times as far (on a logarithmic scale).
+    /// Exponent on the expected factor of the width, chosen to pass the root and so enclose it, and
+    /// the largest excess over this factor. Small at first; while the root is not passed, twice and
+    /// four times as far (on a logarithmic scale).
     power: T,
     beyond: T,
 }
@@ -156,8 +157,8 @@ impl<T: Real> NextWidth<T> {
         Self { exponent: T::of(2.0), before: None, power: little, beyond: little }
     }
 
-    /// The next half-width after one that is too narrow (`wider`) or too wide. `growth` is the
-    /// factor by which a round body would have to grow.
+    /// Returns the next half-width after one that is too narrow (`wider`) or too wide. `growth` is
+    /// the factor by which a round body would have to grow.
     fn after(&mut self, half_width: T, growth: T, wider: bool) -> T {
         if let Some([last, asked]) = self.before.replace([half_width, growth]) {
             let seen = T::of(-2.0) * (growth / asked).ln() / (half_width / last).ln();

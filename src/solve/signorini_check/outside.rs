@@ -1,5 +1,5 @@
-//! Whether the loaded bodies overlap beside their contacts, where their heights are known and at
-//! their corners.
+//! Overlap of the loaded bodies outside their contacts, where their heights are known and at their
+//! corners.
 
 use super::SignoriniCheck;
 use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
@@ -7,30 +7,31 @@ use crate::quadrature::panels::{self, Rises};
 use crate::solve::exterior_field::ExteriorField;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The share of the load that the series of its pressures may leave open before more of them are
-/// taken; and the share of that, where it hides whether the bodies overlap.
+/// Share of the load that the series of the pressures may leave uncertain before more pressures are
+/// taken; and the factor on this share if it hides whether the bodies overlap.
 const OPEN: f64 = 1e-3;
 const LESS_OPEN: f64 = 0.01;
 
-/// The share of a contact's half-width beyond its limits that is sampled with it: there the pressure inside tells that
-/// the gap opens.
+/// Share of a contact's half-width beyond its limits that is sampled with it: there the pressure
+/// inside shows that the gap opens.
 const BESIDE: f64 = 0.002;
 
-/// The share of F/κ by which heights and slopes may disagree on the rise over a contact.
+/// Largest difference of heights and slopes on the rise over a contact, as a share of F/κ.
 const STEP: f64 = 0.01;
 
-/// Refinements of the survey for one check.
+/// Largest number of refinements of the survey for one check.
 const MOST_ROUNDS: usize = 40;
 
-/// How often a span between two heights is halved in search of its lowest place; and cut where the chord of the slope is
-/// zero, which leaves a thousandth of the distance each time: a contact is born there with as little as a millionth.
+/// Halvings of a span between two heights in search of its lowest place, and cuts at the zero of
+/// the chord of the slope, each of which leaves a thousandth of the distance: a contact is born
+/// there with as little as a millionth.
 const MOST_HALVES: usize = 8;
 const MOST_CHORDS: usize = 2;
 
 /// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
 pub(in crate::solve) struct Overlaps<T> {
-    /// The lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
+    /// Lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
     pub dips: Vec<[T; 2]>,
     /// Spans outside the contacts that a heavier load has closed.
     pub closed_before: Vec<Interval<T>>,
@@ -41,7 +42,7 @@ impl<T: Real> Overlaps<T> {
         Self { dips: Vec::new(), closed_before: Vec::new() }
     }
 
-    /// Returns the worst of them.
+    /// Returns the deepest dip.
     pub fn worst(&self) -> Option<[T; 2]> {
         let dips = self.dips.iter().copied();
         dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
@@ -49,8 +50,8 @@ impl<T: Real> Overlaps<T> {
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Returns about where the loaded gap is lowest between two places, at the first of which it falls and at the second
-    /// rises.
+    /// Returns about the lowest place of the loaded gap between two places; the gap falls at the
+    /// first and rises at the second.
     fn lowest_between(
         &self,
         fields: &[ExteriorField<T>],
@@ -68,7 +69,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             } else {
                 (left, falls) = (x, Some(-slope));
             }
-            // The slope is all but straight once the span is short, where it is finite.
+            // Where finite, the slope is almost straight once the span is short.
             if step >= MOST_HALVES {
                 let crossing = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
                 share = crossing.filter(|share| share.is_finite()).unwrap_or(half);
@@ -77,13 +78,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         left + share * (right - left)
     }
 
-    /// Returns the rate of the displacement outside the contacts.
+    /// Returns the slope of the displacement outside the contacts.
     fn rate(&self, fields: &[ExteriorField<T>], x: T) -> T {
         fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x)) / self.kappa
     }
 
-    /// Finds where the loaded bodies would overlap outside the contacts, up to their ends, and the gap there, `[x, gap]`:
-    /// the lowest place of each dip. Where the survey leaves that open, it is refined.
+    /// Finds where the loaded bodies would overlap outside the contacts, up to their ends: the
+    /// lowest place of each dip with the gap there, `[x, gap]`. Refines the survey if it cannot
+    /// decide.
     pub fn overlap(
         &self,
         fields: &mut Vec<ExteriorField<T>>,
@@ -109,7 +111,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 let is_inside = ends.left <= low.x && low.x <= ends.right;
                 return is_inside.then_some(LowPoint { height, ..low });
             };
-            // What a corner cuts off goes on along its tangent.
+            // At a corner inside the span, the height follows the tangent.
             let cut = |[x, height, slope]: [T; 3]| {
                 let at = x.max(ends.left).min(ends.right);
                 if at == x { [x, height, slope] } else { [at, height + slope * (at - x), slope] }
@@ -149,8 +151,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(())
     }
 
-    /// Compares the rise of the gap over one contact by its slopes with that by the heights of the survey: between two
-    /// panels the contact itself sees no step. Where they disagree the curves themselves are asked.
+    /// Compares the rise of the gap over one contact by its slopes and by the heights of the
+    /// survey: the contact itself does not see a step between two panels. If they disagree, the
+    /// curves themselves decide.
     fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let Interval { left, right } = self.found.interval;
         let [from, to] = [left, right].map(|x| self.gap.nearest(x));
@@ -172,7 +175,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         compare([before, after], T::zero())
     }
 
-    /// Returns a low place as it is; or if it is inside a contact the middles of what its span has outside.
+    /// Returns a low place as it is; inside a contact, the middles of the parts of its span
+    /// outside.
     fn outside(&self, look: &Survey<T>, low: LowPoint<T>) -> [Option<LowPoint<T>>; 2] {
         let contacts = self.contacts();
         let on = contacts.get(contacts.partition_point(|on| on.right <= low.x));
@@ -189,8 +193,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         })
     }
 
-    /// A corner before the end of the bodies that the contacts do not reach: where the gap falls
-    /// towards it, no height before it is as low.
+    /// Returns a corner before the end of the bodies that the contacts do not reach: if the gap
+    /// falls towards it, no height before it is as low.
     fn corner(
         &self,
         side: Side,
@@ -208,8 +212,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(Some(LowPoint { x, height, between: None, doubt: T::zero() }))
     }
 
-    /// Finds the dips in which bodies overlap outside the contacts, as far as some heights show them, by rising x; `open`
-    /// takes the spans where the survey hides whether there is one. Tells whether the series of the pressures hide it.
+    /// Finds the dips in which bodies overlap outside the contacts, by rising x, as far as the
+    /// given heights show them. Puts the spans in which the survey hides dips into `open`. Tells
+    /// whether the series of the pressures hide any.
     fn overlap_at(
         &self,
         fields: &[ExteriorField<T>],
@@ -220,7 +225,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<bool, ContactError<T>> {
         let (contacts, hull) = (self.contacts(), self.found.interval);
         let last = contacts.len() - 1;
-        // Whether the gap is open anywhere after the last dip.
+        // The first flag: the gap is open somewhere after the last dip.
         let (mut is_parted, mut is_hidden) = (true, false);
         let mut rate = [T::of(f64::NAN); 2];
         let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
@@ -237,7 +242,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             let known = beside.filter(|beside| beside.next == next);
             let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
-            // From no place does the load act further away than from the far end of the contacts.
+            // No part of the load acts from further away than the far end of the contacts.
             let most = load * (x - hull.left).max(hull.right - x).ln();
             if height - doubt - from.height >= (most - from.taken) / self.kappa + from.hidden {
                 is_parted |= between.is_none();
@@ -266,8 +271,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(is_hidden)
     }
 
-    /// Judges a height, or a span at its lowest place; returns the place with the verdict, or nothing of a span beside a
-    /// limit, where the pressure inside tells of the gap. `open` takes the span if the survey hides what it is.
+    /// Judges a height, or a span at its lowest place; returns the place with the verdict. Returns
+    /// `None` for a span next to a limit, where the pressure inside decides. Puts the span into
+    /// `open` if the survey hides the verdict.
     fn judge(
         &self,
         fields: &[ExteriorField<T>],
@@ -281,7 +287,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let judged = |height: T| self.verdict(from, [height, hidden], potential);
         let Some(ends) = between else {
             let verdict = judged(height);
-            // By the height at the limit, as that at the place is known.
+            // Only the height at the limit is uncertain.
             if verdict == Verdict::Hidden {
                 open.push([from.edge; 2]);
             }
@@ -291,7 +297,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));
         }
-        // A bound, or an interpolated height.
+        // The height so far was a bound, or interpolated.
         let [left, right] = ends.map(|end| end[0]);
         let on = [left.max(from.room.left), right.min(from.room.right)];
         let x = self.lowest_between(fields, look, on);
@@ -299,7 +305,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let height = self.gap.turned(x, look.height(x));
             self.verdict(from, [height, hidden], total(fields, x))
         } else {
-            // Of a span that is this vague its lowest place is not known.
+            // A span this vague does not show its lowest place.
             let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
             Some(verdict).filter(|&verdict| verdict == Verdict::Hidden && hidden > vague)?
         };
@@ -309,9 +315,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Some((x, verdict))
     }
 
-    /// Returns the height at a place of a span that stands for the lowest loaded gap in it. A potential is concave, and rises
-    /// to both sides of the place no more than its tangent; the loaded gap is as low as the tangents at both ends of it
-    /// cross. Keeps the rate at the last end.
+    /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
+    /// potential is concave, and rises to both sides of the place no more than its tangent; the
+    /// loaded gap is as low as the crossing of its tangents at both ends. Keeps the rate at the
+    /// last end.
     fn floor(
         &self,
         fields: &[ExteriorField<T>],
@@ -334,8 +341,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         before + (right - left) * (t * chord - below)
     }
 
-    /// Lists where this load may leave open what a heavier one has closed: the contacts of that less those of this, and
-    /// less what borders on these, as long as the gap is convex.
+    /// Lists the spans that a heavier load has closed and this load may leave open: the contacts
+    /// under that load, less the present ones and the spans next to them on which the gap is
+    /// convex.
     fn list_closed_before(&self, closed: &mut Vec<Interval<T>>) {
         let contacts = self.contacts();
         closed.clear();
@@ -347,7 +355,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rights = contacts[first..after].iter().map(|on| on.left).chain([wide.right]);
             for (i, (left, right)) in (first..).zip(lefts.zip(rights)) {
                 let span = Interval { left, right };
-                // Between two contacts that were one there is more than a convex gap.
+                // Between two contacts that were one, the gap is not convex.
                 let beside = match (i == first, i == after) {
                     (true, false) => Some(i),
                     (false, true) => Some(i - 1),
@@ -361,7 +369,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
     }
 
-    /// Describes what lies beside a contact: before one of them, or beyond the last.
+    /// Describes the region next to a contact: before one of them, or beyond the last.
     fn beside(&self, fields: &[ExteriorField<T>], look: &Survey<T>, next: usize) -> Beside<T> {
         let (contacts, [from, to]) = (self.contacts(), self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
@@ -385,7 +393,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Beside { next, edge, room, near, height, hidden, taken, doubt }
     }
 
-    /// Judges a height before loading, given its uncertainty and the potential there.
+    /// Judges an unloaded height, given its uncertainty and the potential there.
     fn verdict(&self, from: &Beside<T>, [height, hidden]: [T; 2], potential: T) -> Verdict {
         let rise = height - from.height;
         let gap = rise - (potential - from.taken) / self.kappa;
@@ -401,13 +409,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
     }
 
-    /// Returns the overlap that is put down to rounding.
+    /// Returns the overlap that counts as rounding.
     fn allowed(&self, height: T, at_edge: T) -> T {
         self.found.nothing() * (height - at_edge).abs()
             + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs())
     }
 
-    /// Looks at the curves themselves where the bodies seem to overlap: whether they do, and whether that is open.
+    /// Evaluates the curves themselves where the bodies seem to overlap. Returns the place and the
+    /// gap if they do, and whether the series of the pressures leave this open.
     fn verified(
         &self,
         fields: &[ExteriorField<T>],
@@ -422,7 +431,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
         };
         let gap = height - at_edge - (total(fields, x) - from.taken) / self.kappa;
-        // Where the formulas are all rounding, heights do not go with the slopes on both sides, and tell nothing.
+        // If the formulas are all rounding, heights do not match the slopes on both sides, and
+        // prove nothing.
         let aside = T::epsilon().sqrt() * self.found.interval.half_width();
         let beside = self.gap.nearest(x + aside);
         let rise = sampler.height(self.gap, beside)? - height;
@@ -437,43 +447,44 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 }
 
-/// The potential of all contacts.
+/// Returns the potential of all contacts.
 fn total<T: Real>(fields: &[ExteriorField<T>], x: T) -> T {
     fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x))
 }
 
-/// What lies between two contacts, or beyond the outermost ones.
+/// Region between two contacts, or beyond the outermost ones.
 #[derive(Clone, Copy)]
 struct Beside<T> {
-    /// The number of the contact on its right.
+    /// Number of the contact on its right.
     next: usize,
     room: Interval<T>,
-    /// The limit that heights are counted from.
+    /// Limit from which heights are counted.
     edge: T,
-    /// The distances from the limits on the left and on the right within which the gap opens as the pressure says.
+    /// Distances from the left and the right limit within which the gap opens by the pressure
+    /// inside.
     near: [T; 2],
-    /// The height of the gap at that limit, its uncertainty, and the potential there.
+    /// Height of the gap at this limit, its uncertainty, and the potential there.
     height: T,
     hidden: T,
     taken: T,
-    /// How far the series of the pressures leave the gap open.
+    /// Uncertainty of the gap due to the series of the pressures.
     doubt: T,
 }
 
 impl<T: Real> Beside<T> {
-    /// Tells whether a place is so near to a limit that the pressure inside tells of the gap.
+    /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
     fn is_near(&self, x: T) -> bool {
         x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
     }
 }
 
-/// What a height says of the gap between the loaded bodies.
+/// Verdict on the gap between the loaded bodies.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Verdict {
     Apart,
-    /// They may overlap by no more than the series of the pressures leave open.
+    /// Overlap, if any, within the uncertainty of the series of the pressures.
     Unresolved,
-    /// They may overlap by no more than the survey leaves open.
+    /// Overlap, if any, within the uncertainty of the survey.
     Hidden,
     Overlap,
 }

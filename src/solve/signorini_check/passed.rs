@@ -1,19 +1,20 @@
-//! Solutions that have passed the check, and what they tell of other loads.
+//! Solutions that have passed the check, and their consequences for other loads.
 //!
-//! Let a pressure P₁ on contacts Γ₁ under a load F₁ have passed, and let P₂ solve the equations on contacts Γ₂ that
-//! contain Γ₁, under no less load.
+//! Let a pressure P₁ on contacts Γ₁ under a load F₁ have passed, and let P₂ solve the equations on
+//! contacts Γ₂ that contain Γ₁, under no less load.
 //!
-//! - Outside Γ₂ the bodies touch nothing under F₁, as contacts grow with the load: of a lighter load only what a
-//!   heavier one has closed is open to doubt.
-//! - Where P₂ ≥ 0 on what Γ₂ has beyond Γ₁, it is so on Γ₁. The potential U of P₂ - P₁ is a constant c on Γ₁, and no more on
-//!   the rest of Γ₂, where the gap under F₁ was open. Off the places with P₂ > P₁, U is subharmonic; on these it is at most c,
-//!   and far away it falls without end. So U < c off them (the maximum principle), and no place is left where P₂ < P₁, as
-//!   U = c there.
+//! - Outside Γ₂ the bodies do not touch under F₁, as contacts grow with the load: under a lighter
+//!   load only the spans that a heavier one has closed need a check.
+//! - If P₂ ≥ 0 on the part of Γ₂ beyond Γ₁, then also on Γ₁. The potential U of P₂ - P₁ is a
+//!   constant c on Γ₁, and at most c on the rest of Γ₂, where the gap under F₁ was open. Off the
+//!   places with P₂ > P₁, U is subharmonic; on these it is at most c, and far away it falls without
+//!   end. So U < c off them (the maximum principle), and no place is left where P₂ < P₁, as U = c
+//!   there.
 
 use crate::real::same;
 use crate::{Interval, Real};
 
-/// The share of a contact by which limits that are the same may differ.
+/// Largest difference of equal limits, as a share of the half-width of the contact.
 const SAME: f64 = 1e-12;
 
 /// Solutions for two bodies that have passed, under the heaviest load and under the lightest.
@@ -23,12 +24,12 @@ pub(in crate::solve) struct Passed<T> {
     lightest: Checked<T>,
 }
 
-/// A solution that has passed.
+/// Solution that has passed.
 #[derive(Clone, Debug)]
 struct Checked<T> {
     /// F/κ and the tilt of the bodies; `None` before anything has passed.
     under: Option<[T; 2]>,
-    /// Samples of the gap that it was found from.
+    /// Number of samples of the gap that it was found from.
     samples: usize,
     contacts: Vec<Interval<T>>,
 }
@@ -39,7 +40,7 @@ impl<T: Real> Passed<T> {
         Self { heaviest: nothing.clone(), lightest: nothing }
     }
 
-    /// Forgets both: the bodies are others. Keeps room for one contact.
+    /// Forgets both solutions, for other bodies. Keeps room for one contact.
     pub fn clear(&mut self) {
         for solution in [&mut self.heaviest, &mut self.lightest] {
             solution.under = None;
@@ -48,15 +49,15 @@ impl<T: Real> Passed<T> {
         }
     }
 
-    /// Returns the contacts under no less load, F/κ, at the same tilt; none if nothing has passed there.
+    /// Returns the contacts under no less load, F/κ, at the same tilt; empty if none has passed.
     pub fn under_more(&self, [load, tilt]: [T; 2]) -> &[Interval<T>] {
         let Checked { under, contacts, .. } = &self.heaviest;
         let is_lighter = under.is_some_and(|[most, at]| load <= most && same(tilt, at));
         if is_lighter { contacts } else { &[] }
     }
 
-    /// Returns the contacts of a solution under no more load at the same tilt, from the same samples and inside the contacts
-    /// at hand; none if there is no such solution.
+    /// Returns the contacts of a solution under no more load at the same tilt, from the same
+    /// samples and inside the contacts at hand; empty if there is no such solution.
     pub fn under_less(&self, on: Under<T>, contacts: &[Interval<T>]) -> &[Interval<T>] {
         let both = [&self.heaviest, &self.lightest];
         let inside = both.into_iter().find(|solution| solution.is_inside(on, contacts));
@@ -74,7 +75,7 @@ impl<T: Real> Passed<T> {
     }
 }
 
-/// A load, F/κ, with the tilt of the bodies, and the samples of the gap so far.
+/// Load, F/κ, with the tilt of the bodies, and the number of samples of the gap so far.
 #[derive(Clone, Copy)]
 pub(in crate::solve) struct Under<T> {
     pub under: [T; 2],

@@ -7,9 +7,11 @@ use crate::{ContactError, Interval, Real};
 /// Halvings of the way in search of a step, down to about ε^(1/2) of it.
 const MOST_HALVES: usize = 26;
 
-/// Searches the way from the contacts to an overlap for a step of the heights that the slopes do not show.
+/// Searches the way from the contacts to an overlap for a step of the heights that the slopes do
+/// not show.
 ///
-/// Returns [`ContactError::InconsistentHeights`] with two places around it, or nothing where slopes and heights agree.
+/// Returns [`ContactError::InconsistentHeights`] with two places around the step, or `None` if
+/// slopes and heights agree.
 pub(in crate::solve) fn step_of_heights<T: Real>(
     gap: &Gap<'_, T>,
     contacts: Interval<T>,

@@ -1,28 +1,28 @@
-//! The first estimate of one contact, on few samples.
+//! First estimate of one contact, from few samples.
 
 use super::super::newton::Stop;
 use super::super::newton::single::{Converged, Effort};
 use super::{MOST_GUESSES, Single};
 use crate::{ContactError, Interval, Real};
 
-/// Initial guesses that may reach for an end before it is asked what the bodies bear.
+/// Initial guesses that may reach for an end before the capacity of the bodies is computed.
 const MOST_GUESSES_AT_END: usize = 2;
 
-/// A contact much narrower than this share of its span is to be seen in a closer one.
+/// Share of its span above which a contact needs no closer span.
 const COMPARABLE: f64 = 0.4;
 
-/// An estimate of the contact.
+/// Estimate of the contact.
 struct Guess<T> {
     on: Interval<T>,
-    /// The error of the search on the samples, as a share of the half-width.
+    /// Error of the search on the samples, as a share of the half-width.
     error: T,
-    /// The error of the samples, as a share of the span.
+    /// Error of the samples, as a share of the span.
     doubt: T,
 }
 
 impl<T: Real> Single<'_, '_, T> {
-    /// Returns a first estimate of the contact, and how far it is in doubt as a share of its half-width; `None` where
-    /// guesses lead nowhere.
+    /// Returns a first estimate of the contact, and its uncertainty as a share of its half-width;
+    /// `None` if guesses lead nowhere.
     pub(super) fn initial_guess(&mut self) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
         let gap = &self.contact.gap;
         let [left, right] = gap.range();
@@ -59,13 +59,13 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(None)
     }
 
-    /// Tells whether a breakpoint lies inside. It is where it is, and only the width is in doubt.
+    /// Tells whether a breakpoint lies inside: its place is exact, and only the width is uncertain.
     fn is_broken(&self, on: Interval<T>) -> bool {
         let breakpoint = self.contact.gap.breakpoint_after(on.left);
         breakpoint.is_some_and(|breakpoint| breakpoint < on.right)
     }
 
-    /// Returns how far a guess is in doubt, as a share of its half-width, if it is sure enough.
+    /// Returns the uncertainty of a guess, as a share of its half-width, if it is small enough.
     fn share_in_doubt(&self, span: Interval<T>, guess: &Guess<T>) -> Option<T> {
         let Guess { on, error, doubt } = *guess;
         let share = on.half_width() / span.half_width();
@@ -77,22 +77,22 @@ impl<T: Real> Single<'_, '_, T> {
             let is_sure = error <= T::of(0.1) && (comparable || relative <= sure);
             return is_sure.then(|| relative.min(T::of(0.1)));
         }
-        // Outside, the doubt grows with the powers that the guess has left out.
+        // Outside the span, the uncertainty grows with the powers that the guess has left out.
         let apart = (on.centre() - span.centre()).abs() / span.half_width();
         let reached = share.max(apart).max(T::one());
         let is_sure = relative * reached.powi(5) <= T::of(1e-3) && error <= sure;
         is_sure.then(|| sure * T::of(0.5))
     }
 
-    /// Returns a span around a guess, as close as its place is known, and whether it reached for an end of the bodies:
-    /// it goes half the way there, where the slope may be infinite.
+    /// Returns a span around a guess, as close as its place is known, and whether it reached for an
+    /// end of the bodies: it then goes half the way there, where the slope may be infinite.
     fn closer(&self, span: Interval<T>, guess: &Guess<T>) -> (Interval<T>, bool) {
         let Guess { on, doubt, .. } = *guess;
         let rounding = T::of(64.0) * T::epsilon() * span.left.abs().max(span.right.abs());
         let doubt = if self.is_broken(on) { T::zero() } else { (doubt + doubt).min(T::of(0.3)) };
         let reach = (doubt * span.half_width()).max(rounding);
         let [left, right] = self.beyond(on, T::of(0.125));
-        // What lies outside was guessed from the outermost panel, which may be a short one.
+        // Beyond the span, the guess relies on the outermost panel, which may be a short one.
         let guessed = |by: T| T::of(1.0 / 64.0) * by.max(T::zero());
         let next = Interval {
             left: left.min(on.left - reach - guessed(span.left - on.left)),

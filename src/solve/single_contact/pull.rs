@@ -1,4 +1,4 @@
-//! Adhesive contacts that are pulled at.
+//! Adhesive contacts under tension.
 
 use super::super::capacity::capacity;
 use super::super::edges::Given;
@@ -6,13 +6,13 @@ use super::{ABOUT, Single};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
 
-/// Steps in which an adhesive contact is pulled at: the first may be far longer than the last.
+/// Largest number of steps of a pull: the first may be far longer than the last.
 const MOST_PULLS: usize = 200;
 
 impl<T: Real> Single<'_, '_, T> {
-    /// Pulls at an adhesive contact: from no load on, or from the widest that there is room for, in
-    /// steps, each starting from the contact before. The contact gives way where its width no longer
-    /// falls with the load, but all at once.
+    /// Pulls at an adhesive contact: from zero load, or from the widest contact on the bodies, in
+    /// steps that each start from the contact before. The contact gives way where its width no
+    /// longer falls steadily with the load, but all at once.
     pub(super) fn pull(
         &mut self,
         last: Option<Interval<T>>,
@@ -28,7 +28,7 @@ impl<T: Real> Single<'_, '_, T> {
         let (mut least, mut last) = match self.press(None) {
             Ok(found) if load.is_zero() => return Ok(found),
             Ok(found) => (T::zero(), found.interval),
-            // Those of a contact that does not fit.
+            // Errors of a contact that does not fit.
             Err(
                 error @ (ContactError::DomainTooShort { .. }
                 | ContactError::NoEquilibrium { .. }
@@ -41,14 +41,14 @@ impl<T: Real> Single<'_, '_, T> {
                 if widest.load <= load {
                     return Err(too_short);
                 }
-                // Unless it grows with its load, the one to be found is wider.
+                // Unless this contact grows with its load, the one sought is wider.
                 fault = Some(too_short);
                 (widest.load, widest.on)
             }
             Err(error) => return Err(error),
         };
-        // Narrower contacts bear less than this. Where a step leads astray, half of it may not; what is
-        // left of the pull in the end is less than a thousandth of it.
+        // Narrower contacts bear less tension than this. If a step leads astray, half of it may
+        // not; the pull left in the end is less than a thousandth of the load.
         let pulls = self.conditions.edge_strengths(last.half_width());
         let least_of_all = T::of(-2.0) * (pulls.right + pulls.left);
         let mut step = (load - least).max(least_of_all - least.max(T::zero()));

@@ -1,4 +1,4 @@
-//! Where one contact is sought first, and where after a search that has found none.
+//! First start of one contact, and further ones after a search that has found none.
 
 use super::super::edges::{Conditions, Given};
 use super::super::first_contact::first_contact;
@@ -7,11 +7,13 @@ use crate::gap::Sampler;
 use crate::{ContactError, Ends, Interval, Real};
 
 impl<T: Real> Single<'_, '_, T> {
-    /// Returns another start: where the bodies are low, if heights of them are known, or where they touch first.
+    /// Returns another start: low places of the gap, if heights are known, or the place of first
+    /// contact.
     ///
-    /// On a flat that leans a little, if only by rounding, the lowest place is at one of its ends, and what is about that
-    /// end tells nothing of the other. But at the limits of a contact round bodies are F/κ apart, and wedges, which rise
-    /// most, up to twice as much: up to there the flat takes part.
+    /// On a flat that leans a little, if only by rounding, the lowest place is at one of its ends,
+    /// whose neighbourhood says nothing of the other end. But at the limits of a contact, the gap
+    /// of round bodies is F/κ, and of wedges, which rise most, up to twice as much: up to this
+    /// height the flat takes part.
     pub(super) fn elsewhere(
         &mut self,
         from: Elsewhere,
@@ -30,9 +32,10 @@ impl<T: Real> Single<'_, '_, T> {
         around.map(Some)
     }
 
-    /// Returns the place of first contact, with a width that may bear the load: with the slopes -m and n at the limits a
-    /// parabola bears `F = κ L (m + n)/4`. A contact that leans has the place of first contact at the angle
-    /// φ = π m/(m + n), as a wedge of these slopes has, which bears `F = κ L (m + n) sin φ/π`.
+    /// Returns the place of first contact, with a width that may bear the load: with the slopes -m
+    /// and n at the limits a parabola bears `F = κ L (m + n)/4`. A leaning contact has the place of
+    /// first contact at the angle φ = π m/(m + n), like a wedge of these slopes, which bears
+    /// `F = κ L (m + n) sin φ/π`.
     fn around_first_contact(
         &self,
         sampler: &mut Sampler<T>,
@@ -54,7 +57,7 @@ impl<T: Real> Single<'_, '_, T> {
             let falls = -sampler.slope(gap, on.left)?;
             let rise = falls + sampler.slope(gap, on.right)?;
             let stiffness = quarter * conditions.kappa * rise;
-            // So little is less than any number.
+            // So small a load is below any number.
             if stiffness > T::zero() && (reach * stiffness).is_zero() {
                 return Err(ContactError::Overflow { interval: on });
             }
@@ -74,10 +77,10 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(on)
     }
 
-    /// Returns the start, or the lowest gap.
+    /// Returns the start, or the lowest gap, if known.
     pub(super) fn start_if_known(&self) -> Option<Interval<T>> {
         let Conditions { edges, given, kappa } = self.conditions;
-        // Beside what adhesion adds a load tells nothing.
+        // Next to the effect of adhesion, a load tells nothing.
         let adhesive = edges.are_adhesive();
         let load = match given {
             Given::Load(load) if !adhesive => Some(load / kappa),
@@ -86,8 +89,8 @@ impl<T: Real> Single<'_, '_, T> {
         self.start.or_else(|| Some(self.look?.around_lowest(load)))
     }
 
-    /// Returns the first guess: the start, or the middle half of the bodies; where the load acts at a given
-    /// place, around that.
+    /// Returns the first guess: the start, or the middle half of the bodies; for a load at a given
+    /// place, an interval around it.
     pub(super) fn start(&self) -> Interval<T> {
         let [left, right] = self.contact.gap.range();
         let (whole, half) = (Interval { left, right }, T::of(0.5));
@@ -104,15 +107,15 @@ impl<T: Real> Single<'_, '_, T> {
         let inside = |on: &Interval<T>| on.left >= left && on.right <= right;
         let start = self.start_if_known().filter(inside).unwrap_or(middle);
         let on = self.conditions.with_given_limits(start);
-        // A given limit may be closer to the end of the bodies than that is wide.
+        // A given limit may be closer to the end of the bodies than this width.
         Interval {
             left: if on.left < left { half * left + half * on.right } else { on.left },
             right: if on.right > right { half * on.left + half * right } else { on.right },
         }
     }
 
-    /// Returns both limits, moved outward by a share of what lies between them and the next breakpoint inside. (A
-    /// body may be a thousand times as steep on the other side of a breakpoint.)
+    /// Returns both limits, moved outward by a share of their distance to the next breakpoint
+    /// inside. (A body may be a thousand times as steep on the other side of a breakpoint.)
     pub(super) fn beyond(&self, on: Interval<T>, share: T) -> [T; 2] {
         let gap = &self.contact.gap;
         let first = gap.breakpoint_after(on.left).filter(|&breakpoint| breakpoint < on.right);
@@ -121,7 +124,8 @@ impl<T: Real> Single<'_, '_, T> {
         [on.left - share * (right_end - on.left), on.right + share * (on.right - left_end)]
     }
 
-    /// Returns a span a little wider than a contact, by no more than half the way to the ends of the bodies.
+    /// Returns a span a little wider than a contact, by at most half the way to the ends of the
+    /// bodies.
     pub(super) fn around(&self, on: Interval<T>, share: T) -> Interval<T> {
         let (half, range) = (T::of(0.5), self.contact.gap.range());
         let [left, right] = self.beyond(on, share);

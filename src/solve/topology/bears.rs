@@ -1,10 +1,11 @@
-//! The load that the bodies bear in any number of contacts.
+//! Load that the bodies bear in any number of contacts.
 //!
-//! The contacts grow with the load, until a limit comes to an end of the bodies, or the loaded gap closes there before one
-//! does. The first is a condition of Newton's method, with the load one more unknown. For the second the load is
-//! raised from one that the bodies bear: the gap at an end falls at the rate g/κ, with Green's function g of what lies
-//! outside the contacts, which falls as they grow. So the gap is a convex function of the load, and no secant through
-//! two loads leads beyond the one under which it closes.
+//! The contacts grow with the load, until a limit reaches an end of the bodies, or the loaded gap
+//! closes there first. The first case is a condition of Newton's method, with the load as one more
+//! unknown. For the second, the load is raised from one that the bodies bear: the gap at an end
+//! shrinks at the rate g/κ, with Green's function g of the region outside the contacts, which
+//! decreases as they grow. So the gap is a convex function of the load, and no secant through two
+//! loads passes the load under which it closes.
 
 use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
@@ -15,32 +16,33 @@ use crate::quadrature::panels::{self, Several};
 use crate::solution::{ContactState, Solved, largest_pressure};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// How closely the load under which cells reach an end of the bodies is enclosed.
+/// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
 const NEAR: f64 = 1.25;
 
-/// The first of the shares of a load, each the square of the one before, among which one is sought that reaches no
-/// end of the bodies; and how many.
+/// Load fractions tried (¼, then each squared) until the contacts reach no end of the bodies, and
+/// the largest number of them.
 const LESS: f64 = 0.25;
 const MOST_SHARES: usize = 6;
 
-/// The first step of the load, as a share of it.
+/// First step of the load, as a share of it.
 const FIRST_STEP: f64 = 1.0 / 64.0;
 
-/// Loads tried. (Where a limit comes to the end the gap falls as the power 3/2 of what is left: 60 secants to rounding.)
+/// Loads tried. (If a limit reaches the end, the gap shrinks as the power 3/2 of the load left: 60
+/// secants to rounding.)
 const MOST_LOADS: usize = 100;
 
-/// The last step of the load, as a share of it, in units of rounding.
+/// Last step of the load, as a share of it, in units of rounding.
 const LAST_STEP: f64 = 1e4;
 
-/// The part of a load that the bodies bear.
+/// Part of a load that the bodies bear.
 pub(in super::super) enum Borne<T: Real> {
-    /// All of it, in these contacts.
+    /// All of the load, in these contacts.
     All(ContactState<T>),
-    /// Less, in contacts that reach an end.
+    /// Less than the load, in contacts that reach an end.
     UpTo(Capacity<T>),
 }
 
-/// Returns what the bodies bear of a load under which no contact was found, if that is known.
+/// Returns the part that the bodies bear of a load under which no contact was found, if known.
 pub(in super::super) fn bears<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
@@ -49,7 +51,8 @@ pub(in super::super) fn bears<T: Real>(
     Search::new(contact, *conditions, work).bears(conditions)
 }
 
-/// Returns the widest contacts that only just reach a corner, where one holds the contacts under some load.
+/// Returns the widest contacts that just reach a corner, if it holds the contacts under a given
+/// load.
 pub(in super::super) fn up_to_corner<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
@@ -67,12 +70,13 @@ pub(in super::super) fn up_to_corner<T: Real>(
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Returns the contacts under a load that the bodies bear, where that is known.
+    /// Returns the contacts under a load that the bodies bear, if known. Fails if the load is too
+    /// large.
     pub(super) fn borne(
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Option<ContactState<T>>, ContactError<T>> {
-        // Turned, they bear another load.
+        // Bodies that turn bear another load.
         if self.end.is_some() || self.turns() {
             return Ok(None);
         }
@@ -83,7 +87,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
     }
 
-    /// Returns what the bodies bear of a load under which cells reach an end of them.
+    /// Returns the part that the bodies bear of a load under which cells reach an end of them.
     pub(super) fn bears(&mut self, conditions: &Conditions<T>) -> Option<Borne<T>> {
         let ends = self.contact.ends();
         if let Some(side) = self.end_touched_first() {
@@ -95,7 +99,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         })
     }
 
-    /// Returns the end of the bodies at which the gap is lowest: nothing is borne then, unless they turn.
+    /// Returns the end of the bodies at which the gap is lowest: they bear no load then, unless
+    /// they turn.
     pub(super) fn end_touched_first(&mut self) -> Option<Side> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         if self.turns() {
@@ -105,17 +110,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
     }
 
-    /// Returns what the bodies bear, where that is not nothing.
+    /// Returns the part of the load that the bodies bear, if it is not zero.
     fn under_some_load(&mut self, conditions: &Conditions<T>) -> Option<Borne<T>> {
         let (low, high) = self.end_reached_by(conditions)?;
-        // What was found last may be far from there.
+        // The contacts last found may be far from those sought.
         self.work.workspace.keep(&[]);
         let exact = high.and_then(|(load, side)| self.up_to_end(&conditions.under(load), side));
         let exact = exact.filter(|exact| exact.load < conditions.load());
         exact.map(Borne::UpTo).or_else(|| self.until_closed(conditions, low))
     }
 
-    /// Returns the end of the bodies at which one of the two places lies that hold up a light load that acts at `at`.
+    /// Returns an end of the bodies that is one of the two supports of a light load acting at `at`.
     fn end_that_supports(&mut self, at: T) -> Option<Side> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let gap = &self.contact.gap;
@@ -128,7 +133,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             };
             heights.iter().copied().reduce(lower)
         };
-        // Each chord is lower at that place than the one before.
+        // Each chord is lower at `at` than the one before.
         let mut slope = T::zero();
         for _ in 0..heights.len() {
             let [from, to] = [lowest(left, slope)?, lowest(right, slope)?];
@@ -145,7 +150,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the contacts under the load that puts a limit at an end of the bodies.
     fn up_to_end(&mut self, conditions: &Conditions<T>, end: Side) -> Option<Capacity<T>> {
-        // Turned, the bodies bear another load.
+        // Bodies that turn bear another load.
         if conditions.at().is_some() {
             return None;
         }
@@ -154,15 +159,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let found = search.several(None).ok()?;
         let (on, room) = (found.interval, self.room(found.interval));
         let side = if room.right < room.left { Side::Right } else { Side::Left };
-        // A single contact as wide as the widest in balance may be another one.
+        // A single contact as wide as the widest balanced one may be a different one.
         if room[side] > T::epsilon().sqrt() * on.half_width() {
             return None;
         }
         self.capacity(&found, side)
     }
 
-    /// Raises the load from one that leaves the gap open at the ends of the bodies, until it is closed there or the load is
-    /// the one that is asked for.
+    /// Raises the load from one that leaves the gap open at the ends of the bodies, until it closes
+    /// there or the required load is reached.
     fn until_closed(&mut self, conditions: &Conditions<T>, low: T) -> Option<Borne<T>> {
         let (half, asked) = (T::of(0.5), conditions.load());
         let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
@@ -188,15 +193,16 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let (found, gaps) = self.gaps_at_ends(&conditions.under(load))?;
         let side = lower(gaps);
-        // Where it stays open it is something else that the search ends by.
+        // If the gap stays open, the search has failed for another reason.
         let closes = gaps[side] <= T::epsilon().sqrt() * load / conditions.kappa;
         if closes { Some(Borne::UpTo(self.capacity(&found, side)?)) } else { None }
     }
 
-    /// Finds the contacts under a load, with the gap that is left at each end of the bodies; infinite at a corner.
+    /// Finds the contacts under a load, and the gap left at each end of the bodies; infinite at a
+    /// corner.
     fn gaps_at_ends(&mut self, conditions: &Conditions<T>) -> Option<(ContactState<T>, Ends<T>)> {
         let mut search = Search::new(self.contact, *conditions, &mut *self.work);
-        // Nothing more is asked of what the bodies bear.
+        // The search must not ask again for the load that the bodies bear.
         search.has_run_out = true;
         let found = search.find().ok()?;
         let (gap, ends, at_corner) =
@@ -206,7 +212,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let solved = Solved { gap, integrator, kappa: conditions.kappa, found: &found };
         let gap_at = |side: Side| match at_corner[side] {
             true => Ok(T::one() / T::zero()),
-            // By rounding.
+            // The contact reaches the end by rounding.
             false if found.interval.contains(ends[side]) => Ok(T::zero()),
             false => solved.gap_at(ends[side]),
         };
@@ -220,7 +226,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ends { left: on.left - ends.left, right: ends.right - on.right }
     }
 
-    /// Returns the contacts found as what the bodies bear.
+    /// Returns the contacts found as the capacity of the bodies.
     fn capacity(&mut self, found: &ContactState<T>, side: Side) -> Option<Capacity<T>> {
         let ContactState { interval: on, load, free, .. } = *found;
         let (integrator, gap) = (&*self.work.integrator, &self.contact.gap.tilted(found.tilt));
@@ -236,8 +242,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Some(Capacity { on, end: self.contact.ends()[side], load, peak })
     }
 
-    /// Returns a load under which cells reach no end of the bodies, and one not much larger under which they do, with the
-    /// end. The latter is not known where the first look at cells reaches none.
+    /// Returns a load under which cells reach no end of the bodies, and one not much larger under
+    /// which they do, with the end. The larger load is `None` if the cells under the full load
+    /// reach no end.
     fn end_reached_by(&mut self, conditions: &Conditions<T>) -> Option<(T, Option<(T, Side)>)> {
         let mut end_reached = |load: T| {
             let coarse = self.coarse(&conditions.under(load), FIRST_CELLS).ok()?;
@@ -256,7 +263,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             load = share * conditions.load();
             share *= share;
         }
-        // Not even under so little.
+        // Cells reach an end even under the smallest load.
         let Some(mut low) = low else { return Some((load, high)) };
         while let Some((above, _)) = high
             && above > T::of(NEAR) * low
@@ -276,7 +283,7 @@ fn lower<T: Real>(gaps: Ends<T>) -> Side {
     if gaps.right < gaps.left { Side::Right } else { Side::Left }
 }
 
-/// Returns how many more steps like the last one close a gap that this has made closer.
+/// Returns the number of further steps like the last one that close a gap.
 fn secant<T: Real>(before: T, closer: T) -> T {
     let fall = before - closer;
     if fall > T::zero() { closer / fall } else { T::one() / T::epsilon() }

@@ -1,4 +1,4 @@
-//! The check of a solution: narrow features, corners, tension inside and overlap outside.
+//! Check of a solution: narrow features, corners, tension inside and overlap outside.
 
 use super::super::signorini_check::{SignoriniCheck, Under};
 use super::{Search, Workspace};
@@ -9,7 +9,7 @@ use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real};
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Looks for narrow features in the contacts that were found; tells whether the panels missed one.
+    /// Looks for narrow features in the contacts found; tells whether the panels missed one.
     pub(super) fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
         let contact = self.contact;
         if contact.single_interval || contact.gap.is_convex() {
@@ -30,7 +30,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         found: &ContactState<T>,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        // More contacts may press at a corner that is not reached.
+        // More contacts may press at a corner not reached yet.
         let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
         let is_said = self.contact.gap.is_convex();
         if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
@@ -47,14 +47,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(self.fault(gap, found)?.or(lifts_off))
     }
 
-    /// Returns the pull inside the contacts, or the overlap outside, by which a solution fails.
+    /// Returns the tension inside the contacts, or the overlap outside, by which a solution fails.
     fn fault(
         &mut self,
         gap: &Gap<'_, T>,
         found: &ContactState<T>,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
         let kappa = self.contact.kappa;
-        // Where the integrator has no panels, the contact is looked at on some that are made for it.
+        // If the integrator has no panels, some are made for the check of the contact.
         let mut own = None;
         if panels::several(self.work.integrator).is_none() {
             let integrator = if panels::is_panels(self.work.integrator) {
@@ -76,7 +76,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let on = Under { under, samples: integrator.cost().samples };
         let contacts = panels::several(integrator).map(Several::contacts);
         let contacts = contacts.unwrap_or(std::slice::from_ref(&interval));
-        // What a heavier load has left open a lighter one leaves open; what a lighter one presses a heavier one does.
+        // A gap open under a heavier load is open under a lighter one; a place pressed under a
+        // lighter load is pressed under a heavier one.
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
         let closed = &self.closed;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
@@ -88,7 +89,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
             return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
         }
-        // From end to end nothing lies outside.
+        // A contact from end to end leaves nothing outside.
         if !covers {
             check.overlap(fields, overlaps, look, self.contact.ends(), self.work.cost)?;
         }
@@ -103,7 +104,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
     }
 
-    /// Looks for narrow features beside the contacts that were found.
+    /// Looks for narrow features next to the contacts found.
     fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
         let gap = &self.contact.gap.tilted(found.tilt);
         self.work.workspace.take(gap, self.work.cost)?;
@@ -113,7 +114,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.work.workspace.look.resolve(gap, load, contacts, self.work.cost)
     }
 
-    /// Tells whether one contact leaves nothing of the bodies outside.
+    /// Tells whether one contact covers the bodies from end to end.
     fn covers(&self, found: &ContactState<T>) -> bool {
         let (on, ends) = (found.interval, self.contact.ends());
         let is_one = panels::several(self.work.integrator).is_none();

@@ -1,14 +1,14 @@
-//! The loop over sets of contacts, and the table by which one is made of the last.
+//! The loop over sets of contacts, and the table by which one set is made from the last.
 //!
-//! | what the search or the check says | the next set of contacts |
+//! | result of the search or the check | next set of contacts |
 //! |---|---|
-//! | the bodies would pull at each other in spans | the contacts are parted there |
-//! | they would overlap in dips | a contact more in each dip |
-//! | a gap closes | the contacts beside it are one |
-//! | a contact vanishes | the others |
-//! | a limit passes a corner | it is put there |
-//! | a limit passes the other end of the bodies, where one end is to be reached | it is put there |
-//! | nothing of use, or the set before the last again | that of the cells |
+//! | tension in spans | the contacts are parted there |
+//! | overlap in dips | one more contact in each dip |
+//! | a gap closes | the contacts next to it become one |
+//! | a contact vanishes | the other contacts |
+//! | a limit passes a corner | the limit is put at the corner |
+//! | a limit passes an end, where the load for the other end is sought | the limit is put there |
+//! | nothing of use, or the set before the last again | the set of the cells |
 //!
 //! All faults of a kind are mended at once.
 
@@ -20,30 +20,30 @@ use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
-/// The share of F/κ by which heights may be uncertain, to tell by them alone where the bodies touch.
+/// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies touch.
 const CLOSELY: f64 = 0.002;
 
 /// Sets of contacts tried before the search is given up.
 const MOST_TRIALS: usize = 12;
 
-/// The share of its width that a gap keeps at most, when another one closes, to be closed with it.
+/// Largest share of its width that a gap may keep to be closed together with another gap.
 const CLOSING: f64 = 0.1;
 
-/// Doublings of the cells: 2 112 of them tell contacts a thousandth of the bodies apart from each other.
+/// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
 const MOST_DOUBLINGS: usize = 6;
 
-/// The share of a contact by which a limit leaves a corner that does not hold it; its square is the share of the
-/// bodies that a contact has at first where they would overlap.
+/// Share of a contact's half-width by which a limit leaves a corner that does not hold it. Its
+/// square is the first half-width of a contact put at an overlap, as a share of the bodies.
 const CLOSER: f64 = 0.01;
 
-/// The result of a trial of a set of contacts.
+/// Result of a trial of a set of contacts.
 enum Trial<T: Real> {
     Passed(ContactState<T>),
-    /// The check has failed.
+    /// Error of the check.
     Fails(ContactError<T>),
-    /// The search has ended without limits.
+    /// Reason for the search to end without limits.
     Stops(Stop<T>),
-    /// The search for the only contact has failed.
+    /// Error of the search for a single contact.
     NotFound(ContactError<T>),
 }
 
@@ -58,7 +58,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let first = fault.clone().filter(|fault| Outcome::of(fault) == Outcome::NotFound);
         let mut fault = fault;
-        // Whether a corner presses is seen of the contacts that are there without it.
+        // A corner is known to press from the contacts found without it.
         let edges = self.contact.edges.map(Edge::let_go);
         let conditions = Conditions { edges, ..self.conditions };
         let last = &self.work.workspace.last;
@@ -71,7 +71,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
             if start == Start::ActiveSet {
                 if self.runs_out.is_some() {
-                    // More cells find no contact under more than the bodies bear.
+                    // More cells find no contact under more load than the bodies bear.
                     if std::mem::replace(&mut self.has_run_out, true) {
                         break;
                     }
@@ -96,7 +96,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             };
             self.report(start, outcome);
             let Workspace { newton, before, .. } = &*self.work.workspace;
-            // One revision undoes the other.
+            // This revision undoes the one before.
             let is_undone = is_alike(&newton.on, &earlier);
             start = if is_undone { Start::ActiveSet } else { next };
             earlier.clone_from(before);
@@ -109,13 +109,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
         ContactError::NoEquilibrium { half_width: T::of(0.5) * (to - from), near: from }
     }
 
-    /// Returns the error of a search whose trials have all failed; `first` is that of the search for one contact.
+    /// Returns the error of a search whose trials have all failed; `first` is the error of the
+    /// search for one contact.
     fn not_found(
         &self,
         first: Option<ContactError<T>>,
         fault: Option<ContactError<T>>,
     ) -> ContactError<T> {
-        // The error of one contact alone says more, unless it is the load that this would bear.
+        // The error of one contact alone says more, unless it is the load that one contact would
+        // bear.
         let says = |fault: &ContactError<T>| match fault {
             ContactError::NoEquilibrium { .. } => false,
             ContactError::DomainTooShort { .. } => self.runs_out.is_none(),
@@ -141,8 +143,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         })
     }
 
-    /// Revises the contacts by the way in which the search for their limits has ended. Returns the outcome, and the next
-    /// start.
+    /// Revises the contacts according to the end of the search for their limits. Returns the
+    /// outcome, and the next start.
     fn revise(&mut self, stop: Stop<T>, start: Start) -> (Outcome, Start) {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
@@ -151,7 +153,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         {
             self.closed.push(newton.closed_gap(i));
         }
-        // Where the search has led without an end says little.
+        // The limits at which the search has stopped say little.
         let led_to = std::mem::replace(&mut newton.on, before.clone());
         let on = &mut newton.on;
         let outcome = match stop {
@@ -172,7 +174,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 put(on, side, ends[side]);
                 Outcome::ReachedCorner
             }
-            // This end is reached under less.
+            // This end is reached under a smaller load.
             Stop::Beyond { side, .. } if self.end.is_some() => {
                 self.end = Some(side);
                 Outcome::ReachedCorner
@@ -181,7 +183,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 if let Stop::Beyond { side, .. } = stop {
                     self.runs_out = Some(side);
                 }
-                // Where contacts were mended cells are to look; of others nothing is to be learnt.
+                // After a revision, the cells start from the last contacts; otherwise those say
+                // nothing.
                 if start != Start::Attempt {
                     on.clear();
                 }
@@ -191,8 +194,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         (outcome, Start::Attempt)
     }
 
-    /// Parts the contacts at hand where they would pull, or puts some where the bodies would overlap. Returns the next
-    /// start.
+    /// Parts the contacts at hand where there is tension, or puts new ones where the bodies would
+    /// overlap. Returns the next start.
     fn mend(&mut self) -> Start {
         let ends = self.contact.ends();
         let Workspace { newton, before, tension_spans, overlaps, .. } = &mut *self.work.workspace;
@@ -222,7 +225,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if on.is_empty() || on == before { Start::ActiveSet } else { Start::Attempt }
     }
 
-    /// Tells at which sides a corner may hold the contacts.
+    /// Returns the sides at which a corner may hold the contacts.
     pub(super) fn corners(&self) -> Ends<bool> {
         let mut corners =
             self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
@@ -232,7 +235,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         corners
     }
 
-    /// Moves the contacts at hand to where they bear the load, again as long as their panels miss narrow features.
+    /// Moves the contacts at hand until they bear the load, and repeats as long as their panels
+    /// miss narrow features.
     fn converge(
         &mut self,
         conditions: &Conditions<T>,
@@ -285,7 +289,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             None => conditions.load(),
         };
         let found = newton.found(several, conditions.kappa, load, &sought);
-        // A corner that pulls does not hold the contact.
+        // A corner in tension does not hold the contact.
         let pulls = |&side: &Side| corners[side] && found.strengths[side] < T::zero();
         let lets_go = |&side: &Side| matches!(conditions.edges[side], Edge::FreeUntil(_));
         let Some(side) = Side::BOTH.into_iter().filter(pulls).find(lets_go) else {
@@ -299,7 +303,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.converge_once(conditions, corners)
     }
 
-    /// Moves the only contact of a set to where it bears the load.
+    /// Moves the only contact of a set until it bears the load.
     fn one_of_set(
         &mut self,
         conditions: &Conditions<T>,
@@ -314,9 +318,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(Ok(found))
     }
 
-    /// Takes the contacts from a coarse active set, with a closer look where a check has failed.
+    /// Takes the contacts from a coarse active set, with more cells after each failure.
     fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
-        // As many cells as have not failed yet.
+        // This number of cells has not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(FIRST_CELLS << MOST_DOUBLINGS);
         let coarse = self.coarse(conditions, cells)?;
@@ -352,14 +356,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         })
     }
 
-    /// Returns the end of the bodies that contacts reach, where no corner holds them.
+    /// Returns the end of the bodies that contacts reach with no corner to hold them.
     pub(super) fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
         let at_corner = self.corners();
         Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !at_corner[side])
     }
 }
 
-/// Tells whether two sets have as many contacts, and each of one overlaps its counterpart in the other.
+/// Tells whether two sets have the same number of contacts, each overlapping its counterpart.
 fn is_alike<T: Real>(one: &[Interval<T>], other: &[Interval<T>]) -> bool {
     let meet = |(one, other): (&Interval<T>, &Interval<T>)| {
         one.left < other.right && other.left < one.right

@@ -1,4 +1,4 @@
-//! The state that a search keeps from one solve to the next.
+//! State that a search keeps from one solve to the next.
 
 use super::super::exterior_field::ExteriorField;
 use super::super::newton::several::NewtonSeveral;
@@ -7,28 +7,28 @@ use crate::gap::{Asked, Cost, Gap, Survey};
 use crate::solution::Report;
 use crate::{ContactError, Interval, Real};
 
-/// The share of F/κ by which heights may be uncertain where the bodies may touch, to start from.
+/// Largest uncertainty of heights where the bodies may touch, as a share of F/κ, for a start.
 const ROUGHLY: f64 = 0.25;
 
-/// What a search needs besides samples, kept from one solve to the next.
+/// State that a search needs besides samples, kept from one solve to the next.
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
-    /// Heights of the bodies, with the number of the gap that they are of.
+    /// Heights of the bodies, and the number of their gap.
     pub(super) look: Survey<T>,
     pub(super) of: Option<u64>,
-    /// The length of the narrowest feature that was asked for last.
+    /// Length of the narrowest feature of the last request.
     pub(super) resolution: Option<T>,
     pub(super) newton: NewtonSeveral<T>,
     pub(super) fields: Vec<ExteriorField<T>>,
-    /// The contacts last found, and those that Newton's method started from.
+    /// Contacts last found, and those from which Newton's method started.
     pub(super) last: Vec<Interval<T>>,
     pub(super) before: Vec<Interval<T>>,
     pub(super) passed: Passed<T>,
-    /// Where the bodies would pull at each other in what was checked last.
+    /// Spans of tension in the solution checked last.
     pub(super) tension_spans: TensionSpans<T>,
-    /// Dips in which they would overlap.
+    /// Dips in which the bodies would overlap in the solution checked last.
     pub(super) overlaps: Overlaps<T>,
-    /// Cells times steps of the active sets of the search so far.
+    /// Cells times steps, summed over the active sets of this search.
     pub cell_work: usize,
     pub report: Report,
 }
@@ -51,7 +51,7 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// Returns the survey, if it is one of these bodies.
+    /// Returns the survey, if it belongs to these bodies.
     pub fn survey_of(&self, gap: &Gap<'_, T>) -> Option<&Survey<T>> {
         (self.of == Some(gap.number())).then_some(&self.look)
     }
@@ -68,7 +68,7 @@ impl<T: Real> Workspace<T> {
         Some(Interval { left: first.left, right: last.right })
     }
 
-    /// Returns about the load that is asked for, as F/κ.
+    /// Returns an estimate of the load for this request, as F/κ.
     pub fn about(
         &mut self,
         gap: &Gap<'_, T>,
@@ -79,7 +79,8 @@ impl<T: Real> Workspace<T> {
         Ok(self.look.load_of(asked))
     }
 
-    /// Forgets what it was that coarser features left open.
+    /// Forgets the searches for narrow features, and the solutions that have passed, if another
+    /// resolution is requested.
     pub(super) fn look_for_features(&mut self, gap: &Gap<'_, T>) {
         if self.resolution != gap.resolution() {
             self.resolution = gap.resolution();
@@ -88,7 +89,7 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// Surveys the bodies, once for a pair of them and as closely as is asked for.
+    /// Surveys the bodies, once for each pair, and as closely as requested.
     pub fn look(
         &mut self,
         gap: &Gap<'_, T>,
@@ -100,7 +101,7 @@ impl<T: Real> Workspace<T> {
         Ok(&self.look)
     }
 
-    /// Takes a first look at the bodies, once for a pair of them.
+    /// Takes a first look at the bodies, once for each pair.
     pub(super) fn take(
         &mut self,
         gap: &Gap<'_, T>,
@@ -109,10 +110,10 @@ impl<T: Real> Workspace<T> {
         if self.of != Some(gap.number()) {
             self.of = None;
             self.passed.clear();
-            // Room for what a check takes, which not all bodies need.
+            // Room for the check, which not all bodies need.
             self.fields.reserve(1);
             self.overlaps.closed_before.reserve(3);
-            // It serves whatever the tilt.
+            // The survey serves any tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
             self.of = Some(gap.number());
         }

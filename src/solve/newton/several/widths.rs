@@ -1,22 +1,22 @@
-//! The widths of contacts and of the gaps between them, and how far a step may change them.
+//! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
 use super::{Cut, MOST_CUT, NewtonSeveral, Width};
 use crate::{Interval, Real};
 use std::cmp::Ordering;
 
-/// What a contact or a gap keeps of its width in one step.
+/// Least share of its width that a contact or a gap keeps in one step.
 const LEAST_LEFT: f64 = 0.3;
 
-/// By how much a width may grow in one step.
+/// Largest factor by which a width may grow in one step.
 const MOST_GROWTH: f64 = 4.0;
 
-/// A gap of so many units of rounding of x is nothing.
+/// Width below which a gap counts as closed, in units of rounding of x.
 const NOTHING: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
-    /// Returns the width that the step takes furthest below the least that it may leave, if any. That of a gap is kept from
-    /// falling further, and what else moves with it: the condition that a pressure in its place would not meet is
-    /// left open.
+    /// Returns the width that the step takes furthest below its allowed least, if any. A gap is
+    /// kept from shrinking further, together with the limits that move with it: the condition that
+    /// a pressure in the gap would violate is left open.
     pub(super) fn too_far(&mut self) -> Option<Width> {
         let mut worst: Option<(T, Width)> = None;
         for i in 0..self.moves.len() - 1 {
@@ -35,7 +35,7 @@ impl<T: Real> NewtonSeveral<T> {
             self.linear.solve(&self.unit, &mut self.open);
             let left = place - usize::from(self.held.left);
             let narrows = |step: &[T]| step[left + 1] - step[left];
-            // To nothing, of which the least is left.
+            // A step of half the width closes the gap, of which the least share is left.
             let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
             let open = excess / narrows(&self.open);
             if open.is_finite() {
@@ -48,7 +48,8 @@ impl<T: Real> NewtonSeveral<T> {
         Some(place)
     }
 
-    /// Returns the least that a step leaves of a width, as a share of it. One that was kept from falling may fall faster.
+    /// Returns the least share of a width that a step leaves. A width that was kept from shrinking
+    /// may shrink faster.
     fn least(&self, i: Width) -> T {
         let times = match self.cut {
             Some((cut, times)) if cut == Cut::Width(i) => times + 1,
@@ -62,15 +63,16 @@ impl<T: Real> NewtonSeveral<T> {
         if i.is_multiple_of(2) { on.right - on.left } else { self.on[i / 2 + 1].left - on.right }
     }
 
-    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step would have it:
-    /// the load of a round body goes with it, and so does what is left of a gap that closes.
+    /// Takes the step. The square of each width, of contacts and of gaps, changes as the step
+    /// prescribes: both the load of a round body and the load left until a gap closes are linear in
+    /// this square.
     pub(super) fn advance(&mut self) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
         let count = self.moves.len();
         let mut order = std::mem::take(&mut self.order);
         order.clear();
         order.extend(0..count - 1);
-        // The narrowest first: their limits may move by more than they are wide.
+        // The narrowest first: their limits may move by more than the width.
         let by_width = |&one: &usize, &other: &usize| {
             self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
         };
@@ -82,7 +84,8 @@ impl<T: Real> NewtonSeveral<T> {
             let square = (width * (width + two * change)).max(least * least);
             let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
             let correction = next - (width + change);
-            // On both sides, but a narrow neighbour has no room for it, and a corner stays.
+            // Both limits share the correction, but a narrow neighbour has no room for it, and a
+            // corner stays.
             let room = |beside: Option<Width>, corner: bool| match beside {
                 Some(beside) => width.min(self.width(beside)),
                 None if corner => zero,
@@ -90,7 +93,7 @@ impl<T: Real> NewtonSeveral<T> {
             };
             let left = room(i.checked_sub(1), self.held.left);
             let right = room((i + 2 < count).then_some(i + 1), self.held.right);
-            // Between two limits that are held.
+            // Both limits are held.
             if (left + right).is_zero() {
                 continue;
             }
@@ -99,7 +102,7 @@ impl<T: Real> NewtonSeveral<T> {
             self.moves[i + 1] += share * correction;
         }
         self.order = order;
-        // What is good for one width may be too much for the next.
+        // A correction good for one width may be too much for the next.
         let mut share = one;
         for i in 0..count - 1 {
             let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
@@ -124,7 +127,8 @@ impl<T: Real> NewtonSeveral<T> {
         self.gap(i) <= self.rounding(i)
     }
 
-    /// Returns the rounding of the limits of a contact and of the next.
+    /// Returns the width below which the gap after a contact counts as closed, from the rounding of
+    /// x.
     fn rounding(&self, i: usize) -> T {
         let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
         T::of(NOTHING) * T::epsilon() * size
@@ -135,7 +139,8 @@ impl<T: Real> NewtonSeveral<T> {
         self.on[i + 1].left - self.on[i].right
     }
 
-    /// Returns a gap that is nothing, as far as its place is in doubt: by the rounding of both contacts.
+    /// Returns a closed gap, widened by the rounding of both contacts to cover the uncertainty of
+    /// its place.
     pub(in super::super::super) fn closed_gap(&self, i: usize) -> Interval<T> {
         let rounding = self.rounding(i);
         Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
