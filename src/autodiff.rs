@@ -28,13 +28,13 @@
 //! # Ok::<(), linecontact::ContactError<f64>>(())
 //! ```
 //!
-//! Where `X` or `Y` has no derivative (the `|k|` of a wedge, the ends of `sqrt(1 - k²)`) it has none
-//! here either: make a piece of each side ([`Piecewise`](crate::Piecewise)), or take an angle for the
-//! parameter. `powf` of zero is NaN in its derivative, `powi` is not.
+//! Where `X` or `Y` has no derivative (the `|k|` of a wedge, the ends of `sqrt(1 - k²)`) it has
+//! none here either: make a piece of each side ([`Piecewise`](crate::Piecewise)), or take an angle
+//! as the parameter. At zero the derivative of `powf` is NaN, unlike the derivative of `powi`.
 //!
 //! # Solutions
-//! The solver itself works on dual numbers. Give one parameter (of a shape, a load, κ, a limit, an x)
-//! the derivative 1, and whatever comes out has its derivative by that parameter:
+//! The solver itself works on dual numbers. Give one parameter (of a shape, a load, κ, a limit, an
+//! x) the derivative 1, and every result has its derivative by that parameter:
 //!
 //! ```
 //! use linecontact::autodiff::num_dual::Dual64;
@@ -55,22 +55,25 @@
 //! # Ok::<(), linecontact::ContactError<num_dual::Dual64>>(())
 //! ```
 //!
-//! [`Dual`] has one derivative, [`DualSVec`] a gradient from a single solution, [`HyperDual`] second
-//! ones. The derivatives are those of the exact solution, not of the steps that led to it: the panels
-//! are refined until the derivatives of the slope have converged too, and the limits take a step more
-//! of Newton's rule for each order, whatever search has found them. In the closed forms of
-//! [`reference`](mod@crate::reference) they come out to 1e-14, in formulas with noise to the noise of
-//! their derivatives; there is no estimate of their error. A kink or jump of a slope that moves with
-//! the parameter must be declared as a breakpoint: halving finds where it is, not that it moves. Where edges
-//! change their kind ([`Edge::FreeUntil`](crate::Edge::FreeUntil)), where a contact gives way, and where contacts are
-//! born or merge, there is no derivative, and what comes out is that of one side, or not finite. (Up to a
-//! merger the inner limits go like the root of the load that is left: their derivatives grow without bound.)
-//! Of several contacts the number and about where they are follow from the values; then all limits take the
-//! steps for the derivatives at once. Not finite is the derivative of a
-//! pressure at the limits, and that of [`Solution::gap_at`](crate::Solution::gap_at) by what moves the
-//! limits. Of [`Solution::peak`](crate::Solution::peak) the value has its derivative, the place has not.
+//! [`Dual`] has one derivative, [`DualSVec`] a gradient from a single solution, [`HyperDual`]
+//! second derivatives. The derivatives are those of the exact solution, not of the steps that led
+//! to it: the panels are refined until the derivatives of the slope have converged too, and the
+//! limits take one more Newton step for each order, whatever search has found them. The derivatives
+//! of the closed forms of [`reference`](mod@crate::reference) come out to 1e-14; with noisy
+//! formulas, to the noise of their derivatives. Their error is not estimated.
 //!
-//! Comparisons, and so all decisions, go by the values: these are what they are without derivatives,
+//! A kink or jump of the slope that moves with the parameter must be declared as a breakpoint:
+//! halving finds where it is, not that it moves. There is no derivative where edges change their
+//! kind ([`Edge::FreeUntil`](crate::Edge::FreeUntil)), where a contact gives way, or where contacts
+//! appear or merge; the result is then the derivative on one side, or not finite. (Up to a merger
+//! the inner limits go like the root of the remaining load: their derivatives grow without bound.)
+//! The number of several contacts and their approximate limits follow from the values; then all
+//! limits take the steps for the derivatives at once. Two derivatives are not finite: of a pressure
+//! at the limits, and of [`Solution::gap_at`](crate::Solution::gap_at) by a parameter that moves
+//! the limits. The value of [`Solution::peak`](crate::Solution::peak) has its derivative, its place
+//! has not.
+//!
+//! Comparisons, and so all decisions, use the values: these are the same as without derivatives,
 //! but for rounding.
 
 pub use num_dual;
@@ -116,7 +119,7 @@ where
     }
 }
 
-/// A curve `[X(k), Y(k)]` for numbers of any kind; [`Autodiff`] makes a profile of it.
+/// Curve `[X(k), Y(k)]` for numbers of any kind; [`Autodiff`] makes a profile of it.
 ///
 /// `T` is the number type of the solver. Constants become numbers of the kind at hand by
 /// [`Real::of`], and shape parameters of type `T` by [`Over::lift`].
@@ -138,16 +141,16 @@ where
 /// }
 /// ```
 pub trait Formula<T: Real>: Send + Sync {
-    /// The range of `k`, both ends finite, over which `X` rises or falls strictly.
+    /// Returns the range of `k`, both ends finite, over which `X` rises or falls strictly.
     fn domain(&self) -> [T; 2];
 
-    /// `(X(k), Y(k))`. Where all constants are plain, `N: Real` will do for the bound.
+    /// Returns `(X(k), Y(k))`. If all constants are plain, the bound `N: Real` is enough.
     fn point<N: Over<T>>(&self, k: N) -> (N, N);
 }
 
-/// Numbers of which those of type `T` are a part.
+/// Numbers that contain the numbers of type `T`.
 pub trait Over<T>: Real {
-    /// The same number.
+    /// Converts the number.
     fn lift(value: T) -> Self;
 }
 
@@ -157,24 +160,24 @@ impl<T: Real> Over<T> for T {
     }
 }
 
-/// Numbers by which a [`Formula`] can be differentiated: `f32` and `f64`, and the [`Dual`] numbers of
-/// both, so that a solution can have derivatives by parameters of such a curve.
+/// Numbers by which a [`Formula`] can be differentiated: `f32` and `f64`, and the [`Dual`] numbers
+/// of both, so that a solution can have derivatives by parameters of such a curve.
 #[diagnostic::on_unimplemented(
     message = "an `Autodiff` profile cannot be differentiated in numbers of type `{Self}`",
     note = "`f32`, `f64`, `Dual<f32>` and `Dual<f64>` can; for others implement `ParametricProfile`, with X' and Y'"
 )]
 pub trait Differentiable: Real {
-    /// Numbers that carry one derivative more.
+    /// Numbers that carry one more derivative.
     type Jet: Over<Self>;
 
-    /// The number, as that by which to differentiate.
+    /// Returns the number as the variable of differentiation.
     fn variable(self) -> Self::Jet;
 
-    /// Value and derivative.
+    /// Returns value and derivative.
     fn value_and_slope(jet: Self::Jet) -> [Self; 2];
 }
 
-/// The profile of a [`Formula`].
+/// Profile of a [`Formula`].
 #[derive(Clone, Copy, Debug)]
 pub struct Autodiff<F>(pub F);
 
@@ -198,7 +201,7 @@ impl<T: Differentiable, F: Formula<T>> ParametricProfile<T> for Autodiff<F> {
     }
 }
 
-/// Plain numbers, and their dual numbers.
+/// Implements the traits for plain numbers and their dual numbers.
 macro_rules! plain {
     ($($plain:ty),*) => {$(
         impl Over<$plain> for Dual<$plain> {
@@ -219,7 +222,7 @@ macro_rules! plain {
             }
         }
 
-        // The first derivative of a hyper-dual number is that of the dual number, the second is by k.
+        // The first derivative of a hyper-dual number is the dual number's own, the second is by k.
         impl Over<Dual<$plain>> for HyperDual<$plain> {
             fn lift(value: Dual<$plain>) -> Self {
                 Self::new(value.re, value.eps, 0.0, 0.0)

@@ -1,4 +1,4 @@
-//! The scene: two bodies, how stiff they are, and how the contact is to be found.
+//! The scene: two bodies, their stiffness, and the settings of the solve.
 
 mod control;
 mod edge_pressure;
@@ -18,11 +18,11 @@ use edges::{Conditions, Given};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Two bodies to be pressed together, and the way to find their contact.
+/// Two bodies to be pressed together, and the settings by which their contact is found.
 ///
-/// What is not set has a default: κ = 1, limits sought so that the pressure ends at zero
-/// ([`Edge::Free`]), [`Newton`] to invert the curves, Newton's method on both limits at once, and
-/// [`Panels`] for the integrals. One scene serves any number of loads.
+/// Every setting has a default: κ = 1, limits at which the pressure ends at zero ([`Edge::Free`]),
+/// [`Newton`] to invert the curves, Newton's method on both limits at once, and [`Panels`] for the
+/// integrals. One scene serves any number of loads.
 ///
 /// ```
 /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -57,22 +57,23 @@ pub struct Contact<'b, T: Real> {
     pub(crate) single_interval: bool,
 }
 
-/// Where κ is from.
+/// Source of κ.
 #[derive(Clone, Copy)]
 enum Stiffness<T> {
     Default,
     Kappa,
     /// E* as given.
     Modulus(T),
-    /// What the bodies are made of, as given.
+    /// Materials of the bodies, as given.
     Materials([Material<T>; 2], PlaneState),
 }
 
 impl<'b, T: Real> Contact<'b, T> {
-    /// The scene of two bodies, `lower` (body 1) and `upper` (body 2).
+    /// Creates the scene of two bodies, `lower` (body 1) and `upper` (body 2).
     ///
-    /// Of each smooth body the two ends are looked at. [`Piece::checked`](crate::profile::Piece::checked)
-    /// looks at all of it, for a profile just written.
+    /// Only the two ends of each smooth body are checked.
+    /// [`Piece::checked`](crate::profile::Piece::checked) checks all of it, for a profile just
+    /// written.
     ///
     /// # Errors
     /// [`ContactError::Profile`], [`ContactError::NoCommonRange`].
@@ -83,8 +84,8 @@ impl<'b, T: Real> Contact<'b, T> {
         Self::of(Shape::Lent(lower), Shape::Lent(upper))
     }
 
-    /// The same with bodies that the contact keeps, as do its solutions: a function that makes them can
-    /// return a `Solution<'static, T>`.
+    /// Creates the scene with bodies that it owns, and its solutions with it: a function that makes
+    /// the bodies can return a `Solution<'static, T>`.
     ///
     /// ```
     /// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Solution};
@@ -131,23 +132,23 @@ impl<'b, T: Real> Contact<'b, T> {
         })
     }
 
-    /// The scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the paper's
-    /// Eq. (3).
+    /// Sets the scale κ in `PV∫ P(s)/(x - s) ds = κ (f₂' - f₁')`, a pressure. Default 1, the
+    /// paper's Eq. (3).
     #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
         Self { kappa, stiffness: Stiffness::Kappa, ..self }
     }
 
-    /// The scale by the contact modulus E* of plane strain, `1/E* = (1 - ν₁²)/E₁ +
-    /// (1 - ν₂²)/E₂`: κ = π E*/2 (Johnson, *Contact Mechanics*, 1985, §4.2).
+    /// Sets κ = π E*/2 from the contact modulus E* of plane strain,
+    /// `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` (Johnson, *Contact Mechanics*, 1985, §4.2).
     #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
         let (kappa, stiffness) = (T::frac_pi_2() * modulus, Stiffness::Modulus(modulus));
         Self { kappa, stiffness, ..self }
     }
 
-    /// The scale by what body 1 and body 2 are made of. Besides E*, which follows, the
-    /// [approach](crate::Solution::approach) depends on it.
+    /// Sets κ from the materials of body 1 and body 2. They give E*, and the
+    /// [approach](crate::Solution::approach) depends on them too.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -165,59 +166,60 @@ impl<'b, T: Real> Contact<'b, T> {
     #[must_use]
     pub fn materials(self, lower: Material<T>, upper: Material<T>, state: PlaneState) -> Self {
         let materials = [lower, upper];
-        // What is wrong with them is said by the solve.
+        // The solve reports what is wrong with the materials.
         let modulus = Elasticity::of_bodies(materials, state).map(|(_, modulus)| modulus);
         let this = self.contact_modulus(modulus.unwrap_or(T::one()));
         Self { stiffness: Stiffness::Materials(materials, state), ..this }
     }
 
-    /// The conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
+    /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
     #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
         Self { edges: Ends { left, right }, edge_pressure: None, ..self }
     }
 
-    /// Edges where the pressure has given values at given distances from the limits: the paper's
-    /// Eq. (6), in place of [`edges`](Self::edges), under a given load.
+    /// Prescribes the pressure at given distances from the limits: the paper's Eq. (6), in place of
+    /// [`edges`](Self::edges), under a given load.
     #[must_use]
     pub fn edge_pressure(self, wanted: EdgePressure<T>) -> Self {
         Self { edge_pressure: Some(wanted), ..self }
     }
 
-    /// Where the search for the limits starts. Without it, or where it is not on the bodies, at
-    /// their lowest gap; or, where the bodies say that they [bulge](crate::Convexity) towards each other, in
-    /// the middle of their common range.
+    /// Sets the interval from which the search for the limits starts. Without it, or if it is not
+    /// on the bodies, the search starts at their lowest gap; if the bodies declare that they
+    /// [bulge](crate::Convexity) towards each other, in the middle of their common range.
     #[must_use]
     pub fn start(self, interval: Interval<T>) -> Self {
         Self { start: Some(interval), ..self }
     }
 
-    /// The strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`]. With
-    /// [`Panels`] it is hardly called for the slope, which need not be known at any given x; its calls for heights
-    /// count as [`Cost::heights`].
+    /// Sets the strategy that inverts `X(k) = x`: `&Bisection::DEFAULT`, say. Default [`Newton`].
+    /// With [`Panels`] it is hardly called for the slope, which is not needed at a prescribed x;
+    /// its calls for heights count as [`Cost::heights`].
     #[must_use]
     pub fn inversion(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { gap: self.gap.with_inversion(strategy), ..self }
     }
 
-    /// A strategy that adjusts the limits, one at a time, in place of Newton's method on both:
+    /// Sets a strategy that adjusts the limits, one at a time, in place of Newton's method on both:
     /// `&Brent::DEFAULT`, say.
     #[must_use]
     pub fn limit_search(self, strategy: &'b dyn LimitSearch<T>) -> Self {
         Self { search: Some(strategy), ..self }
     }
 
-    /// The quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A [`Solver`](crate::Solver)
-    /// that has solved with another takes up this one.
+    /// Sets the quadrature: `&Midpoint::DEFAULT`, say. Default [`Panels::FULL`]. A
+    /// [`Solver`](crate::Solver) that has solved with another quadrature changes to this one.
     #[must_use]
     pub fn quadrature(self, quadrature: &'b dyn Quadrature<T>) -> Self {
         Self { quadrature, ..self }
     }
 
-    /// A function that watches a solve, and may end it: it is told the cost so far and the span of `x` last
-    /// sampled, each time that the bodies are sampled and before each new set of contacts is tried. Where it
-    /// answers `ControlFlow::Break` the solve ends with [`ContactError::Cancelled`]; so does the search for the
-    /// [largest stress](crate::stress::Subsurface::max_shear) below a solution.
+    /// Sets a function that watches a solve, and may end it. It is called with the cost so far and
+    /// the span of `x` last sampled, each time that the bodies are sampled and before each new set
+    /// of contacts is tried. If it returns `ControlFlow::Break`, the solve ends with
+    /// [`ContactError::Cancelled`]; so does the search for the [largest
+    /// stress](crate::stress::Subsurface::max_shear) below a solution.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -236,28 +238,31 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { gap: self.gap.with_watch(watch), ..self }
     }
 
-    /// If true, `solve` also runs [`Solution::certify`](crate::Solution::certify), and fails with its errors. Default: false, since the
-    /// certificate samples all of the bodies, which takes far longer than the contact itself.
+    /// Makes `solve` also run [`Solution::certify`](crate::Solution::certify), and fail with its
+    /// errors. Default: false, since the certificate samples all of the bodies, which takes far
+    /// longer than the contact itself.
     #[must_use]
     pub fn certified(self, certified: bool) -> Self {
         Self { certified, ..self }
     }
 
-    /// Sets the narrowest feature of the bodies to be seen, a length along x: a bump or a dent of this length from end to end,
-    /// or of this width at half its height.
+    /// Sets the narrowest feature of the bodies to be seen, a length along x: a bump or a dent of
+    /// this length from end to end, or of this width at half its height.
     ///
-    /// By default bumps and dents like Gauss's bell are seen whose width at half their height is 2 % of the contact or
-    /// more, provided that they move the peak by 1 %; beside contacts at 1024 points at the most for one load.
-    /// With a resolution the points looked at are less than half of it apart, and no further than by default: in the
-    /// contacts and beside them as far as the load reaches. So at least two points lie in a feature of that length. In a contact
-    /// it is seen if the slope at one of them differs from that of the bodies without it by more than the samples are
-    /// uncertain; beside contacts if the height does so by 1e-7 F/κ or more.
+    /// By default the solve sees Gaussian bumps and dents whose width at half their height is at
+    /// least 2 % of the contact, provided that they change the peak pressure by 1 %; outside the
+    /// contacts it samples at most 1024 points for one load. With a resolution, samples are less
+    /// than half the resolution apart, and no further apart than by default, in the contacts and
+    /// outside them as far as the load reaches. So at least two of them lie in a feature of that
+    /// length. In a contact a feature is seen if it changes the slope at one of them by more than
+    /// the uncertainty of the samples; outside, if it changes the height by 1e-7 F/κ or more.
     ///
-    /// This takes evaluations in proportion to the reach of the load over the resolution ([`Cost::heights`]), within the
-    /// budget of [`ContactError::BudgetSpent`]. The bodies are looked at whatever
-    /// [convexity](crate::Convexity) they declare, but for pieces that are [`Straight`](crate::Convexity::Straight). It
-    /// does not apply with [`single_interval`](Self::single_interval), which looks for nothing, and in contacts not with
-    /// other quadratures than [`Panels`].
+    /// The number of evaluations is proportional to the reach of the load over the resolution
+    /// ([`Cost::heights`]), within the budget of [`ContactError::BudgetSpent`]. The sampling does
+    /// not depend on the declared [convexity](crate::Convexity), except on pieces that are
+    /// [`Straight`](crate::Convexity::Straight). The resolution does not apply with
+    /// [`single_interval`](Self::single_interval), which checks nothing, nor in contacts with other
+    /// quadratures than [`Panels`].
     ///
     /// ```
     /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -280,16 +285,17 @@ impl<'b, T: Real> Contact<'b, T> {
         Self { gap: self.gap.with_resolution(length), ..self }
     }
 
-    /// Whether one contact is to be found whatever the bodies do, as in the paper: the solution of
-    /// the equations, with tension inside, at a [corner](Edge::Fixed) or overlap outside if that is
-    /// what solves them, and [`Outcome::Unchecked`](crate::Outcome::Unchecked). Between two corners any load will do, one that
-    /// pulls too. Default: no; then the contact of the bodies is found, in one interval or several.
+    /// Makes `solve` treat the contact as one interval, and return it unchecked, as the paper does.
+    /// The solution may have tension inside or at a [corner](Edge::Fixed), or overlap outside; its
+    /// outcome is [`Outcome::Unchecked`](crate::Outcome::Unchecked). Between two corners any load
+    /// is allowed, a tensile one too. Default: false; then the contact of the bodies is found, in
+    /// one interval or several.
     #[must_use]
     pub fn single_interval(self, single_interval: bool) -> Self {
         Self { single_interval, ..self }
     }
 
-    /// The elasticity of both bodies, where it is known.
+    /// Returns the elasticity of both bodies, if it is known.
     pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
         match self.stiffness {
             Stiffness::Materials(materials, state) => {
@@ -327,15 +333,15 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(())
     }
 
-    /// Tells whether nobody has set κ.
+    /// Tells whether κ is the default, set by nobody.
     pub(crate) fn has_default_stiffness(&self) -> bool {
         matches!(self.stiffness, Stiffness::Default)
     }
 
-    /// The conditions of a given load.
+    /// Returns the conditions under a given load.
     pub(crate) fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
         let edges = self.checked_edges()?;
-        // Adhesion bears a pull, and so does an interval that nothing is checked of.
+        // Adhesion can bear a tensile load, and so can an interval that is not checked.
         let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
         if !may_pull {
             check_positive("load", load)?;
@@ -345,7 +351,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
 
-    /// Where the bodies end. A corner ends them.
+    /// Returns the ends of the bodies. A corner counts as an end.
     pub(crate) fn ends(&self) -> Ends<T> {
         let [left, right] = self.gap.range();
         let corner = |edge: Edge<T>| match edge {
@@ -386,13 +392,13 @@ impl<'b, T: Real> Contact<'b, T> {
         Ok(self.edges)
     }
 
-    /// The strategy of the nested search.
+    /// Returns the strategy of the nested search.
     pub(crate) fn strategy(&self) -> &dyn LimitSearch<T> {
         self.search.unwrap_or(&Brent::DEFAULT)
     }
 }
 
-/// Whether a number can be asked for where limits are sought.
+/// Checks that a number can be prescribed where limits are sought.
 pub(crate) fn check_positive<T: Real>(
     quantity: &'static str,
     value: T,
@@ -404,7 +410,7 @@ pub(crate) fn check_positive<T: Real>(
     }
 }
 
-/// Whether an interval lies in a range, up to the rounding of its limits.
+/// Checks that an interval lies in a range, up to the rounding of its limits.
 pub(crate) fn check_within<T: Real>(
     Interval { left, right }: Interval<T>,
     ends: Ends<T>,

@@ -2,7 +2,7 @@
 
 use crate::Real;
 
-/// The condition at one edge of the contact.
+/// Condition at one edge of the contact.
 ///
 /// ```
 /// use linecontact::{Contact, Control, Edge, Flat};
@@ -19,16 +19,16 @@ use crate::Real;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub enum Edge<T> {
-    /// A smooth body: the limit is where the pressure ends at zero.
+    /// Smooth body: the limit is where the pressure ends at zero.
     Free,
-    /// A sharp corner at this `x`, from which the contact does not part. The pressure may be
-    /// infinite there; where it would have to pull, or the contact ends before the corner, the body
-    /// lifts off ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such
-    /// corners the load must be positive, and the contacts may be several, unless [a single
+    /// Sharp corner at this `x`, where the limit stays. The pressure may be infinite there. If it
+    /// would be negative, or the contact ends before the corner, the body lifts off
+    /// ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such corners the
+    /// load must be positive, and the contacts may be several, unless [a single
     /// interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
     Fixed(T),
-    /// A smooth body with a sharp corner at this `x`: free as long as the contact does not reach
-    /// the corner, fixed from then on.
+    /// Smooth body with a sharp corner at this `x`: free as long as the contact does not reach the
+    /// corner, fixed from then on.
     FreeUntil(T),
     /// Adhesion over so short a range that it acts at the edge alone (Johnson, Kendall and
     /// Roberts), with this work of adhesion w: energy per unit area, not negative.
@@ -36,7 +36,7 @@ pub enum Edge<T> {
 }
 
 impl<T: Real> Edge<T> {
-    /// The limit, where it is known.
+    /// Returns the limit, if it is known.
     pub(crate) fn limit(&self) -> Option<T> {
         match *self {
             Self::Fixed(x) => Some(x),
@@ -44,7 +44,7 @@ impl<T: Real> Edge<T> {
         }
     }
 
-    /// Lets go of a corner where it does not press.
+    /// Turns a fixed corner into one that the contact need not reach.
     pub(crate) fn let_go(self) -> Self {
         if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }
     }

@@ -3,17 +3,17 @@
 use std::array::IntoIter;
 use std::ops::{Index, IndexMut};
 
-/// A side of a contact, or of a breakpoint.
+/// Side of a contact, or of a breakpoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// Towards smaller `x`: the edge at `-b`.
+    /// Side of smaller `x`: the edge at `-b`.
     Left,
-    /// Towards larger `x`: the edge at `a`.
+    /// Side of larger `x`: the edge at `a`.
     Right,
 }
 
 impl Side {
-    /// The left side, then the right one.
+    /// Left side, then right side.
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
     /// Returns the opposite side.
@@ -26,7 +26,7 @@ impl Side {
     }
 }
 
-/// A value at the left edge and one at the right edge of a contact.
+/// Values at the left and the right edge of a contact.
 ///
 /// ```
 /// use linecontact::{Ends, Side};
@@ -39,9 +39,9 @@ impl Side {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ends<T> {
-    /// At `-b`.
+    /// Value at `-b`.
     pub left: T,
-    /// At `a`.
+    /// Value at `a`.
     pub right: T,
 }
 
@@ -70,7 +70,8 @@ impl<T: Copy> Ends<T> {
 }
 
 impl Ends<bool> {
-    /// The free edges of one contact of several: the limits on both sides of a gap are free.
+    /// Returns the free edges of one contact of several: the limits on both sides of a gap are
+    /// free.
     pub(crate) fn of_contact(self, contact: usize, last: usize) -> Self {
         Self { left: contact > 0 || self.left, right: contact < last || self.right }
     }
@@ -96,14 +97,14 @@ impl<T> IndexMut<Side> for Ends<T> {
     }
 }
 
-/// From the left value and the right one.
+/// Takes the left value and the right one.
 impl<T> From<[T; 2]> for Ends<T> {
     fn from([left, right]: [T; 2]) -> Self {
         Self { left, right }
     }
 }
 
-/// The left value, then the right one.
+/// Yields the left value, then the right one.
 impl<T> IntoIterator for Ends<T> {
     type Item = T;
     type IntoIter = IntoIter<T, 2>;

@@ -5,7 +5,7 @@ use crate::{Real, Side};
 use std::fmt::{Display, Formatter, LowerExp, Result};
 use std::ops::Index;
 
-/// An interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
+/// Interval `[left, right]` of `x`: the contact `[-b, a]`, or a trial of it.
 ///
 /// ```
 /// use linecontact::Interval;
@@ -19,58 +19,59 @@ use std::ops::Index;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval<T> {
-    /// `-b`.
+    /// Left end, `-b`.
     pub left: T,
-    /// `a`.
+    /// Right end, `a`.
     pub right: T,
 }
 
 impl<T: Real> Interval<T> {
-    /// The same without derivatives, to start from.
+    /// Returns the interval without derivatives, as an initial guess.
     pub(crate) fn plain(&self) -> Self {
         Self { left: self.left.component(0), right: self.right.component(0) }
     }
 
-    /// Whether it is the same in all parts of its numbers.
+    /// Tells whether two intervals agree in all components of their limits.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         same(self.left, other.left) && same(self.right, other.right)
     }
 
-    /// Half-width `L = (a + b)/2`.
+    /// Returns the half-width `L = (a + b)/2`.
     pub fn half_width(&self) -> T {
         T::of(0.5) * (self.right - self.left)
     }
 
-    /// Centre `c = (a - b)/2`.
+    /// Returns the centre `c = (a - b)/2`.
     pub fn centre(&self) -> T {
         T::of(0.5) * self.left + T::of(0.5) * self.right
     }
 
-    /// Whether `x` lies strictly inside.
+    /// Tells whether `x` lies strictly inside.
     pub fn contains(&self, x: T) -> bool {
         x > self.left && x < self.right
     }
 
-    /// Finds, of intervals from left to right, the number of the first that ends beyond `x`, and the one that holds `x`.
+    /// Finds, in intervals from left to right, the number of the first that ends beyond `x`, and
+    /// the interval that contains `x`.
     pub(crate) fn find(all: &[Self], x: T) -> (usize, Option<Self>) {
         let first = all.partition_point(|on| on.right <= x);
         (first, all.get(first).copied().filter(|on| on.contains(x)))
     }
 
-    /// `sqrt((x + b)(a - x))`, from the distances to the two ends so that it keeps its
-    /// relative accuracy next to either.
+    /// Returns `sqrt((x + b)(a - x))`, computed from the distances to the two ends so that it keeps
+    /// its relative accuracy next to either.
     pub fn chebyshev_weight(&self, x: T) -> T {
-        // In shares of the width, whose roots are the same in any unit.
+        // As shares of the width, so that the roots do not depend on the unit.
         let width = self.right - self.left;
         width * (((x - self.left) / width).sqrt() * ((self.right - x) / width).sqrt())
     }
 
-    /// The angle of `x = c + L cos θ`, from 0 at `a` to π at `-b`.
+    /// Returns the angle θ of `x = c + L cos θ`, from 0 at `a` to π at `-b`.
     pub fn angle(&self, x: T) -> T {
         T::of(2.0) * (self.right - x).sqrt().atan2((x - self.left).sqrt())
     }
 
-    /// The point at the angle θ, measured from the nearer end.
+    /// Returns the point at the angle θ, measured from the nearer end.
     pub fn at_angle(&self, theta: T) -> T {
         let half = T::of(0.5) * theta;
         let width = self.right - self.left;
@@ -82,7 +83,7 @@ impl<T: Real> Interval<T> {
     }
 }
 
-/// The limit on one side.
+/// Returns the limit on one side.
 impl<T> Index<Side> for Interval<T> {
     type Output = T;
 
@@ -96,7 +97,7 @@ impl<T> Index<Side> for Interval<T> {
 
 macro_rules! shown {
     ($($format:ident)*) => {$(
-        /// `[left, right]`; a precision is that of both ends.
+        /// Writes `[left, right]`; a precision applies to both ends.
         impl<T: $format> $format for Interval<T> {
             fn fmt(&self, f: &mut Formatter<'_>) -> Result {
                 f.write_str("[")?;

@@ -1,7 +1,7 @@
 //! Line contact of two bodies, each given as a parametric curve `[X(k), Y(k)]`.
 //!
-//! Two bodies are pressed together with a load per unit length. This crate finds where they
-//! touch, the interval `[-b, a]` of `x` or several, and the pressure `P(x)` between them, for elastic
+//! Two bodies are pressed together with a load per unit length. This crate finds where they touch,
+//! the interval `[-b, a]` of `x` or several, and the pressure `P(x)` between them, for elastic
 //! half-planes without friction. Curves stay parametric: no y = f(x) is needed.
 //!
 //! ```text
@@ -26,26 +26,30 @@
 //! and (11) carries a minus sign, `C` in Eqs. (9) and (14) is not multiplied by `(a + b)/2`,
 //! and Example 2 of the paper has κ = π/2.
 //!
-//! # Where things are
-//! - [`profile`]: bodies, from a closure, a struct of your own, shapes built in, or pieces joined.
-//! - [`check_derivatives`]: whether X' and Y' written by hand are those of X and Y. With the feature
-//!   `autodiff` there is nothing to write, and solutions have derivatives by any parameter.
+//! # Contents
+//! - [`profile`]: bodies, from a closure, a struct of your own, built-in shapes, or joined pieces.
+//! - [`check_derivatives`]: a check that X' and Y' written by hand are the derivatives of X and Y.
+//!   With the feature `autodiff` they need not be written, and solutions have derivatives by any
+//!   parameter.
 //! - [`search`]: root finders, for `X(k) = x` and for the limits; bring your own.
 //! - [`gap`]: two bodies as one function, the slope of the gap.
 //! - [`quadrature`]: from that slope to edge strengths and pressure: panels, and the paper's rule.
-//! - [`contact`]: the scene, its edges, and the quantity prescribed. The number of contacts is found by
-//!   [`Contact::solve`]; [`Solution::report`] says from where, and the result of each check.
+//! - [`contact`]: the scene, its edges, and the prescribed quantity. [`Contact::solve`] finds the
+//!   number of contacts; [`Solution::report`] lists the starts of the search and the result of each
+//!   check.
 //! - [`reference`](mod@reference): closed forms to test against.
 //! - [`stress`]: the stress below the surface of either body.
-//! - [`Material`], [`Solution::approach`], [`Solution::stiffness`], [`SpringTable`]: how far the bodies come together.
+//! - [`Material`], [`Solution::approach`], [`Solution::stiffness`], [`SpringTable`]: the approach
+//!   of the bodies under load.
 //! - [`PartialSlip`]: a tangential force that friction carries.
-//! - [`Certificate`]: that a solution is a contact in all of the bodies.
-//! - [`Solution`], [`Pressure`], [`Peak`]: what comes back, with [each contact](ContactRegion), moment,
-//!   [`LoadRates`], the gap beside the contact and a check of the equation on request. [`Solver`]: solving again and again; with the
-//!   feature `rayon`, `sweep`: many scenes over all cores.
-//! - [`Summary`]: a solution as a row of numbers. With the feature `serde` it, all plain data, the
-//!   settings and the bodies of [`profile`] can be kept in files; a body that is read is checked as by its
-//!   constructor. (JSON keeps all digits with the feature `float_roundtrip` of `serde_json`.)
+//! - [`Certificate`]: a proof that a solution is a contact in all of the bodies.
+//! - [`Solution`], [`Pressure`], [`Peak`]: results, with [each contact](ContactRegion), moment,
+//!   [`LoadRates`], the gap outside the contact and a check of the equation on request. [`Solver`]
+//!   solves again and again; with the feature `rayon`, `sweep` solves many scenes on all cores.
+//! - [`Summary`]: a solution as a row of numbers. With the feature `serde`, summaries, all plain
+//!   data, the settings and the bodies of [`profile`] can be kept in files; a body that is read is
+//!   checked as by its constructor. (JSON keeps all digits with the feature `float_roundtrip` of
+//!   `serde_json`.)
 //!
 //! # Example
 //! ```

@@ -1,19 +1,20 @@
-//! What the bodies are made of, and between which of their points an approach is measured.
+//! Materials of the bodies, and the points between which an approach is measured.
 //!
 //! ```text
 //! 1/E* = 1/M₁ + 1/M₂      M = E/(1 - ν²) in plane strain, M = E in plane stress
 //! ```
 //!
-//! (Johnson, *Contact Mechanics*, 1985, §4.2 for plane strain.) Plane stress is plane strain with `ν/(1 + ν)` in
-//! place of ν and the same M (Timoshenko and Goodier, *Theory of Elasticity*, 1970, §§ 16 and 17).
+//! (Johnson, *Contact Mechanics*, 1985, §4.2 for plane strain.) Plane stress is plane strain with
+//! `ν/(1 + ν)` in place of ν and the same M (Timoshenko and Goodier, *Theory of Elasticity*, 1970,
+//! §§ 16 and 17).
 //!
-//! **Unlike bodies.** Without friction nothing of the elastic constants but E* is left in the equations of a
-//! half-plane: limits and pressure of unlike bodies are as exact as those of like ones. Friction would couple the
-//! two directions (Johnson, §7.2).
+//! **Unlike bodies.** Without friction, E* is the only elastic constant in the equations of a
+//! half-plane: limits and pressure are as exact for unlike bodies as for like ones. Friction would
+//! couple the two directions (Johnson, §7.2).
 
 use crate::{Body, ContactError, Real};
 
-/// An isotropic elastic material, or a body that does not give at all.
+/// Isotropic elastic material, or a rigid body.
 ///
 /// ```
 /// use linecontact::{Material, PlaneState};
@@ -36,69 +37,73 @@ pub enum Material<T> {
         /// Poisson's ratio ν, from 0 to 1/2.
         poisson_ratio: T,
     },
-    /// Rigid: it keeps its shape.
+    /// Rigid: the body keeps its shape.
     Rigid,
 }
 
 impl<T: Real> Material<T> {
-    /// Young's modulus E, a pressure, and Poisson's ratio ν, from 0 to 1/2.
+    /// Creates an elastic material from Young's modulus E, a pressure, and Poisson's ratio ν, from
+    /// 0 to 1/2.
     #[must_use]
     pub fn elastic(youngs_modulus: T, poisson_ratio: T) -> Self {
         Self::Elastic { youngs_modulus, poisson_ratio }
     }
 }
 
-/// The point of a body that its surface comes nearer to.
+/// Point of a body that its surface approaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Reference<T> {
-    /// The point at this depth below the surface, a length: the half-plane as it is.
+    /// Point at this depth below the surface of the half-plane, a length.
     Depth(T),
-    /// The centre of a disc of this radius, a length, which is loaded at the opposite point: a roller between two
-    /// plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact that is small beside the disc, and
-    /// off by the order of `(L/R)²`. Of a roller between two blocks each side is a contact of its own: the approaches
-    /// add.
+    /// Centre of a disc of this radius, a length, which is loaded at the opposite point: a roller
+    /// between two plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact
+    /// that is small beside the disc; its error is of the order of `(L/R)²`. A roller between two
+    /// blocks has a contact on each side: the approaches add.
     Disc(T),
-    /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: approach and stiffness are negative for a short one. A constant C of one's own, as in `C - 2 ln|x - s|`, is `ℓ = exp(C/2)`.
+    /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: with a short one, approach and
+    /// stiffness are negative. A constant C as in `C - 2 ln|x - s|` means `ℓ = exp(C/2)`.
     Length(T),
 }
 
-/// The references of both bodies. That of a [rigid](crate::Material::Rigid) body is not looked at.
+/// References of both bodies. The reference of a [rigid](crate::Material::Rigid) body is not used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct References<T> {
-    /// The x below and above which they are, on the bodies. It matters for depths of a few half-widths, not for those
-    /// far larger, nor for discs and lengths.
+    /// Abscissa x of the references, on the bodies. It matters for depths of a few half-widths, not
+    /// for far larger ones, nor for discs and lengths.
     pub x: T,
-    /// Of body 1.
+    /// Reference of body 1.
     pub lower: Reference<T>,
-    /// Of body 2.
+    /// Reference of body 2.
     pub upper: Reference<T>,
 }
 
-/// How thick the bodies are, across the plane of the contact.
+/// Thickness of the bodies, across the plane of the contact.
 ///
-/// A roller, a gear tooth or a rail is long beside the width of its contact: what is inside cannot give way along
-/// it, and the strain is plane. A thin disc or a sheet that is loaded on its edge is short beside it: the *stress* is
-/// plane. Within one half-width or so of the ends of a roller neither holds.
+/// A roller, a gear tooth or a rail is long beside the width of its contact: the material inside
+/// cannot expand along it, and the strain is plane. A thin disc or a sheet that is loaded on its
+/// edge is short beside the width: the *stress* is plane. Within about one half-width of the ends
+/// of a roller neither holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PlaneState {
     /// Bodies much longer than the contact is wide.
     #[default]
     Strain,
-    /// Bodies much shorter than that.
+    /// Bodies much shorter than the contact is wide.
     Stress,
 }
 
 impl PlaneState {
-    /// The contact modulus E* of two bodies, a pressure.
+    /// Returns the contact modulus E* of two bodies, a pressure.
     ///
     /// # Errors
-    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`]; [`ContactError::BothRigid`].
+    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`];
+    /// [`ContactError::BothRigid`].
     pub fn contact_modulus<T: Real>(
         self,
         lower: Material<T>,
@@ -108,17 +113,17 @@ impl PlaneState {
     }
 }
 
-/// A body as its surface shows it.
+/// Elastic constants that the surface of a body depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Elasticity<T> {
-    /// 1/M, zero of a rigid body.
+    /// 1/M, zero for a rigid body.
     pub compliance: T,
     /// ν in plane strain, `ν/(1 + ν)` in plane stress.
     pub ratio: T,
 }
 
 impl<T: Real> Elasticity<T> {
-    /// Both bodies, and their contact modulus.
+    /// Returns the elastic constants of both bodies, and their contact modulus.
     pub fn of_bodies(
         materials: [Material<T>; 2],
         state: PlaneState,
@@ -132,8 +137,8 @@ impl<T: Real> Elasticity<T> {
         Ok(([lower, upper], T::one() / compliance))
     }
 
-    /// Dundurs' β: zero of like bodies, and of incompressible ones. Without it friction leaves the pressure as it is
-    /// (Johnson, Eq. 5.3).
+    /// Returns Dundurs' β, zero for like bodies and for incompressible ones. With β = 0 friction
+    /// leaves the pressure unchanged (Johnson, Eq. 5.3).
     pub fn dundurs([lower, upper]: [Self; 2]) -> T {
         // (1 - 2ν)/(2 G), with 1/M = (1 - ν)/(2 G).
         let coupling = |body: Self| {
@@ -161,7 +166,7 @@ impl<T: Real> Elasticity<T> {
     }
 }
 
-/// Refuses what is no Poisson's ratio.
+/// Refuses a number that cannot be a Poisson's ratio.
 pub(crate) fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
     let is_valid = ratio >= T::zero() && ratio <= T::of(0.5);
     if is_valid { Ok(ratio) } else { Err(ContactError::InvalidPoissonRatio { ratio }) }

@@ -7,7 +7,7 @@
 //! | [`Wedge`] | two straight flanks, alike or not | both ways |
 //! | [`PowerLaw`] | `A abs(x)ⁿ`, any real n ≥ 1 | both ways |
 //! | [`Biquadratic`] | `x²/(2R) + B x⁴` | both ways |
-//! | [`UnequalRadii`] | parabola with another radius on either side | both ways, after one equation |
+//! | [`UnequalRadii`] | parabola with two radii, left and right | both ways, by one equation |
 //! | [`RoundedPunch`] | flat with parabolic edges | both ways, load to limits by one equation |
 //! | [`FlatPunch`] | flat with sharp edges, upright or tilted | load to limits |
 //! | [`Crowning`] | logarithmic relief, `-C ln(1 - x²/l²)` | both ways |
@@ -19,11 +19,11 @@
 //! | [`PolynomialMap`] | N contacts in a row, made of any form above but JKR | as that form |
 //! | [`Westergaard`] | `1 - cos x`, all crests at once, without end | both ways |
 //!
-//! Each is a struct made from the body's parameters and the half-width of the contact (`new`) or the load on
-//! it (`under_load`). All but the last answer through [`ClosedForm`]. What was published
-//! elsewhere names its source; the rest follows from the two representations below, both of which
-//! are classical (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and
-//! Sackfield, *Mechanics of Elastic Contacts*, 1993; Barber, *Contact Mechanics*, 2018).
+//! Each is a struct made from the body's parameters and the half-width of the contact (`new`) or
+//! the load on it (`under_load`). All but the last implement [`ClosedForm`]. Published results name
+//! their source; the rest follows from the two representations below, both of which are classical
+//! (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and Sackfield,
+//! *Mechanics of Elastic Contacts*, 1993; Barber, *Contact Mechanics*, 2018).
 //!
 //! # Where they come from
 //! With `g` the slope of the gap, `w = sqrt((a - x)(x + b))`, and the angles of `x = c + L cos θ`
@@ -34,22 +34,23 @@
 //! P(x) = κ/π² ∫ Λ(x, t) dg(t),       Λ = ln( sin((θ + φ)/2) / abs(sin((θ - φ)/2)) )
 //! ```
 //!
-//! with all integrals over the contact; in the second, which is the first by parts, a jump of `g`
-//! counts as it is. A slope made of straight lines is a sum of `Λ` and of its integral
-//! `∫_t^a Λ dt' = (x - t) Λ + φ w`. If the body is symmetric, a contact that grows adds the pressures
-//! of flat punches, `dF/(π sqrt(l² - x²))` each, so that (Barber)
+//! with all integrals over the contact. The second is the first after integration by parts; a jump
+//! of `g` counts in it as it is. A slope made of straight lines is a sum of `Λ` and of its integral
+//! `∫_t^a Λ dt' = (x - t) Λ + φ w`. If the body is symmetric, a contact that grows adds the
+//! pressures of flat punches, `dF/(π sqrt(l² - x²))` each, so that (Barber)
 //!
 //! ```text
-//! P(x) = 1/π ∫ F'(l)/sqrt(l² - x²) dl,   abs(x) < l < L,       F(l) = 2 κ l/π ∫ g(l sin φ) sin φ dφ
+//! P(x) = 1/π ∫ F'(l)/sqrt(l² - x²) dl,   abs(x) < l < L
+//! F(l) = 2 κ l/π ∫ g(l sin φ) sin φ dφ
 //! ```
 //!
 //! with φ from 0 to π/2.
 //!
 //! # Accuracy
 //! Some units in the last place, also of a pressure next to an edge for the given `x` and limits:
-//! the distance to the edge is their difference, and the formulas are arranged so that nothing
-//! else cancels there. It is less where a pressure passes through zero ([`Jkr`]) or is about to at
-//! the edges ([`Cosine`] near its largest load, [`Biquadratic`] with B < 0).
+//! the distance to the edge is their difference, and the formulas are arranged so that nothing else
+//! cancels there. The accuracy is lower where a pressure passes through zero ([`Jkr`]) or is about
+//! to at the edges ([`Cosine`] near its largest load, [`Biquadratic`] with B < 0).
 //!
 //! ```
 //! use linecontact::reference::{ClosedForm, UnequalRadii, body};
@@ -106,72 +107,74 @@ use crate::{Edge, Interval, Real};
 use std::fmt::Debug;
 use thiserror::Error;
 
-/// A contact of a body on a flat, in one place or several, that is known in closed form.
+/// Contact of a body on a flat, in one interval or several, that is known in closed form.
 ///
-/// `x` and heights are lengths in one unit. `kappa` is κ = π E\*/2, a pressure; where the contact
-/// was made for a load, it is the κ that was given with it.
+/// `x` and heights are lengths in one unit. `kappa` is κ = π E\*/2, a pressure; a contact made for
+/// a load needs the κ given with the load.
 pub trait ClosedForm<T: Real>: Debug + Send + Sync {
-    /// The contact `[-b, a]`; where there are several, from the first limit to the last.
+    /// Returns the contact `[-b, a]`; of several, from the first limit to the last.
     fn limits(&self) -> Interval<T>;
 
-    /// The contacts, from left to right: one, if nothing else is said.
+    /// Returns the contacts, from left to right. Default: one.
     fn contacts(&self) -> Vec<Interval<T>> {
         vec![self.limits()]
     }
 
-    /// Load per unit length F, of all contacts.
+    /// Returns the load per unit length F, of all contacts.
     fn load(&self, kappa: T) -> T;
 
-    /// The pressure `P(x)`: zero outside the contact and between contacts, infinite at a sharp edge.
+    /// Returns the pressure `P(x)`: zero outside the contact and between contacts, infinite at a
+    /// sharp edge.
     fn pressure(&self, x: T, kappa: T) -> T;
 
-    /// The height of the body above the flat before it is loaded, up to a constant.
+    /// Returns the height of the body above the flat before it is loaded, up to a constant.
     fn height(&self, x: T) -> T;
 
-    /// The slope g of the body; on its right side where it jumps.
+    /// Returns the slope g of the body; on its right side where it jumps.
     fn slope(&self, x: T) -> T;
 
-    /// The slope on the left side.
+    /// Returns the slope on the left side.
     fn slope_left(&self, x: T) -> T {
         self.slope(x)
     }
 
-    /// The places where the slope is not smooth, from left to right.
+    /// Lists the places where the slope is not smooth, from left to right.
     fn breakpoints(&self) -> Vec<T> {
         Vec::new()
     }
 
-    /// What holds at `-b` and at `a`, as [`Contact::edges`](crate::Contact::edges) takes it.
+    /// Returns the conditions at `-b` and at `a`, as [`Contact::edges`](crate::Contact::edges)
+    /// takes them.
     fn edges(&self) -> [Edge<T>; 2] {
         [Edge::Free; 2]
     }
 }
 
-/// Why there is no such contact.
+/// Reason why such a contact does not exist.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ReferenceError<T: Real> {
-    /// A parameter has a value for which the form does not hold.
+    /// Parameter outside the range in which the form holds.
     #[error("{name} is {value}: it must be {must}", value = six(*value))]
     Parameter {
-        /// Which parameter.
+        /// Name of the parameter.
         name: &'static str,
-        /// Its value.
+        /// Value of the parameter.
         value: T,
-        /// What it must be.
+        /// Condition on the parameter.
         must: &'static str,
     },
-    /// The pull is more than adhesion can bear.
+    /// Tensile load that adhesion cannot bear.
     #[error("no contact under the load {}: the bodies come apart at {}", six(*load), six(*least))]
     PullOff {
         /// Load per unit length.
         load: T,
-        /// The load at pull-off.
+        /// Load at pull-off.
         least: T,
     },
 }
 
-/// Refuses what `holds` does not hold for, and what is not finite.
+/// Refuses a parameter that is not finite, or for which `holds` is false.
 fn check<T: Real>(
     name: &'static str,
     value: T,
@@ -194,17 +197,18 @@ fn positive<T: Real, const N: usize>(
         .try_for_each(|(name, value)| check(name, value, value > T::zero(), "positive and finite"))
 }
 
-/// The contact `[-L, L]`.
+/// Returns the contact `[-L, L]`.
 fn centred<T: Real>(half_width: T) -> Interval<T> {
     Interval { left: -half_width, right: half_width }
 }
 
-/// False for NaN, which goes through the formulas.
+/// Tells whether x lies outside the limits; false for NaN, which goes through the formulas.
 fn outside<T: Real>(limits: Interval<T>, x: T) -> bool {
     x < limits.left || x > limits.right
 }
 
-/// Returns `sqrt((a - x)(x + b))`, as which a pressure falls towards free edges; `None` outside.
+/// Returns `sqrt((a - x)(x + b))`, to which a pressure is proportional near free edges; `None`
+/// outside.
 fn root_inside<T: Real>(limits: Interval<T>, x: T) -> Option<T> {
     (!outside(limits, x)).then(|| limits.chebyshev_weight(x))
 }

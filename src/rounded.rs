@@ -1,15 +1,15 @@
-//! Numbers as they are shown: with the digits that tell something.
+//! Numbers as they are shown: with their significant digits.
 
 use crate::Real;
 use std::fmt::{Display, Formatter, Result};
 
-/// Digits shown unless a precision, or a number to be told from, asks for more.
+/// Number of digits shown, unless a precision asks for more or another number must be told apart.
 pub(crate) const DIGITS: usize = 6;
 
-/// Digits that tell every `f64` from its neighbours.
+/// Number of digits that distinguish every `f64` from its neighbours.
 const ALL_DIGITS: usize = 17;
 
-/// A number with so many digits that count, trailing zeros left out.
+/// Number and its count of significant digits; trailing zeros are dropped.
 pub(crate) struct Rounded(pub f64, pub usize);
 
 impl Rounded {
@@ -31,12 +31,13 @@ impl Display for Rounded {
     }
 }
 
-/// A number in a message: six digits, all of them are in the fields of the error.
+/// Rounds a number in a message to six digits; the fields of the error have all of them.
 pub(crate) fn six<T: Real>(value: T) -> Rounded {
     Rounded(value.to_subset_unchecked(), DIGITS)
 }
 
-/// A number in a message that names others beside it: with more digits where six do not tell them apart.
+/// Rounds a number in a message that names others too: with more digits if six do not tell them
+/// apart.
 pub(crate) fn apart<T: Real>(value: T, others: &[T]) -> Rounded {
     let value: f64 = value.to_subset_unchecked();
     let others = || others.iter().map(|other| other.to_subset_unchecked());
@@ -47,7 +48,7 @@ pub(crate) fn apart<T: Real>(value: T, others: &[T]) -> Rounded {
     Rounded(value, (DIGITS..ALL_DIGITS).find(told).unwrap_or(ALL_DIGITS))
 }
 
-/// From one number to another.
+/// Range from one number to another.
 pub(crate) struct Span(Rounded, Rounded);
 
 pub(crate) fn span<T: Real>(from: T, to: T) -> Span {

@@ -1,4 +1,4 @@
-//! What comes back, and what can be asked of it: one question a file.
+//! Solutions, and the quantities worked out from them: one a file.
 
 use crate::Real;
 use crate::gap::{Cost, Gap};
@@ -6,7 +6,7 @@ use crate::material::Elasticity;
 use crate::quadrature::Integrator;
 use std::sync::Arc;
 
-// In the order in which the questions show in the documentation.
+// In the order of the documentation.
 mod limits;
 
 mod pressure;
@@ -59,15 +59,16 @@ pub(crate) use solved::Solved;
 pub use steepness::STEEPEST_HALF_PLANE;
 pub use summary::Summary;
 
-/// A solved contact: its limits, and on request its pressure.
+/// Solved contact: its limits, and on request its pressure.
 ///
-/// It is the contact of the bodies, in one interval or several ([`intervals`](Self::intervals)), as far as the
-/// checks of the solve can see; [`report`](Self::report) says what was checked. What they cannot see is
-/// narrower than the distance of the samples: [`certify`](Self::certify) looks at all of the bodies.
+/// It is the contact of the bodies, in one interval or several ([`intervals`](Self::intervals)), as
+/// far as the checks of the solve can see; [`report`](Self::report) lists the checks. They miss
+/// features that are narrower than the distance of the samples: [`certify`](Self::certify) samples
+/// all of the bodies.
 ///
-/// It lives as long as the bodies (and the strategies that were set), not the [`Contact`](crate::Contact) or the
-/// [`Solver`](crate::Solver): it can be returned, kept, cloned and sent to another thread. A clone is
-/// cheap.
+/// It lives as long as the bodies (and the strategies that were set), not the
+/// [`Contact`](crate::Contact) or the [`Solver`](crate::Solver): it can be returned, kept, cloned
+/// and sent to another thread. A clone is cheap.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -84,10 +85,10 @@ pub use summary::Summary;
 #[derive(Clone)]
 pub struct Solution<'b, T: Real> {
     pub(crate) gap: Gap<'b, T>,
-    /// That has solved the contact.
+    /// Integrator that has solved the contact.
     pub(crate) integrator: Arc<Box<dyn Integrator<T>>>,
     pub(crate) kappa: T,
-    /// Of the bodies, where it is known.
+    /// Elasticity of the bodies, if it is known.
     pub(crate) elasticity: Option<[Elasticity<T>; 2]>,
     pub(crate) found: ContactState<T>,
     pub(crate) cost: Cost,

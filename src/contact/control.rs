@@ -1,8 +1,8 @@
-//! The quantity that is prescribed.
+//! The prescribed quantity.
 
 use crate::References;
 
-/// What is prescribed of the contact: the load, or another number for which the load comes out
+/// Prescribed quantity of the contact: the load, or another number from which the load follows
 /// ([`Solution::load`](crate::Solution::load)).
 ///
 /// ```
@@ -22,41 +22,44 @@ use crate::References;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Control<T> {
-    /// The load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
+    /// Load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
     Load(T),
-    /// The half-width L = (a + b)/2, of several contacts from the first to the last: a length.
+    /// Half-width L = (a + b)/2, a length; of several contacts, from the first limit to the last.
     HalfWidth(T),
-    /// The largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded: a pressure.
+    /// Largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded:
+    /// a pressure.
     PeakPressure(T),
-    /// How far the bodies come together, from where they just touch: the [approach](crate::Solution::approach)
-    /// `Approach::bodies`, to given references. The bodies' [materials](crate::Contact::materials) must be known, and the
-    /// approach must grow with the load.
+    /// Distance by which the bodies come together after first touch: the
+    /// [approach](crate::Solution::approach) `Approach::bodies`, to given references. The bodies'
+    /// [materials](crate::Contact::materials) must be known, and the approach must grow with the
+    /// load.
     Approach {
         /// δ: a length, positive.
         approach: T,
-        /// What it is measured between.
+        /// Points of the bodies between which δ is measured.
         references: References<T>,
     },
-    /// A load, and the moment of the pressures about a given place. The bodies turn until it is that: by
-    /// [`Solution::tilt`](crate::Solution::tilt).
+    /// Load, and moment of the pressure about a given place. The bodies tilt by
+    /// [`Solution::tilt`](crate::Solution::tilt) until the moment has this value.
     ///
-    /// Body 2 may turn freely, as one that is held by a hinge; what is turned is the gap, so that it does
-    /// not matter which body turns, nor about which point. The load must be positive, and the moment such
-    /// that the load acts at a place of the bodies, `x₀ + M/F`.
+    /// Body 2 turns freely, as if hinged. Only the gap is turned, so that it does not matter which
+    /// body turns, or about which point. The load must be positive, and must act at a place of the
+    /// bodies, `x₀ + M/F`.
     ///
-    /// M is one more equation of the same search, and the tilt one more unknown (Johnson, *Contact Mechanics*,
+    /// M adds one equation to the search, and the tilt one unknown (Johnson, *Contact Mechanics*,
     /// 1985, §2.7, has the flat punch under an eccentric load).
     Moment {
-        /// The load per unit length F = ∫ P dx: force/length.
+        /// Load per unit length F = ∫ P dx: force/length.
         load: T,
-        /// M = ∫ P (x - x₀) dx, a force; positive where the load acts at the right of x₀.
+        /// M = ∫ P (x - x₀) dx, a force; positive if the load acts to the right of x₀.
         moment: T,
         /// x₀, a length.
         about: T,
     },
-    /// A load, and the place where it acts, `x̄ = ∫ x P dx/F`: as a [`Moment`](Self::Moment) F x̄ about x = 0.
+    /// Load, and the place where it acts, `x̄ = ∫ x P dx/F`: a [`Moment`](Self::Moment) F x̄ about
+    /// x = 0.
     CentreOfPressure {
-        /// The load per unit length F: force/length.
+        /// Load per unit length F: force/length.
         load: T,
         /// x̄, a length.
         at: T,

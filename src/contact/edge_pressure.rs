@@ -2,12 +2,12 @@
 
 use crate::{ContactError, Interval, Real};
 
-/// The paper's conditions at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
+/// Conditions of the paper at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
 /// `|P(ε_b - b) - B| ≤ ε₂`.
 ///
 /// A is the pressure *at* a distance from the edge, where a smooth contact has
 /// `P ≈ p₀ sqrt(2 ε_a/L)`. With A = 0 the limits come out too wide, by about 2 ε_a: the pressure
-/// then ends in a small negative singularity. And the paper's quadrature needs some segments
+/// then ends in a small negative singularity. The paper's quadrature also needs some segments
 /// between the two: a distance below a segment's width 2L/N gains nothing.
 /// [`Edge::Free`](crate::Edge::Free) has neither flaw, and costs a twentieth or less.
 ///
@@ -27,22 +27,22 @@ use crate::{ContactError, Interval, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EdgePressure<T> {
-    /// A, the pressure wanted at `a - ε_a`; a pressure.
+    /// Pressure A wanted at `a - ε_a`.
     pub at_a: T,
-    /// B, the pressure wanted at `ε_b - b`; a pressure.
+    /// Pressure B wanted at `ε_b - b`.
     pub at_b: T,
-    /// ε_a, the distance from `a`; a length, positive.
+    /// Distance ε_a from `a`: a length, positive.
     pub distance_a: T,
-    /// ε_b, the distance from `-b`; a length, positive.
+    /// Distance ε_b from `-b`: a length, positive.
     pub distance_b: T,
-    /// ε₁, how far the pressure may be from A; positive.
+    /// Tolerance ε₁ of A: a pressure, positive.
     pub tolerance_a: T,
-    /// ε₂, how far the pressure may be from B; positive.
+    /// Tolerance ε₂ of B: a pressure, positive.
     pub tolerance_b: T,
 }
 
 impl<T: Real> EdgePressure<T> {
-    /// A = B = 0, with the same distance and the same tolerance on both sides.
+    /// Returns A = B = 0, with the same distance and the same tolerance on both sides.
     pub fn zero(distance: T, tolerance: T) -> Self {
         Self {
             at_a: T::zero(),
@@ -54,12 +54,13 @@ impl<T: Real> EdgePressure<T> {
         }
     }
 
-    /// `ε_b - b` and `a - ε_a`.
+    /// Returns the places `ε_b - b` and `a - ε_a`.
     pub(crate) fn places(&self, on: Interval<T>) -> [T; 2] {
         [on.left + self.distance_b, on.right - self.distance_a]
     }
 
-    /// Checks the pressures at the edges of a contact, by `π sqrt((x + b)(a - x))` times what they differ by.
+    /// Checks the pressures at the edges, given as their differences from A and B times
+    /// `π sqrt((x + b)(a - x))`.
     pub(crate) fn met(&self, on: Interval<T>, [at_a, at_b]: [T; 2]) -> Result<(), ContactError<T>> {
         let [x_b, x_a] = self.places(on);
         let at_a = at_a / (T::pi() * on.chebyshev_weight(x_a));

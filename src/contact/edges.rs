@@ -1,15 +1,15 @@
-//! What has to hold at the edges of a contact.
+//! Conditions at the edges of a contact.
 
 use crate::quadrature::Moments;
 use crate::{Edge, Ends, Interval, Real, Side};
 
 impl<T: Real> Ends<Edge<T>> {
-    /// Whether adhesion acts at either edge.
+    /// Tells whether adhesion acts at either edge.
     pub(crate) fn are_adhesive(self) -> bool {
         self.into_iter().any(|edge| matches!(edge, Edge::Adhesive(_)))
     }
 
-    /// Whether either limit is to be found.
+    /// Tells whether either limit is unknown.
     pub(crate) fn are_sought(self) -> bool {
         self.into_iter().any(|edge| edge.limit().is_none())
     }
@@ -26,19 +26,19 @@ impl<T> Ends<Option<T>> {
     }
 }
 
-/// What is asked of the contact as a whole.
+/// Quantity prescribed of the contact as a whole.
 #[derive(Clone, Copy)]
 pub(crate) enum Given<T> {
     Load(T),
     HalfWidth(T),
-    /// A load, and where it acts: the bodies turn.
+    /// Load and the place where it acts: the bodies tilt.
     Centre {
         load: T,
         at: T,
     },
 }
 
-/// What a contact has to meet.
+/// Conditions that a contact has to meet.
 #[derive(Clone, Copy)]
 pub(crate) struct Conditions<T> {
     pub kappa: T,
@@ -47,7 +47,7 @@ pub(crate) struct Conditions<T> {
 }
 
 impl<T: Real> Conditions<T> {
-    /// The load, or zero where it is not known.
+    /// Returns the load, or zero if it is not known.
     pub fn load(&self) -> T {
         match self.given {
             Given::Load(load) | Given::Centre { load, .. } => load,
@@ -55,7 +55,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// Where the load acts, if that is given.
+    /// Returns the place where the load acts, if it is given.
     pub fn at(&self) -> Option<T> {
         match self.given {
             Given::Centre { at, .. } => Some(at),
@@ -63,7 +63,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// Returns the conditions under another load, where a load is given.
+    /// Returns the conditions under another load, if a load is given.
     pub fn under(&self, load: T) -> Self {
         let given = match self.given {
             Given::Load(_) => Given::Load(load),
@@ -73,13 +73,13 @@ impl<T: Real> Conditions<T> {
         Self { given, ..*self }
     }
 
-    /// The limits that are given.
+    /// Returns the limits that are given.
     pub fn limits(&self) -> Ends<Option<T>> {
         self.edges.map(|edge| edge.limit())
     }
 
-    /// What adhesion takes from the load at each edge: half of `2 sqrt(κ w L)`. By roots, so as not to
-    /// underflow.
+    /// Returns the load that adhesion takes at each edge, half of `2 sqrt(κ w L)`. Each factor has
+    /// its own root, to avoid underflow.
     pub fn edge_strengths(&self, half_width: T) -> Ends<T> {
         self.edges.map(|edge| match edge {
             Edge::Adhesive(work) => self.kappa.sqrt() * work.sqrt() * half_width.sqrt(),
@@ -87,8 +87,9 @@ impl<T: Real> Conditions<T> {
         })
     }
 
-    /// By how much body 2 has to be turned counter-clockwise for the load to act where it is given to, once
-    /// the limits are right: what is asked of the edges then holds with `m₀ + τ` in place of `m₀`.
+    /// Returns the angle τ by which body 2 has to turn counter-clockwise so that the load acts at
+    /// its given place, once the limits are right: the conditions at the edges then hold with
+    /// `m₀ + τ` in place of `m₀`.
     pub fn tilt(&self, on: Interval<T>, m: &Moments<T>) -> T {
         let Given::Centre { load, at } = self.given else { return T::zero() };
         let half_width = on.half_width();
@@ -105,7 +106,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// Returns the load under which the edges that are not fixed are as they should be, on an average;
+    /// Returns the load that meets the conditions at the edges that are not fixed, on average;
     /// `None` if both are fixed.
     pub fn balance(&self, on: Interval<T>, m: &Moments<T>) -> Option<T> {
         let half_width = on.half_width();
@@ -121,7 +122,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The interval, with those limits that are given.
+    /// Returns the interval, moved to the limits that are given.
     pub fn with_given_limits(&self, on: Interval<T>) -> Interval<T> {
         let width = on.right - on.left;
         match self.limits() {
@@ -137,7 +138,7 @@ impl<T: Real> Conditions<T> {
         }
     }
 
-    /// The interval, with the width or those limits that are given, within a range.
+    /// Returns the interval, with the half-width or the limits that are given, within a range.
     pub fn with_given(&self, on: Interval<T>, range: [T; 2]) -> Interval<T> {
         let Given::HalfWidth(half_width) = self.given else { return self.with_given_limits(on) };
         let around = |centre| Interval { left: centre - half_width, right: centre + half_width };
@@ -145,13 +146,13 @@ impl<T: Real> Conditions<T> {
         if given.left > range[0] && given.right < range[1] {
             return given;
         }
-        // Not at an end of them, where the slope may be infinite, unless they are just wide enough.
+        // Away from the ends of the bodies, where the slope may be infinite, if there is room.
         let room = (range[1] - range[0] - half_width - half_width).max(T::zero());
         let inset = half_width + T::of(0.125) * room;
         around(on.centre().max(range[0] + inset).min(range[1] - inset))
     }
 
-    /// The interval, where both limits are given, or the half-width and one of them.
+    /// Returns the interval if both limits are given, or the half-width and one of them.
     pub fn both_limits(&self) -> Option<Interval<T>> {
         let Ends { left, right } = self.limits();
         match (left, right, self.given) {

@@ -1,16 +1,16 @@
-//! A parabola with a term of fourth degree.
+//! Parabola with a term of fourth degree.
 
 use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::{Interval, Real};
 
-/// The body `x²/(2R) + B x⁴`, from `F'(l) = κ (l/R + 6 B l³)` (Johnson, §5.3, for each of the two
+/// Body `x²/(2R) + B x⁴`, from `F'(l) = κ (l/R + 6 B l³)` (Johnson, §5.3, for each of the two
 /// terms).
 ///
 /// ```text
 /// F = κ (L²/(2R) + 3/2 B L⁴),   P = κ/π sqrt(L² - x²) (1/R + 2 B (L² + 2 x²))
 /// ```
 ///
-/// B may be negative as long as the load still grows with the contact, `1/R + 6 B L² > 0`: so the
+/// B may be negative as long as the load still grows with the contact, `1/R + 6 B L² > 0`: then the
 /// pressure is positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Biquadratic<T> {
@@ -20,8 +20,8 @@ pub struct Biquadratic<T> {
 }
 
 impl<T: Real> Biquadratic<T> {
-    /// With the radius of curvature R, the coefficient B, a length to the power -3, and the
-    /// half-width L.
+    /// Creates the form from the radius of curvature R, the coefficient B, a length to the power
+    /// -3, and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if R or L is not positive and finite, B is not finite, or L is
@@ -35,11 +35,11 @@ impl<T: Real> Biquadratic<T> {
         Ok(Self { radius, quartic, half_width })
     }
 
-    /// With the radius of curvature R, the coefficient B and the load F.
+    /// Creates the form from the radius of curvature R, the coefficient B and the load F.
     ///
     /// # Errors
-    /// [`ReferenceError::Parameter`] if R or F is not positive and finite, B is not finite, or the
-    /// body cannot carry so much.
+    /// [`ReferenceError::Parameter`] if R or F is not positive and finite, B is not finite, or F is
+    /// more than the body can carry.
     pub fn under_load(radius: T, quartic: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
         positive([("the radius", radius)])?;
         check("the coefficient of x⁴", quartic, true, "finite")?;

@@ -4,8 +4,8 @@ use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::elliptic;
 use crate::{Interval, Real};
 
-/// An ellipse with the semi-axes A along the contact and B across it,
-/// `B (1 - sqrt(1 - x²/A²))`; the circle is A = B, taken as it is and not as a parabola.
+/// Ellipse with the semi-axes A along the contact and B across it, `B (1 - sqrt(1 - x²/A²))`; the
+/// circle, A = B, is exact and not replaced by a parabola.
 ///
 /// With k = L/A and the complete elliptic integrals K, E and Π
 ///
@@ -24,7 +24,7 @@ pub struct Ellipse<T> {
 }
 
 impl<T: Real> Ellipse<T> {
-    /// With the semi-axes A, along the contact, and B, and the half-width L.
+    /// Creates the form from the semi-axes A, along the contact, and B, and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less
@@ -36,7 +36,7 @@ impl<T: Real> Ellipse<T> {
         Ok(Self { along, across, half_width })
     }
 
-    /// With the radius R and the half-width L.
+    /// Creates the circle from the radius R and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if either is not positive and finite, or L is not less than R.
@@ -44,7 +44,7 @@ impl<T: Real> Ellipse<T> {
         Self::new(radius, radius, half_width)
     }
 
-    /// `sqrt(1 - x²/A²)`.
+    /// Returns `sqrt(1 - x²/A²)`.
     fn cosine(&self, x: T) -> T {
         (T::one() - x / self.along).sqrt() * (T::one() + x / self.along).sqrt()
     }
@@ -80,8 +80,8 @@ impl<T: Real> ClosedForm<T> for Ellipse<T> {
     }
 }
 
-/// A wedge with a rounded tip: the hyperbola `m (sqrt(ρ² + x²) - ρ)`, with the slopes ±m far away
-/// and the radius ρ/m at the tip.
+/// Wedge with a rounded tip: the hyperbola `m (sqrt(ρ² + x²) - ρ)`, with the slopes ±m far away and
+/// the radius ρ/m at the tip.
 ///
 /// With `S = sqrt(ρ² + L²)`, `k = L/S`, and the complete elliptic integrals of modulus k
 ///
@@ -90,8 +90,8 @@ impl<T: Real> ClosedForm<T> for Ellipse<T> {
 /// P = 2 κ m/(π² S) sqrt(L² - x²) ∫ sqrt(1 - k² sin² φ)/(1 - N sin² φ) dφ,   N = (L² - x²)/S²
 /// ```
 ///
-/// with φ from 0 to π/2: it is the [`Ellipse`] with an imaginary axis, A = iρ, and the transformed
-/// principal value taken together with K to one positive integral.
+/// with φ from 0 to π/2. It is the [`Ellipse`] with an imaginary axis, A = iρ; the transformed
+/// principal value and K are combined into one positive integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hyperbola<T> {
     slope: T,
@@ -100,7 +100,7 @@ pub struct Hyperbola<T> {
 }
 
 impl<T: Real> Hyperbola<T> {
-    /// With the slope m, the length ρ of the tip, and the half-width L.
+    /// Creates the form from the slope m, the length ρ of the tip, and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.

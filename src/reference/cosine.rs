@@ -5,8 +5,8 @@ use crate::numerics::special_functions::series;
 use crate::{Interval, Real};
 
 /// One crest of a wavy surface by itself, `A (1 - cos q x)` with q = 2π/λ and the amplitude A, as
-/// long as its neighbours do not touch: their pressures are not in it, as they are in
-/// [`Westergaard`](super::Westergaard).
+/// long as its neighbours do not touch: unlike [`Westergaard`](super::Westergaard), the form does
+/// not include their pressures.
 ///
 /// With z = q L and the Bessel functions J₀, J₁
 ///
@@ -17,8 +17,8 @@ use crate::{Interval, Real};
 ///
 /// by the same steps as for [`Exponential`](super::Exponential); u solves
 /// `u'' = -cos² θ u - J₁(z)`, `u(0) = 0`, `u'(0) = 1`. As `F'(L) = κ A q² L J₀(q L)`, the load is
-/// largest, and the pressure about to be negative at the edges, at the first zero of J₀, where
-/// L = 0.3827 λ: larger contacts are refused.
+/// largest, and the pressure about to turn negative at the edges, at the first zero of J₀, where L
+/// = 0.3827 λ: larger contacts are refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cosine<T> {
     amplitude: T,
@@ -27,7 +27,7 @@ pub struct Cosine<T> {
 }
 
 impl<T: Real> Cosine<T> {
-    /// With the amplitude A, the wavelength λ and the half-width L.
+    /// Creates the form from the amplitude A, the wavelength λ and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is more than

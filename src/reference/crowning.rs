@@ -7,8 +7,8 @@ use crate::{Interval, Real};
 /// Logarithmic (Lundberg) relief, the body `-C ln(1 - x²/l²)` of
 /// [`profile::Crowning`](crate::profile::Crowning).
 ///
-/// Its slope is `C (1/(l - x) - 1/(l + x))`, so that all integrals of the [module](super) come down to
-/// `∫ dt/((l ± t) sqrt(L² - t²)) = π/S`, with `S = sqrt(l² - L²)`:
+/// The slope is `C (1/(l - x) - 1/(l + x))`, so that all integrals of the [module](super) follow
+/// from `∫ dt/((l ± t) sqrt(L² - t²)) = π/S`, with `S = sqrt(l² - L²)`:
 ///
 /// ```text
 /// F = 2 κ C (l/S - 1),   P = 2 κ C l sqrt(L² - x²)/(π S (l² - x²))
@@ -21,11 +21,11 @@ pub struct Crowning<T> {
 }
 
 impl<T: Real> Crowning<T> {
-    /// With the depth C, the half-length l and the half-width L.
+    /// Creates the form from the depth C, the half-length l and the half-width L.
     ///
     /// # Errors
-    /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less than
-    /// l.
+    /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less
+    /// than l.
     pub fn new(depth: T, half_length: T, half_width: T) -> Result<Self, ReferenceError<T>> {
         positive([("the depth", depth), ("the half-length", half_length)])?;
         positive([("the half-width", half_width)])?;
@@ -33,11 +33,11 @@ impl<T: Real> Crowning<T> {
         Ok(Self { depth, half_length, half_width })
     }
 
-    /// With the depth C, the half-length l and the load F.
+    /// Creates the form from the depth C, the half-length l and the load F.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or the load is so
-    /// large that the contact does not differ from the whole length.
+    /// large that the contact cannot be told from the whole length.
     pub fn under_load(
         depth: T,
         half_length: T,
@@ -55,7 +55,7 @@ impl<T: Real> Crowning<T> {
         Self::new(depth, half_length, half_width)
     }
 
-    /// `sqrt(l² - x²)`.
+    /// Returns `sqrt(l² - x²)`.
     fn root(&self, x: T) -> T {
         (self.half_length - x).sqrt() * (self.half_length + x).sqrt()
     }

@@ -4,19 +4,20 @@ use super::{ClosedForm, ReferenceError, check, positive, root_inside};
 use crate::numerics::special_functions::{exp_minus, series};
 use crate::{Interval, Real};
 
-/// The body `ℓ²/R (e^(x/ℓ) - 1 - x/ℓ)`, with the radius R at its lowest point x = 0: smooth, but
-/// without symmetry.
+/// Body `ℓ²/R (e^(x/ℓ) - 1 - x/ℓ)`, with the radius R at its lowest point x = 0: smooth, but not
+/// symmetric.
 ///
 /// With z = L/ℓ and the modified Bessel functions I₀, I₁
 ///
 /// ```text
 /// c = -ℓ ln I₀(z),   F = κ ℓ L/R I₁(z)/I₀(z),   x = c + L cos θ
-/// P = 2 κ ℓ/(π R I₀(z)) S,   S = Σ I_k(z) sin kθ = ½ sin θ ∫ e^((z - s) cos θ) I₀(s) ds,   0 < s < z
+/// P = 2 κ ℓ/(π R I₀(z)) S
+/// S = Σ I_k(z) sin kθ = ½ sin θ ∫ e^((z - s) cos θ) I₀(s) ds,   0 < s < z
 /// ```
 ///
-/// The sum is the conjugate of the Fourier series of `e^(z cos θ)`; it meets
-/// `dS/dz = cos θ S + ½ sin θ I₀(z)`, hence the integral. This times `e^z` has a power series in z
-/// with positive terms only, which is what is summed.
+/// The sum S is the conjugate of the Fourier series of `e^(z cos θ)`; it satisfies
+/// `dS/dz = cos θ S + ½ sin θ I₀(z)`, hence the integral. The integral times `e^z` is summed as a
+/// power series in z with positive terms only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponential<T> {
     length: T,
@@ -26,7 +27,7 @@ pub struct Exponential<T> {
 }
 
 impl<T: Real> Exponential<T> {
-    /// With the length ℓ, the radius R and the half-width L.
+    /// Creates the form from the length ℓ, the radius R and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L/ℓ is so large

@@ -3,9 +3,9 @@
 use super::{ClosedForm, ReferenceError, centred, check, outside, positive};
 use crate::{Edge, Interval, Real};
 
-/// A flat punch with sharp edges at x = ±H, upright or with the slope m (Johnson, §2.8).
+/// Flat punch with sharp edges at x = ±H, upright or with the slope m (Johnson, §2.8).
 ///
-/// It rests on both edges where F > κ abs(m) H; otherwise, where m > 0, on the left one alone:
+/// It rests on both edges if F > κ abs(m) H; otherwise, for m > 0, on the left one alone:
 ///
 /// ```text
 /// P = (F - κ m x)/(π sqrt(H² - x²))
@@ -16,17 +16,17 @@ pub struct FlatPunch<T> {
     half_width: T,
     slope: T,
     limits: Interval<T>,
-    /// L, which the limits do not give to all digits.
+    /// Half-width L of the contact, which cannot be had from the limits to all digits.
     contact: T,
-    /// Where it rests on both edges, the load in excess of κ abs(m) H.
+    /// Load in excess of κ abs(m) H, if the punch rests on both edges.
     excess: Option<T>,
 }
 
 impl<T: Real> FlatPunch<T> {
-    /// With the half-width H, the slope m, and the load F.
+    /// Creates the form from the half-width H, the slope m, and the load F.
     ///
     /// # Errors
-    /// [`ReferenceError::Parameter`] if H or F is not positive and finite, or m not finite.
+    /// [`ReferenceError::Parameter`] if H or F is not positive and finite, or m is not finite.
     pub fn under_load(
         half_width: T,
         slope: T,
@@ -63,7 +63,7 @@ impl<T: Real> ClosedForm<T> for FlatPunch<T> {
         if outside(limits, x) {
             return T::zero();
         }
-        // Distances from the edge that presses more and from the other.
+        // Distances from the edge under the higher pressure and from the other.
         let mut distances = [x - limits.left, limits.right - x];
         if self.slope < T::zero() {
             distances.reverse();

@@ -3,19 +3,19 @@
 use super::ClosedForm;
 use crate::{CurvePoint, ParametricProfile, Piecewise, PiecewiseError, Real};
 
-/// A smooth part of the body of a closed form: the graph of its height, with `k = x`.
+/// Smooth part of the body of a closed form: the graph of its height, with `k = x`.
 #[derive(Clone, Copy, Debug)]
 pub struct Graph<'f, T> {
     form: &'f dyn ClosedForm<T>,
     ends: [T; 2],
 }
 
-/// The body of a closed form between two abscissae, in pieces that end where its slope is not
-/// smooth. With [`Flat`](crate::Flat) below and the form's
-/// [`edges`](ClosedForm::edges) it is the scene that the form solves.
+/// Returns the body of a closed form between two abscissae, in pieces that end where its slope is
+/// not smooth. With [`Flat`](crate::Flat) below and the form's [`edges`](ClosedForm::edges) it is
+/// the scene that the form solves.
 ///
 /// # Errors
-/// [`PiecewiseError`] for ends that are not in order, or at which the body has no slope.
+/// [`PiecewiseError`] if the ends are not in order, or if the body has no slope at one of them.
 pub fn body<T: Real>(
     form: &dyn ClosedForm<T>,
     from: T,

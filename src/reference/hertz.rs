@@ -4,7 +4,7 @@ use super::{ClosedForm, ReferenceError, centred, positive, root_inside};
 use crate::numerics::special_functions::sinh_minus;
 use crate::{Interval, Real};
 
-/// Hertz: the parabola `x²/(2R)` (Johnson, Eqs. 4.43 to 4.45).
+/// Contact of the parabola `x²/(2R)` by Hertz (Johnson, Eqs. 4.43 to 4.45).
 ///
 /// ```text
 /// F = κ L²/(2R),   P = κ/(π R) sqrt(L² - x²)
@@ -16,7 +16,7 @@ pub struct Hertz<T> {
 }
 
 impl<T: Real> Hertz<T> {
-    /// With the radius of curvature R and the half-width L.
+    /// Creates the form from the radius of curvature R and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if either is not positive and finite.
@@ -25,7 +25,7 @@ impl<T: Real> Hertz<T> {
         Ok(Self { radius, half_width })
     }
 
-    /// With the radius of curvature R and the load F.
+    /// Creates the form from the radius of curvature R and the load F.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -34,7 +34,7 @@ impl<T: Real> Hertz<T> {
         Self::new(radius, (T::of(2.0) * (load / kappa)).sqrt() * radius.sqrt())
     }
 
-    /// The gap between the loaded bodies at x, zero in the contact. Its slope outside is
+    /// Returns the gap between the loaded bodies at x, zero in the contact. Its slope outside is
     /// `g - W/κ = sqrt(x² - L²)/R`, with `W = ∫ P ds/(x - s)`, so that
     ///
     /// ```text
@@ -50,7 +50,7 @@ impl<T: Real> Hertz<T> {
         let u = T::of(2.0) * (T::of(0.5) * beyond).sqrt().asinh();
         let half = T::of(0.5);
         if u > T::of(18.0) {
-            // The same where sinh might overflow.
+            // The limit for large u, where sinh might overflow.
             let (ratio, x) = (l / x, x.abs());
             return half * x * (x / self.radius) * (T::one() - (u + half) * ratio * ratio);
         }

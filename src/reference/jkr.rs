@@ -4,14 +4,14 @@ use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::convex_root;
 use crate::{Edge, Interval, Real};
 
-/// The line contact of Johnson, Kendall and Roberts: the parabola `x²/(2R)` with the work of
-/// adhesion w, energy per area (Barquins, *J. Adhesion* 26, 1988, 1).
+/// Line contact of Johnson, Kendall and Roberts: the parabola `x²/(2R)` with the work of adhesion
+/// w, energy per area (Barquins, *J. Adhesion* 26, 1988, 1).
 ///
 /// ```text
 /// F = κ L²/(2R) - 2 sqrt(κ w L),   P = κ/(π R) sqrt(L² - x²) - 2 sqrt(κ w L)/(π sqrt(L² - x²))
 /// ```
 ///
-/// The pull is largest at `L₀³ = R² w/κ`, where `F = -3 κ L₀²/(2R)`; contacts that are narrower are
+/// The tensile load is largest at `L₀³ = R² w/κ`, where `F = -3 κ L₀²/(2R)`; narrower contacts are
 /// not stable under a given load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jkr<T> {
@@ -21,7 +21,8 @@ pub struct Jkr<T> {
 }
 
 impl<T: Real> Jkr<T> {
-    /// With the radius of curvature R, the work of adhesion w and the half-width L.
+    /// Creates the form from the radius of curvature R, the work of adhesion w and the half-width
+    /// L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -31,13 +32,13 @@ impl<T: Real> Jkr<T> {
         Ok(Self { radius, work, half_width })
     }
 
-    /// The stable contact with the radius of curvature R, the work of adhesion w and the load F,
-    /// negative for a pull. It solves, by Newton's method, `y⁴ - 4 y = 2 F R/(κ L₀²)` for
+    /// Creates the stable contact from the radius of curvature R, the work of adhesion w and the
+    /// load F, negative in tension. It solves, by Newton's method, `y⁴ - 4 y = 2 F R/(κ L₀²)` for
     /// `y² = L/L₀`.
     ///
     /// # Errors
-    /// [`ReferenceError::PullOff`] where there is none; [`ReferenceError::Parameter`] if the load is
-    /// not finite, or one of the others not positive and finite.
+    /// [`ReferenceError::PullOff`] if no such contact exists; [`ReferenceError::Parameter`] if the
+    /// load is not finite, or another parameter is not positive and finite.
     pub fn under_load(radius: T, work: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
         positive([("the radius", radius), ("the work of adhesion", work), ("κ", kappa)])?;
         check("the load", load, true, "finite")?;
@@ -57,7 +58,7 @@ impl<T: Real> Jkr<T> {
         Self::new(radius, work, narrowest * (T::one() + d).powi(2))
     }
 
-    /// `2 sqrt(κ w L)`.
+    /// Returns `2 sqrt(κ w L)`.
     fn pull(&self, kappa: T) -> T {
         T::of(2.0) * kappa.sqrt() * self.work.sqrt() * self.half_width.sqrt()
     }
@@ -72,7 +73,7 @@ impl<T: Real> ClosedForm<T> for Jkr<T> {
         T::of(0.5) * kappa * (self.half_width / self.radius) * self.half_width - self.pull(kappa)
     }
 
-    /// Negative next to the edges, and minus infinity there.
+    /// Returns the pressure, negative next to the edges, and minus infinity there.
     fn pressure(&self, x: T, kappa: T) -> T {
         let Some(root) = root_inside(self.limits(), x) else { return T::zero() };
         (kappa * (root / self.radius) - self.pull(kappa) / root) / T::pi()

@@ -3,24 +3,25 @@
 use super::{ClosedForm, ReferenceError, check, positive};
 use crate::{Edge, Interval, Real};
 
-/// N contacts in a row, made of one: the body `H(v(x))/N`, where H is the body of another form, the
-/// contact of which is `[-b, a]` in v, and v a polynomial that rises and falls over all of it N times.
+/// N contacts in a row, made of one: the body `H(v(x))/N`, where H is the body of another form with
+/// the contact `[-b, a]` in v, and v is a polynomial that rises or falls over all of `[-b, a]` N
+/// times.
 ///
 /// ```text
 /// v(x) = s T_N(x/r),   T_N(cos φ) = cos Nφ,   s > a, b
 /// contacts: where -b ≤ v(x) ≤ a,   P(x) = abs(v'(x)) P_H(v(x))/N,   F/N on each
 /// ```
 ///
-/// It is exact, since `Σ 1/(x - t) = v'(x)/(v(x) - w)` over the N places t at which v is w, so that
-/// `PV∫ P(t)/(x - t) dt = v'(x)/N PV∫ P_H(w)/(v(x) - w) dw`, and `v'/N` is also what the slope of H is
-/// multiplied by; every gap between two contacts closes at both its ends, as v comes back to where it
-/// was (polynomial maps: Geronimo and Van Assche, *Trans. Amer. Math. Soc.* 308, 1988, 559).
+/// The form is exact. Since `Σ 1/(x - t) = v'(x)/(v(x) - w)` over the N places t at which v is w,
+/// `PV∫ P(t)/(x - t) dt = v'(x)/N PV∫ P_H(w)/(v(x) - w) dw`, and `v'/N` also multiplies the slope
+/// of H. Every gap between two contacts closes at both ends, as v has the same value there
+/// (polynomial maps: Geronimo and Van Assche, *Trans. Amer. Math. Soc.* 308, 1988, 559).
 ///
 /// H is any form without adhesion: [`Hertz`](super::Hertz) makes smooth crests,
 /// [`Wedge`](super::Wedge) a kink inside each contact, [`RoundedPunch`](super::RoundedPunch) flats.
-/// [`FlatPunch`](super::FlatPunch) makes N sharp punches side by side: their pressures are those of
-/// other codes, too, but no [`body`](super::body) with corners inside can be given to a
-/// [`Contact`](crate::Contact). As s comes down to a, neighbours merge.
+/// [`FlatPunch`](super::FlatPunch) makes N sharp punches side by side: their pressures can be
+/// compared with other codes, but no [`body`](super::body) with corners inside can be given to a
+/// [`Contact`](crate::Contact). As s decreases to a, neighbours merge.
 ///
 /// ```
 /// use linecontact::reference::{ClosedForm, Hertz, PolynomialMap};
@@ -29,7 +30,7 @@ use crate::{Edge, Interval, Real};
 /// let form = PolynomialMap::new(Hertz::under_load(1.0, load, kappa)?, 3, 0.9, 2.0)?;
 /// let contacts = form.contacts();
 /// assert_eq!(contacts.len(), 3);
-/// assert_eq!(contacts[1].left, -contacts[1].right); // at the middle one of three places where v = 0
+/// assert_eq!(contacts[1].left, -contacts[1].right); // the middle one of three, where v = 0
 /// # Ok::<(), linecontact::reference::ReferenceError<f64>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -37,20 +38,20 @@ pub struct PolynomialMap<T, F> {
     form: F,
     amplitude: T,
     radius: T,
-    /// Where v is zero, from left to right: v is made of them, so that it keeps its digits there.
+    /// Zeros of v, from left to right: v is their product, so that it keeps its digits there.
     zeros: Vec<T>,
     contacts: Vec<Interval<T>>,
-    /// Where the slope is not smooth, and v there.
+    /// Places where the slope is not smooth, and v there.
     breakpoints: Vec<[T; 2]>,
 }
 
 impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
-    /// With the form H, the number N of contacts, the amplitude s of the polynomial, in the unit of
-    /// the lengths of H, and the half-width r of the span on which it swings between ±s.
+    /// Creates the form from H, the number N of contacts, the amplitude s of the polynomial, in the
+    /// unit of the lengths of H, and the half-width r of the span on which it swings between ±s.
     ///
     /// # Errors
-    /// [`ReferenceError::Parameter`] if N is 0, s or r is not positive and finite, s not larger than
-    /// a and b, or H has adhesive edges.
+    /// [`ReferenceError::Parameter`] if N is 0, s or r is not positive and finite, s is not larger
+    /// than a and b, or H has adhesive edges.
     pub fn new(form: F, count: usize, amplitude: T, radius: T) -> Result<Self, ReferenceError<T>> {
         check("the number of contacts", T::count(count), count > 0, "at least 1")?;
         positive([("the amplitude", amplitude), ("the radius", radius)])?;
@@ -79,32 +80,33 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
         Ok(map)
     }
 
-    /// The amplitude s.
+    /// Returns the amplitude s.
     pub fn amplitude(&self) -> T {
         self.amplitude
     }
 
-    /// The half-width r.
+    /// Returns the half-width r.
     pub fn radius(&self) -> T {
         self.radius
     }
 
-    /// The form H.
+    /// Returns the form H.
     pub fn form(&self) -> &F {
         &self.form
     }
 
-    /// Whether v rises on a branch, counted from the left. On the last one it does.
+    /// Tells whether v rises on a branch, counted from the left. On the last one it does.
     fn rises(&self, branch: usize) -> bool {
         (self.zeros.len() - 1 - branch).is_multiple_of(2)
     }
 
-    /// Where v has a value between -s and s on a branch.
+    /// Returns the place on a branch where v has a given value between -s and s.
     fn place(&self, count: usize, branch: usize, v: T) -> T {
         let rises = (count - 1 - branch).is_multiple_of(2);
         let v = if rises { v } else { -v };
-        // With x = r sin ψ, v is s sin(N (ψ - ψ₀)) between two turning points. The angle is taken from
-        // ψ₀ or from the nearer turning point: from all of the distance of v from s.
+        // With x = r sin ψ, v is s sin(N (ψ - ψ₀)) between two turning points. The angle is
+        // measured from ψ₀ or from the nearer turning point, there by the distance of v from s,
+        // which keeps its digits.
         let step = T::frac_pi_2() / T::count(count);
         let middle = T::count(2 * branch + 1) - T::count(count);
         let [below, above] = [self.amplitude - v.abs(), self.amplitude + v.abs()];
@@ -118,7 +120,8 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
         self.radius * angle.sin()
     }
 
-    /// All places where v has a value, from left to right on all branches, or outermost.
+    /// Lists all places where v has a given value, from left to right: on all branches, or the
+    /// outermost.
     fn places(&self, v: T) -> Vec<T> {
         let count = self.zeros.len();
         if v.abs() < self.amplitude {
@@ -133,7 +136,8 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
         }
     }
 
-    /// v and v'. The sign of v is that of x between its zeros, whatever is rounded.
+    /// Returns v and v'. The sign of v is right whatever the rounding, as it follows from the
+    /// zeros.
     fn polynomial(&self, x: T) -> [T; 2] {
         let double = T::of(2.0) / self.radius;
         let [mut value, mut slope] = [T::of(0.5) * self.amplitude, T::zero()];
@@ -142,12 +146,12 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
             slope = slope * factor + value * double;
             value *= factor;
         }
-        // At a breakpoint the value is known.
+        // At a breakpoint v is known.
         let breakpoint = self.breakpoints.iter().find(|breakpoint| breakpoint[0] == x);
         [breakpoint.map_or(value, |breakpoint| breakpoint[1]), slope]
     }
 
-    /// The slope on one side of x.
+    /// Returns the slope on one side of x.
     fn slope_beside(&self, x: T, right: bool) -> T {
         let [v, rise] = self.polynomial(x);
         let upwards = (rise > T::zero()) == right;
@@ -178,7 +182,7 @@ impl<T: Real, F: ClosedForm<T>> ClosedForm<T> for PolynomialMap<T, F> {
             if x < on.left {
                 return T::zero();
             }
-            // What is inside is inside, whatever is rounded, and a limit is a limit.
+            // Rounding must not move a point out of its contact, nor off a limit.
             let [left, right] = if self.rises(branch) { [low, high] } else { [high, low] };
             v = match x {
                 _ if x == on.left => left,
@@ -207,7 +211,7 @@ impl<T: Real, F: ClosedForm<T>> ClosedForm<T> for PolynomialMap<T, F> {
         self.breakpoints.iter().map(|breakpoint| breakpoint[0]).collect()
     }
 
-    /// Of the outermost limits.
+    /// Returns the edges at the outermost limits.
     fn edges(&self) -> [Edge<T>; 2] {
         let Interval { left, right } = self.limits();
         let [low, high] = self.form.edges();

@@ -4,8 +4,8 @@ use super::{ClosedForm, ReferenceError, centred, check, positive, root_inside};
 use crate::numerics::special_functions::{series, wallis};
 use crate::{Interval, Real};
 
-/// The body `A abs(x)ⁿ` for any real n ≥ 1 (Steuermann, *C. R. Acad. Sci. URSS* 25, 1939, 359, for
-/// even n; Johnson, §5.3).
+/// Body `A abs(x)ⁿ` for any real n ≥ 1 (Steuermann, *C. R. Acad. Sci. URSS* 25, 1939, 359, for even
+/// n; Johnson, §5.3).
 ///
 /// ```text
 /// F = 2 κ n A Lⁿ/π ∫ cosⁿ φ dφ,   P = n F/(π L) ∫ tⁿ⁻¹/sqrt(t² - ξ²) dt
@@ -22,7 +22,8 @@ pub struct PowerLaw<T> {
 }
 
 impl<T: Real> PowerLaw<T> {
-    /// With the coefficient A, a length to the power 1 - n, the exponent n and the half-width L.
+    /// Creates the form from the coefficient A, a length to the power 1 - n, the exponent n and the
+    /// half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if A or L is not positive and finite, or n is not from 1 to
@@ -35,7 +36,7 @@ impl<T: Real> PowerLaw<T> {
         Ok(Self { coefficient, exponent, half_width })
     }
 
-    /// With the coefficient A, the exponent n and the load F.
+    /// Creates the form from the coefficient A, the exponent n and the load F.
     ///
     /// # Errors
     /// As [`new`](Self::new), and if the load is not positive and finite.
@@ -47,16 +48,16 @@ impl<T: Real> PowerLaw<T> {
     ) -> Result<Self, ReferenceError<T>> {
         Self::new(coefficient, exponent, T::one())?;
         positive([("the load", load), ("κ", kappa)])?;
-        // Lⁿ itself may be beyond the numbers.
+        // Lⁿ itself may overflow.
         let root = |value: T| value.powf(exponent.recip());
         let constant = T::frac_pi_2() / (exponent * wallis(exponent));
         let start = root(load / kappa) * root(constant) / root(coefficient);
-        // A rounded 1/n makes up to a hundred units of it, which one step of Newton's method mends.
+        // A rounded 1/n costs up to a hundred units of rounding, which one Newton step removes.
         let excess = load / Self::new(coefficient, exponent, start)?.load(kappa) - T::one();
         Self::new(coefficient, exponent, start + start * excess / exponent)
     }
 
-    /// `A xⁿ` for another n; as xⁿ alone may be beyond the numbers, by its square root.
+    /// Returns `A xⁿ` for another n, by the square root of xⁿ, which may itself overflow.
     fn times_power(&self, x: T, exponent: T) -> T {
         let root = x.powf(T::of(0.5) * exponent);
         self.coefficient * root * root
@@ -100,7 +101,7 @@ impl<T: Real> ClosedForm<T> for PowerLaw<T> {
     }
 }
 
-/// J, with ξ and s = sqrt(1 - ξ²).
+/// Returns J, with ξ and s = sqrt(1 - ξ²).
 fn integral<T: Real>(exponent: T, xi: T, s: T) -> T {
     let (one, two, three) = (T::one(), T::of(2.0), T::of(3.0));
     if xi == T::zero() {
@@ -121,15 +122,15 @@ fn integral<T: Real>(exponent: T, xi: T, s: T) -> T {
     integral
 }
 
-/// J for 1 ≤ n < 3.
+/// Returns J for 1 ≤ n < 3.
 fn lowest<T: Real>(n: T, xi: T, s: T) -> T {
     let (one, two, half) = (T::one(), T::of(2.0), T::of(0.5));
     let hypergeometric = |square: T| series(one, |k| square * (k - half * n) / (k + half));
     if s * s <= half {
         return s * hypergeometric(s * s);
     }
-    // With t = ξ cosh v and p = n - 1, J = ξᵖ ∫ coshᵖ v dv, from 0 to V = arcosh(1/ξ). Up to
-    // tanh² v₁ = 1/2 the same series serves; from there coshᵖ v = 2⁻ᵖ Σ C(p, k) e^((p - 2k) v).
+    // With t = ξ cosh v and p = n - 1, J = ξᵖ ∫ coshᵖ v dv, from 0 to V = arcosh(1/ξ). The same
+    // series is used up to tanh² v₁ = 1/2; from there coshᵖ v = 2⁻ᵖ Σ C(p, k) e^((p - 2k) v).
     let p = n - one;
     let near = half.sqrt() * hypergeometric(half) * (xi / half.sqrt()).powf(p);
     let v1 = one.asinh();

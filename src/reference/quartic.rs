@@ -3,17 +3,18 @@
 use super::{ClosedForm, ReferenceError, centred, positive, root_inside};
 use crate::{Interval, Real};
 
-/// The body `D ((x/r)² - 1)²`: bumps at ±r, and between them a hollow of the depth D. Up to the load
+/// Body `D ((x/r)² - 1)²`: bumps at ±r, and between them a hollow of depth D. Up to the load
 /// `2 κ D` it touches in two places, then in one. With `D = r = 1` it is `x⁴ - 2x²` and a constant.
 ///
 /// ```text
-/// F ≤ 2 κ D: β² - α² = 2 r² sqrt(F/(2 κ D)),  α² + β² = 2 r²,  P = 4 κ D/(π r⁴) abs(x) sqrt((x² - α²)(β² - x²))
+/// F ≤ 2 κ D: β² - α² = 2 r² sqrt(F/(2 κ D)),  α² + β² = 2 r²
+///            P = 4 κ D/(π r⁴) abs(x) sqrt((x² - α²)(β² - x²))
 /// F ≥ 2 κ D: F = κ D (3/2 u² - 2 u),  u = L²/r²,  P = 2 κ D/(π r²) sqrt(L² - x²) (u - 2 + 2 x²/r²)
 /// ```
 ///
-/// The first is a [`PolynomialMap`](super::PolynomialMap) of Hertz's parabola with N = 2, the second a
-/// [`Biquadratic`](super::Biquadratic) of negative radius. Both are `4 κ D/(π r⁴) x² sqrt(2 r² - x²)`
-/// where they meet.
+/// The first is a [`PolynomialMap`](super::PolynomialMap) of Hertz's parabola with N = 2, the
+/// second a [`Biquadratic`](super::Biquadratic) of negative radius. Both are
+/// `4 κ D/(π r⁴) x² sqrt(2 r² - x²)` where they meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quartic<T> {
     depth: T,
@@ -21,17 +22,18 @@ pub struct Quartic<T> {
     on: On<T>,
 }
 
-/// Where it touches, in units of r.
+/// Contacts, in units of r.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum On<T> {
-    /// From α to β, and from -β to -α.
+    /// Contacts from α to β, and from -β to -α.
     Two { inner: T, outer: T, force: T },
-    /// From -L to L, with u - 2 to all digits.
+    /// Contact from -L to L, with u - 2 to all digits.
     One { half_width: T, beyond: T },
 }
 
 impl<T: Real> Quartic<T> {
-    /// With the depth D, the distance r of the bumps from the middle, and the load F.
+    /// Creates the form from the depth D, the distance r of the bumps from the middle, and the load
+    /// F.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -42,7 +44,7 @@ impl<T: Real> Quartic<T> {
         let force = load / kappa / depth;
         let on = if force <= two {
             let share = (force / two).sqrt();
-            // From 2 - force: the difference of α from nothing at the merger.
+            // By 2 - force, as α is a small difference near the merger.
             let rest = (two - force) / two / (one + share);
             On::Two { inner: rest.sqrt(), outer: (one + share).sqrt(), force }
         } else {
@@ -52,7 +54,7 @@ impl<T: Real> Quartic<T> {
         Ok(Self { depth, radius, on })
     }
 
-    /// The load 2 κ D under which the two contacts become one.
+    /// Returns the load 2 κ D under which the two contacts become one.
     pub fn merger(&self, kappa: T) -> T {
         T::of(2.0) * kappa * self.depth
     }

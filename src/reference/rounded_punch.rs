@@ -5,7 +5,7 @@ use super::{ClosedForm, ReferenceError, centred, check, positive};
 use crate::numerics::special_functions::{convex_root, minus_atan, minus_sin};
 use crate::{Interval, Real};
 
-/// A punch that is flat for abs(x) ≤ d, with the parabola `(abs(x) - d)²/(2R)` on either side
+/// Punch that is flat for abs(x) ≤ d, with the parabola `(abs(x) - d)²/(2R)` on either side
 /// (Ciavarella, Hills and Monno, *Proc. Instn Mech. Engrs C* 212, 1998, 319).
 ///
 /// ```text
@@ -21,8 +21,8 @@ pub struct RoundedPunch<T> {
 }
 
 impl<T: Real> RoundedPunch<T> {
-    /// With the half-width d of the flat part, the radius R of its edges and the half-width L of
-    /// the contact.
+    /// Creates the form from the half-width d of the flat part, the radius R of its edges and the
+    /// half-width L of the contact.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not more
@@ -34,18 +34,18 @@ impl<T: Real> RoundedPunch<T> {
         Ok(Self { flat, radius, half_width, end })
     }
 
-    /// With the half-width d of the flat part, the radius R and the load F. It solves, by Newton's
-    /// method, `(1 + τ²) atan τ - τ = π R F/(κ d²)` for τ = tan φ.
+    /// Creates the form from the half-width d of the flat part, the radius R and the load F. It
+    /// solves, by Newton's method, `(1 + τ²) atan τ - τ = π R F/(κ d²)` for τ = tan φ.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or the load is so
-    /// small that the contact does not differ from the flat part.
+    /// small that the contact cannot be told from the flat part.
     pub fn under_load(flat: T, radius: T, load: T, kappa: T) -> Result<Self, ReferenceError<T>> {
         positive([("the half-width of the flat part", flat), ("the radius", radius)])?;
         positive([("the load", load), ("κ", kappa)])?;
         let (one, two) = (T::one(), T::of(2.0));
         let wanted = T::pi() * (radius / flat) * (load / kappa / flat);
-        // Like 2/3 τ³, then π/2 τ².
+        // Behaves like 2/3 τ³ for small τ, like π/2 τ² for large τ.
         let start = (wanted * T::of(1.5)).cbrt().max((wanted / T::frac_pi_2()).sqrt());
         let tau = convex_root(start, |tau| {
             let value = tau * tau * tau.atan() - minus_atan(tau) - wanted;
@@ -54,7 +54,7 @@ impl<T: Real> RoundedPunch<T> {
         let secant = (one + tau * tau).sqrt();
         let half_width = flat * secant;
         check("the load", load, half_width > flat, "enough to bring an edge into contact")?;
-        // From τ, as L - d has fewer digits.
+        // By τ, as L - d has fewer digits.
         let cos = ((one + secant) / (two * secant)).sqrt();
         let end = Angle { sin: tau / (two * secant * cos), cos };
         Ok(Self { flat, radius, half_width, end })

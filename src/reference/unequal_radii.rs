@@ -1,12 +1,12 @@
-//! A parabola with another radius on either side.
+//! Parabola with different radii on its two sides.
 
 use super::angles::{Angle, bend};
 use super::{ClosedForm, ReferenceError, positive};
 use crate::numerics::special_functions::{convex_root, minus_sin, sin_minus_cos};
 use crate::{Interval, Real};
 
-/// The body `x²/(2R)` with one radius R₁ for x < 0 and another, R₂, for x > 0, touching at x = 0:
-/// closed but for the angle φ of x = 0, which depends on the radii alone.
+/// Body `x²/(2R)` with one radius R₁ for x < 0 and another, R₂, for x > 0, touching at x = 0: in
+/// closed form except for the angle φ of x = 0, which depends on the radii alone.
 ///
 /// ```text
 /// R₁ (sin φ - φ cos φ) = R₂ (sin φ₁ - φ₁ cos φ₁),   φ₁ = π - φ
@@ -25,7 +25,7 @@ pub struct UnequalRadii<T> {
 }
 
 impl<T: Real> UnequalRadii<T> {
-    /// With R₁ on the left, R₂ on the right, and the half-width L.
+    /// Creates the form from R₁ on the left, R₂ on the right, and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -43,7 +43,7 @@ impl<T: Real> UnequalRadii<T> {
         Ok(Self { left, right, half_width, angles, tip })
     }
 
-    /// With R₁ on the left, R₂ on the right, and the load F.
+    /// Creates the form from R₁ on the left, R₂ on the right, and the load F.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -55,7 +55,7 @@ impl<T: Real> UnequalRadii<T> {
     }
 }
 
-/// φ ≤ π/2 with `h(φ) = r h(π - φ)`, `h = sin φ - φ cos φ`, r ≤ 1.
+/// Returns φ ≤ π/2 with `h(φ) = r h(π - φ)`, `h = sin φ - φ cos φ`, r ≤ 1.
 fn smaller_angle<T: Real>(ratio: T) -> T {
     let other = |phi: T| T::pi() - phi;
     let start = (T::of(3.0) * T::pi() * ratio).cbrt().min(T::frac_pi_2());

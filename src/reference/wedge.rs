@@ -4,14 +4,15 @@ use super::angles::{Angle, jump};
 use super::{ClosedForm, ReferenceError, positive};
 use crate::{Interval, Real};
 
-/// A wedge that touches at its tip, x = 0: the slopes -m₁ on the left and m₂ on the right. The
-/// pressure is infinite, as a logarithm, at the tip.
+/// Wedge that touches at its tip, x = 0, with the slopes -m₁ on the left and m₂ on the right. At
+/// the tip the pressure is infinite like a logarithm.
 ///
 /// The condition at the edges puts the tip at the angle `φ = π m₁/(m₁ + m₂)`. With Λ of the
 /// [module](super),
 ///
 /// ```text
-/// a = L (1 - cos φ),   b = L (1 + cos φ),   F = κ L (m₁ + m₂) sin φ/π,   P = κ (m₁ + m₂)/π² Λ(x, 0)
+/// a = L (1 - cos φ),   b = L (1 + cos φ)
+/// F = κ L (m₁ + m₂) sin φ/π,   P = κ (m₁ + m₂)/π² Λ(x, 0)
 /// ```
 ///
 /// and with one slope m, `F = 2 κ m L/π` and `P = 2 κ m/π² arcosh(L/abs(x))` (Johnson, §5.2).
@@ -24,7 +25,7 @@ pub struct Wedge<T> {
 }
 
 impl<T: Real> Wedge<T> {
-    /// With the slope m on both sides and the half-width L.
+    /// Creates the form from the slope m on both sides and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if either is not positive and finite.
@@ -32,7 +33,7 @@ impl<T: Real> Wedge<T> {
         Self::unequal(slope, slope, half_width)
     }
 
-    /// With m₁ on the left, m₂ on the right, and the half-width L.
+    /// Creates the form from m₁ on the left, m₂ on the right, and the half-width L.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.
@@ -44,7 +45,7 @@ impl<T: Real> Wedge<T> {
         Ok(Self { left, right, half_width, tip })
     }
 
-    /// With m₁ on the left, m₂ on the right, and the load F.
+    /// Creates the form from m₁ on the left, m₂ on the right, and the load F.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite.

@@ -10,16 +10,16 @@ use crate::{Interval, Real};
 /// F = 2 κ A sin² ψ_a,   P = 4 κ A/λ cos ψ sqrt(sin² ψ_a - sin² ψ),   ψ = π x/λ,   ψ_a = π L/λ
 /// ```
 ///
-/// F is the load on one wavelength; with F = 2 κ A the contact is complete. This is not one contact
-/// but a row of them, which solves
+/// F is the load on one wavelength; with F = 2 κ A the contact is complete. The crests touch in a
+/// row of contacts, which solves
 ///
 /// ```text
 /// PV∫ P(s) π/λ cot(π (x - s)/λ) ds = κ g(x)
 /// ```
 ///
-/// and so no [`ClosedForm`](super::ClosedForm). In `ξ = tan ψ` it becomes one: as
-/// `π/λ cot(ψ - ψ') ds = dξ'/(ξ - ξ') + ξ' dξ'/(1 + ξ'²)`, of which the second part vanishes with P
-/// even, P is also the pressure of a body of the slope `4π A/λ ξ/(1 + ξ²)` between ξ = ±tan ψ_a.
+/// and is not a [`ClosedForm`](super::ClosedForm). With `ξ = tan ψ` it is a single contact: since
+/// `π/λ cot(ψ - ψ') ds = dξ'/(ξ - ξ') + ξ' dξ'/(1 + ξ'²)`, of which the second part vanishes as P
+/// is even, P is also the pressure of a body of the slope `4π A/λ ξ/(1 + ξ²)` between ξ = ±tan ψ_a.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Westergaard<T> {
     amplitude: T,
@@ -28,7 +28,8 @@ pub struct Westergaard<T> {
 }
 
 impl<T: Real> Westergaard<T> {
-    /// With the amplitude A, half the height, the wavelength λ and the half-width L of each contact.
+    /// Creates the form from the amplitude A, half the height, the wavelength λ and the half-width
+    /// L of each contact.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or L is not less
@@ -41,11 +42,11 @@ impl<T: Real> Westergaard<T> {
         Ok(Self { amplitude, wavelength, half_width })
     }
 
-    /// With the amplitude A, the wavelength λ and the load F on each wavelength.
+    /// Creates the form from the amplitude A, the wavelength λ and the load F on each wavelength.
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] if one of them is not positive and finite, or F is not less
-    /// than the 2 κ A of complete contact.
+    /// than 2 κ A, the load of complete contact.
     pub fn under_load(
         amplitude: T,
         wavelength: T,
@@ -57,22 +58,22 @@ impl<T: Real> Westergaard<T> {
         let complete = T::of(2.0) * kappa * amplitude;
         let must = "less than 2 κ A, at which the contact is complete";
         check("the load", load, load < complete, must)?;
-        // From tan² ψ_a, as sin² ψ_a is next to 1 where the contact is nearly complete.
+        // By tan² ψ_a, since sin² ψ_a is close to 1 where the contact is nearly complete.
         let angle = (load / (complete - load)).sqrt().atan();
         Self::new(amplitude, wavelength, wavelength * (angle / T::pi()))
     }
 
-    /// The contact `[-L, L]` at x = 0.
+    /// Returns the contact `[-L, L]` at x = 0.
     pub fn limits(&self) -> Interval<T> {
         centred(self.half_width)
     }
 
-    /// The load on one wavelength.
+    /// Returns the load on one wavelength.
     pub fn load(&self, kappa: T) -> T {
         T::of(2.0) * kappa * self.amplitude * self.sine(self.half_width).powi(2)
     }
 
-    /// The pressure `P(x)` for x from -λ/2 to λ/2: zero outside the contact.
+    /// Returns the pressure `P(x)` for x from -λ/2 to λ/2: zero outside the contact.
     pub fn pressure(&self, x: T, kappa: T) -> T {
         let limits = self.limits();
         if outside(limits, x) {
@@ -84,7 +85,7 @@ impl<T: Real> Westergaard<T> {
         T::of(4.0) * kappa * (self.amplitude / self.wavelength) * cosine * root
     }
 
-    /// sin(π x/λ) for 0 ≤ x ≤ λ, from the nearer end.
+    /// Returns sin(π x/λ) for 0 ≤ x ≤ λ, computed from the nearer end.
     fn sine(&self, x: T) -> T {
         (T::pi() * (x.min(self.wavelength - x) / self.wavelength)).sin()
     }

@@ -1,38 +1,41 @@
-//! How far the bodies come together, and how stiff they are.
+//! Approach and stiffness of the bodies.
 //!
-//! The surface of a half-plane has no displacement towards a point at infinity: it grows like a logarithm. A
-//! displacement needs a point of reference. With `M = E/(1 - ν²)` of body i, and `ξ = x - s`, its surface at x comes
-//! nearer to the reference by
+//! The displacement of the surface of a half-plane grows like a logarithm with the distance of the
+//! point it is measured from, so that it needs a point of reference. With `M = E/(1 - ν²)` of body
+//! i, and `ξ = x - s`, its surface at x approaches the reference by
 //!
 //! ```text
 //! δ_i(x) = 1/(π M_i) ∫ P(s) k_i(ξ) ds
 //! k = ln(1 + d²/ξ²) - d²/((1 - ν)(d² + ξ²))    the point at depth d below x
-//! k = 2 ln(2R/|ξ|) - 2                          the centre of a disc that is loaded at the opposite point
+//! k = 2 ln(2R/|ξ|) - 2                          the centre of a disc, loaded at the opposite point
 //! k = 2 ln(ℓ/|ξ|)                               any other constant
 //! ```
 //!
-//! The first is the strain below the surface (Johnson, *Contact Mechanics*, 1985, Eqs. 2.23) integrated over the depth;
-//! for `d` much longer than the contact it is the formula of Weber and Banaschek (1953) for gear teeth. The second
-//! is Johnson's (§5.6). In plane stress M is E, and ν is `ν/(1 + ν)`.
+//! The first is the strain below the surface (Johnson, *Contact Mechanics*, 1985, Eqs. 2.23)
+//! integrated over the depth; for `d` much longer than the contact it is the formula of Weber and
+//! Banaschek (1953) for gear teeth. The second is Johnson's (§5.6). In plane stress M is E, and ν
+//! is `ν/(1 + ν)`.
 //!
-//! **The approach of the bodies** δ is how much nearer the two references are than when the bodies just touched:
-//! `δ = δ₁ + δ₂ + h(x) - h_first - gap(x)` with h the gap before loading, `h_first` the least of it, and `gap(x)`
-//! what is left open under load, nothing inside a contact. The logarithm need not be integrated for it. Averaged
-//! over a contact j of centre c and half-width L with the weight `1/(π sqrt(L² - (x - c)²))`, `ln|ξ|` is
+//! **The approach of the bodies** δ is the decrease in distance of the two references since first
+//! touch: `δ = δ₁ + δ₂ + h(x) - h_first - gap(x)` with h the gap before loading, `h_first` its
+//! least value, and `gap(x)` the gap under load, zero inside a contact. The logarithm need not be
+//! integrated for it. Averaged over a contact j of centre c and half-width L with the weight
+//! `1/(π sqrt(L² - (x - c)²))`, `ln|ξ|` is
 //!
 //! ```text
 //! G(s) = ln(L/2) inside contact j,    ln((|s - c| + sqrt((s - c)² - L²))/2) outside
 //! ```
 //!
-//! and, as the bodies touch there, the average of h is to that of the displacements as h is: so, with contact j that
-//! which has `h_first`,
+//! As the gap under load is zero in contact j, the formula for δ may be averaged over it. With the
+//! contact that has `h_first` as contact j,
 //!
 //! ```text
 //! δ = <h> - h_first + Σ 1/(π M_i) ∫ P (k_i(ξ) + 2 ln|ξ| - 2 G) ds
 //! ```
 //!
-//! in which nothing is singular. **Stiffness**: `dδ/dF` is the sum alone, with the [rate](crate::LoadRates) `∂P/∂F`
-//! of the pressure for P; the stiffness `dF/dδ` is exact, without differences.
+//! with no singular term. **Stiffness**: `dδ/dF` is the sum alone, with the
+//! [rate](crate::LoadRates) `∂P/∂F` of the pressure in place of P; the stiffness `dF/dδ` is exact,
+//! without differences.
 
 use super::load_rates::LoadRates;
 use super::pressure::Pressure;
@@ -42,24 +45,25 @@ use super::undeformed_gap::UndeformedGap;
 use crate::material::Elasticity;
 use crate::{ContactError, Interval, Real, Reference, References, Side, Solution};
 
-/// How far two bodies come together under load.
+/// Distances by which two bodies come together under load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Approach<T> {
-    /// δ, how much nearer to each other the two references are than when the bodies, turned as they are, just touched: a
-    /// length.
+    /// δ, the decrease in distance of the two references since the bodies, at the same tilt, just
+    /// touched: a length.
     pub bodies: T,
-    /// δ₁, how much nearer the surface of body 1 at x is to its own reference; of a rigid body 0.
+    /// δ₁, the approach of the surface of body 1 at x to its own reference: a length, 0 for a rigid
+    /// body.
     pub lower: T,
-    /// The same of body 2.
+    /// δ₂, the approach of the surface of body 2 at x to its own reference: a length.
     pub upper: T,
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// How far the bodies have come together, to about 1e-12 of the integral of the logarithm.
+    /// Returns the approach of the bodies, to about 1e-12 of the integral of the logarithm.
     ///
-    /// It takes about ten microseconds, and no evaluation with [`Panels`](crate::Panels); longer for several contacts, and
-    /// for depths that are a small share of the half-width.
+    /// It takes about ten microseconds, and no evaluation with [`Panels`](crate::Panels); several
+    /// contacts, and depths that are a small share of the half-width, take longer.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -83,18 +87,19 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// # Errors
     /// [`ContactError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
-    /// [`ContactError::InvalidReference`]; [`ContactError::OutsideBodies`]; those of [`pressure`](Self::pressure);
-    /// [`ContactError::Integral`].
+    /// [`ContactError::InvalidReference`]; [`ContactError::OutsideBodies`]; those of
+    /// [`pressure`](Self::pressure); [`ContactError::Integral`].
     pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
         self.approaching(references)?.of_all()
     }
 
-    /// The stiffness dF/dδ of the bodies against each other, a pressure: by how much the load per unit length
-    /// grows with their [approach](Self::approach). With a tilt, at a fixed tilt. Of one contact it takes no longer than
-    /// a pressure.
+    /// Returns the stiffness dF/dδ of the bodies against each other, a pressure: the derivative of
+    /// the load per unit length by their [approach](Self::approach), at a fixed tilt. For one
+    /// contact it takes no longer than a pressure.
     ///
-    /// Bodies come nearer to each other with every load, for all depths and for discs larger than the contact. (The surface of one of them need not come nearer to a
-    /// point close below it, `Approach::upper`: beside the contact it may be lifted while the gap closes.)
+    /// The approach of the bodies grows with the load, for all depths and for discs larger than the
+    /// contact. (The surface of one body need not approach a point close below it,
+    /// `Approach::upper`: outside the contact it may be lifted while the gap closes.)
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -128,14 +133,14 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
-/// A contact, the elasticity of its bodies and their references: all that the approach follows from.
+/// Contact, elasticity of its bodies and their references: all data of the approach.
 pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
     bodies: [Elasticity<T>; 2],
     references: References<T>,
 }
 
-/// The contact in which the bodies touched first, by its number, and the heights of the gap there.
+/// Contact in which the bodies touched first, by its number, and the heights of the gap there.
 struct First<T> {
     contact: usize,
     heights: UndeformedGap<T>,
@@ -180,19 +185,19 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(first)
     }
 
-    /// What all lengths in logarithms are counted in.
+    /// Returns the unit of all lengths in logarithms.
     fn scale(&self) -> T {
         self.solved.contacts()[0].half_width()
     }
 
-    /// Sums `1/(π M_i)` times the integral of each body, less twice the logarithm.
+    /// Sums over both bodies `1/(π M_i)` times the integral of the body, less twice the logarithm.
     fn both(&self, smooth: [T; 2], logarithm: T) -> T {
         let [lower, upper] = smooth.map(|smooth| smooth - logarithm - logarithm);
         let shares = self.bodies.map(|body| body.compliance);
         (shares[0] * lower + shares[1] * upper) * T::frac_1_pi()
     }
 
-    /// `∫ p (k_i + 2 ln|ξ|) ds` of each body.
+    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body.
     fn smooth(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<[T; 2], ContactError<T>> {
         let scale = self.scale();
         let References { x, lower, upper } = self.references;
@@ -237,7 +242,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         })
     }
 
-    /// `∫ p G ds` of a contact.
+    /// Returns `∫ p G ds` of a contact.
     fn mean_logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
@@ -257,14 +262,14 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(mean)
     }
 
-    /// The approach of the bodies alone, and its rate dδ/dF.
+    /// Returns the approach of the bodies alone, and its rate dδ/dF.
     pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
         let integrals = Integrals::new(self.solved)?;
         let smooth = self.smooth(&integrals)?;
         Ok([self.of_bodies(&integrals, smooth, &self.first()?)?, self.rate()?])
     }
 
-    /// From the integrals of the kernels.
+    /// Returns the approach of the bodies from the integrals of the kernels.
     fn of_bodies(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
@@ -276,7 +281,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(mean - least + self.both(smooth, logarithm))
     }
 
-    /// dδ/dF: with ∂P/∂F any contact may be the first.
+    /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
     fn rate(&self) -> Result<T, ContactError<T>> {
         let (rates, contacts) = (LoadRates::new(self.solved)?, self.solved.contacts());
         if let [on] = *contacts {
@@ -290,9 +295,10 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(self.both(self.smooth(&integrals)?, logarithm))
     }
 
-    /// `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact, under a unit load. With the
-    /// ellipse through the reference whose foci are the limits, and η the logarithm of the sum of its half-axes
-    /// over L, the first part is 2 η; the second is the real part of `d ∂/∂d`.
+    /// Returns `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact,
+    /// under a unit load. Take the ellipse through the reference with its foci at the limits, and η
+    /// the logarithm of the sum of its half-axes over L: the first part is 2 η; the second is the
+    /// real part of `d ∂/∂d`.
     fn of_punch(&self, on: Interval<T>, reference: Reference<T>, body: Elasticity<T>) -> T {
         let (one, two, half_width) = (T::one(), T::of(2.0), on.half_width());
         match reference {
@@ -312,7 +318,7 @@ impl<'s, T: Real> Approaching<'s, T> {
                 // cosh η - 1, with cosh η = (r₁ + r₂)/(2 L), and sinh η.
                 let rise = (excess(0) + excess(1)) / (two * half_width);
                 let sinh = rise.sqrt() * (rise + two).sqrt();
-                // So close to the surface nothing moves.
+                // Next to the surface the displacement is zero to rounding.
                 if sinh.is_zero() {
                     return sinh;
                 }
@@ -336,7 +342,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(Approach { bodies, lower: of(0), upper: of(1) })
     }
 
-    /// `∫ P ln|ξ| ds`.
+    /// Returns `∫ P ln|ξ| ds`.
     fn logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
@@ -348,7 +354,7 @@ impl<'s, T: Real> Approaching<'s, T> {
             let logarithm = |distance: T, strength: T| [strength * (distance.abs() / scale).ln()];
             return integrals.over(x, logarithm).map(|[sum]| sum);
         };
-        // In a contact it changes as the heights do.
+        // Inside a contact the integral changes with x as the heights do.
         let heights =
             if i == first.contact { first.heights } else { UndeformedGap::new(self.solved, i, x)? };
         let rise = heights.at.unwrap_or(heights.mean) - heights.mean;

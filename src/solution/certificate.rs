@@ -1,10 +1,11 @@
-//! Whether a solution of the equations is a contact: no tension inside, no overlap outside.
+//! Proof that a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
-//! All of the gap is sampled in short [cells]: each contact first, to see whether the panels of the solver have missed
-//! anything and whether the limits [balance](balance) the bodies; then the way from each limit to the end of the bodies, or
-//! half the way to the next contact. The signs are those of pieces: bounds on a Chebyshev series by
-//! its coefficients, on shorter and shorter pieces until they leave no doubt. Where the slope of the gap
-//! rises over the one contact, and is larger yet beyond, the cells alone tell. One contact is several that are one.
+//! All of the gap is sampled in short [cells]. The contacts come first: have the panels of the
+//! solver missed anything, and do the limits [balance](balance) the bodies? Then the gap is
+//! followed from each limit to the end of the bodies, or half the way to the next contact. Signs
+//! are proved piece by piece: a Chebyshev series is bounded by its coefficients, on shorter and
+//! shorter pieces until the sign is certain. If the slope of the gap rises over a single contact,
+//! and is larger yet beyond, the cells alone are enough. One contact is treated as several.
 
 mod balance;
 mod cells;
@@ -22,24 +23,25 @@ use inside::Inside;
 use outside::{Loaded, OutsideOf};
 use series_bounds::extremes;
 
-/// Evaluations, and samples, after which the certificate is given up.
+/// Largest number of evaluations, and of samples, before the certificate is given up.
 const MOST_EVALUATIONS: usize = 1 << 20;
 
-/// The share of the bodies' range that a cell may be long, and have no fewer than eight nodes.
+/// Largest length of a cell as a share of the bodies' range; each has eight nodes or more.
 const SHARE: f64 = 1.0 / 400.0;
 
-/// The length of a cell in widths of the narrowest feature that is sure to be seen in it.
+/// Length of a cell in widths of the narrowest feature that is sure to be seen in it.
 const WIDTHS: f64 = 4.0;
 
-/// Points at which the pressure of one of several contacts is summed up.
+/// Number of points at which the pressure of one of several contacts is summed up.
 const POINTS: usize = 512;
 
-/// A proof that a solution is a contact.
+/// Proof that a solution is a contact.
 ///
-/// What is proved: `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the
-/// bodies, or to the next of several contacts, up to rounding, and to what the curves do between the
-/// points at which they are evaluated. Those are eight or more in each `spacing`, and more near the edges, at breakpoints, and
-/// wherever the slope of the gap is not a polynomial of low degree.
+/// It proves `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the bodies,
+/// or to the next of several contacts. The proof holds up to rounding, and as far as the curves are
+/// known from the points at which they are evaluated: eight or more in each `spacing`, and more
+/// near the edges, at breakpoints, and wherever the slope of the gap is not a polynomial of low
+/// degree.
 ///
 /// ```
 /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -58,29 +60,30 @@ const POINTS: usize = 512;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate<T> {
-    /// Where the pressure is nearest to zero beside that of a smooth body: the least ratio of `P` to
-    /// the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola, of several contacts each by its
-    /// own limits and load; with the reciprocal of the root of a distance at an edge that is not free. `None` where the slope of the
-    /// gap rises throughout the one contact, which says that `P > 0`, and between adhesive edges.
+    /// Least ratio of `P` to the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola;
+    /// at an edge that is not free the root of its distance is in the denominator. Each of several
+    /// contacts has its own limits and load. `None` if the slope of the gap rises throughout a
+    /// single contact, which implies `P > 0`, and between adhesive edges.
     pub pressure: Option<Extremum<T>>,
-    /// The least gap at a place outside where the bodies approach each other again, a length, negative
-    /// by no more than rounding; `None` where the gap grows on both sides up to the ends, and between two
-    /// contacts has but one largest value.
+    /// Least gap at a place outside where the bodies approach each other again, a length, negative
+    /// by no more than rounding. `None` if the gap grows on both sides up to the ends, and between
+    /// two contacts has a single maximum.
     pub gap: Option<Extremum<T>>,
-    /// The longest cell, a length: a feature at least a quarter as wide cannot have passed unseen. A 400th of the bodies,
-    /// or four times the [resolution](crate::Contact::resolution) if that is shorter.
+    /// Length of the longest cell: a feature at least a quarter as wide cannot have been missed. It
+    /// is a 400th of the bodies, or four times the [resolution](crate::Contact::resolution) if that
+    /// is shorter.
     pub spacing: T,
-    /// What it has cost.
+    /// Cost of the certificate.
     pub cost: Cost,
 }
 
-/// A place and a value there.
+/// Place and value of an extremum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremum<T> {
-    /// Where.
+    /// Place of the extremum.
     pub x: T,
-    /// The value.
+    /// Value of the extremum.
     pub value: T,
 }
 
@@ -88,11 +91,11 @@ fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactE
     ContactError::Undecided { x, evaluations, samples }
 }
 
-/// Looks at contacts, whatever quadrature they were found with.
+/// Certifies contacts, whatever quadrature they were found with.
 pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, ContactError<T>> {
     let Solved { gap, kappa, found, .. } = solved;
     let ContactState { interval: hull, free, adhesive, .. } = *found;
-    // Of an edge where Eq. (6) has left a strength no more is known than at a free one.
+    // With Eq. (6) the strength left at an edge says no more than at a free one.
     let at_end = Ends { left: hull.left <= found.ends.left, right: hull.right >= found.ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
     presses_at(found, at_corner)?;
@@ -146,7 +149,8 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
 }
 
 impl<T: Real> Loaded<'_, T> {
-    /// Returns the least gap beside and between them, where none is below zero; `is_held` are edges that may pull.
+    /// Returns the least gap outside the contacts and between them, or fails at an overlap;
+    /// `is_held` marks edges that may pull.
     fn outside(
         &self,
         [is_held, at_corner]: [Ends<bool>; 2],
@@ -157,7 +161,7 @@ impl<T: Real> Loaded<'_, T> {
         let strengths = found.strengths.zip(is_held);
         let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
         let (mut worst, mut closest, last, half) = (None, None, contacts.len() - 1, T::of(0.5));
-        // Where the bodies come closer up to the middle of a gap, from its left.
+        // Place left of the middle of a gap, if the bodies come closer up to there.
         let mut falling: Option<Extremum<T>> = None;
         for (contact, &on) in contacts.iter().enumerate() {
             for side in Side::BOTH {
@@ -191,7 +195,7 @@ impl<T: Real> Loaded<'_, T> {
     }
 }
 
-/// Returns what a solver assumes of the slope of the gap in one of its contacts, and how far that may be off.
+/// Returns the slope of the gap that a solver assumes in one of its contacts, and its uncertainty.
 fn assumed<T: Real>(solved: Solved<'_, T>, contact: usize, x: T) -> Option<(T, T)> {
     let doubt = match solved.several().map(|several| several.panel_set(contact)) {
         Some(panels) => panels.doubt(x)?,
@@ -207,9 +211,9 @@ fn presses_at<T: Real>(
 ) -> Result<(), ContactError<T>> {
     let ContactState { interval, load, strengths, .. } = *found;
     let mean = T::of(0.5) * load.abs() / interval.half_width();
-    // With adhesion there may be no load.
+    // With adhesion the load may be zero.
     let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
-    // Where both edges are at fault it is the right one that is named.
+    // If both edges pull, the error names the right one.
     for side in [Side::Right, Side::Left] {
         if at_corner[side] && strengths[side] < -found.nothing() * pressed {
             let (x, pressure) = (interval[side], -T::one() / T::zero());
@@ -219,7 +223,7 @@ fn presses_at<T: Real>(
     Ok(())
 }
 
-/// The least pressure of all contacts, each beside that of a smooth body under its load.
+/// Finds the least pressure of all contacts, each relative to a smooth body under the same load.
 fn least_pressure<T: Real>(
     gap: &Gap<'_, T>,
     kappa: T,
@@ -245,7 +249,8 @@ fn least_pressure<T: Real>(
     least.ok_or_else(|| undecided(hull.left, cost))
 }
 
-/// The load of one of several contacts, to a thousandth or so: a pressure may be infinite at kinks.
+/// Returns the load of one of several contacts, to about a thousandth: a pressure may be infinite
+/// at kinks.
 fn borne<T: Real>(pressures: &dyn Fn(&[T], &mut [T]), on: Interval<T>) -> T {
     let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
     let x: Vec<T> = (0..POINTS).map(|i| on.at_angle(angle(i))).collect();
@@ -256,14 +261,14 @@ fn borne<T: Real>(pressures: &dyn Fn(&[T], &mut [T]), on: Interval<T>) -> T {
     T::pi() * sum / T::count(POINTS)
 }
 
-/// How far bodies are followed: without an end, which are given by x itself, for a million half-widths.
+/// Returns the ends up to which bodies are followed: a million half-widths where they have no end.
 fn followed<T: Real>(ends: Ends<T>, on: Interval<T>) -> Ends<T> {
     let reach = T::of(1e6) * on.half_width();
     let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
     Ends { left: finite(ends.left, on.left - reach), right: finite(ends.right, on.right + reach) }
 }
 
-/// The lower one.
+/// Returns the lower of two extrema.
 fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Option<Extremum<T>> {
     match (one, other) {
         (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
@@ -284,7 +289,8 @@ mod tests {
 
     const LOAD: f64 = 1.0;
 
-    /// What the conditions of two contacts make of `x⁴ - 2x²` less so many times `exp(-((x - at)/width)²)`.
+    /// Certifies the solution for two contacts of `x⁴ - 2x²` less `height` times
+    /// `exp(-((x - at)/width)²)`.
     fn certified([height, at, width]: [f64; 3]) -> Result<Certificate<f64>, ContactError<f64>> {
         let body = Curve::new([-2.5, 2.5], move |k: f64| {
             let s = (k - at) / width;
@@ -329,7 +335,7 @@ mod tests {
         certify(Solved { gap: &gap, integrator: &*solver, kappa, found: &found })
     }
 
-    /// Solutions of the equations that the bodies do not have.
+    /// Tests solutions of the equations that are not contacts of the bodies.
     #[test]
     fn what_is_no_contact() {
         certified([0.0, 0.0, 1.0]).unwrap();

@@ -1,61 +1,61 @@
-//! What a search has found: all that a solution is asked for follows from it.
+//! Result of a search: a solution works out everything from it.
 
 use crate::quadrature::MomentDerivatives;
 use crate::{Ends, Interval, Real};
 
-/// By how many of the estimated errors of the limits a pressure or a gap may be missed, as a share
-/// of its size.
+/// Largest relative error of a pressure or a gap, in multiples of the estimated error of the
+/// limits.
 const ERRORS: f64 = 16.0;
 
-/// The largest share of what is usual in the contacts that is taken for nothing.
+/// Largest share of a usual value in the contacts that counts as zero.
 const MOST: f64 = 0.01;
 
-/// A contact that was found.
+/// Contact that a search has found.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactState<T> {
     pub interval: Interval<T>,
     pub load: T,
     /// K_b and K_a.
     pub strengths: Ends<T>,
-    /// Whether they vanish, being what the limits were sought by.
+    /// Flags: the strength is zero, a condition by which the limit was found.
     pub free: Ends<bool>,
-    /// Whether the bodies may pull at each other.
+    /// Flags: the bodies may pull at each other at this edge.
     pub adhesive: Ends<bool>,
-    /// Estimated error of the limits relative to the half-width, where they were sought.
+    /// Estimated error of the limits relative to the half-width, if they were unknown.
     pub error: Option<T>,
-    /// Of several contacts, that error by about the share of the load that each bears: a narrow one whose limits are
-    /// hardly known leaves little open elsewhere.
+    /// Error of several contacts, weighted by about the share of the load that each bears: a narrow
+    /// contact with inaccurate limits has little effect elsewhere.
     pub error_by_load: Option<T>,
-    /// The load that such an error stands for, where it is known.
+    /// Load error that corresponds to the error of the limits, if it is known.
     pub force: Option<T>,
-    /// How the edge integrals change with the limits, where that is known.
+    /// Derivatives of the edge integrals by the limits, if they are known.
     pub trend: Option<MomentDerivatives<T>>,
-    /// By how much body 2 was turned counter-clockwise.
+    /// Angle by which body 2 was turned counter-clockwise.
     pub tilt: T,
-    /// Where the bodies end: at corners, or with their common range.
+    /// Ends of the bodies: corners, or the ends of their common range.
     pub ends: Ends<T>,
 }
 
 impl<T: Real> ContactState<T> {
-    /// What is taken for nothing beside what is usual in the contacts.
+    /// Returns the share of a usual value in the contacts below which a value counts as zero.
     pub fn nothing(&self) -> T {
         Self::rounding().max(self.open()).min(T::of(MOST))
     }
 
-    /// Whether the limits leave more open than any check allows for, so that none says anything: a
+    /// Tells whether the error of the limits exceeds all tolerances, so that no check can decide: a
     /// search has stopped early, or a quadrature is coarse.
     pub fn is_doubtful(&self) -> bool {
-        // NaN is in doubt too.
+        // NaN is doubtful too.
         let is_sure = self.open() <= T::of(MOST);
         !is_sure
     }
 
-    /// The share of a pressure that the errors of the limits leave open.
+    /// Returns the relative uncertainty of a pressure that the errors of the limits cause.
     fn open(&self) -> T {
         T::of(ERRORS) * self.error_by_load.or(self.error).unwrap_or(T::zero())
     }
 
-    /// The same without what is in doubt of the limits.
+    /// Returns the relative uncertainty that rounding alone causes.
     pub fn rounding() -> T {
         T::epsilon().cbrt() * T::epsilon().cbrt()
     }

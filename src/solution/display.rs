@@ -1,4 +1,4 @@
-//! Results as lines to be read.
+//! Results as lines of text.
 
 use super::stress::Stress;
 use super::{Certificate, Extremum, Peak, Solution};
@@ -15,9 +15,8 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
     write!(f, "[{left}, {right}]")
 }
 
-/// Contacts, load, largest pressure and quality in three lines, and a warning where
-/// [`is_steep`](Solution::is_steep) holds; with six digits; a precision (`{:.3}`)
-/// is another number of digits.
+/// Writes contacts, load, largest pressure and quality in three lines, and a warning if
+/// [`is_steep`](Solution::is_steep); with six digits, or as many as the precision (`{:.3}`).
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let contacts = self.intervals();
@@ -81,7 +80,7 @@ impl<T: Real> Display for Extremum<T> {
     }
 }
 
-/// The value with all its digits, and its error with two; a precision is that of the value.
+/// Writes the value with all its digits, and its error with two; a precision applies to the value.
 impl<T: Real> Display for Estimate<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let [value, error] = [self.value, self.error].map(|number| number.to_subset_unchecked());
@@ -90,7 +89,7 @@ impl<T: Real> Display for Estimate<T> {
     }
 }
 
-/// What is proved, and by what, in a line.
+/// Writes the proof and its least values in one line.
 impl<T: Real> Display for Certificate<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         for (proved, by, least) in

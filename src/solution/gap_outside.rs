@@ -1,7 +1,7 @@
-//! The gap between the loaded bodies beside the contact.
+//! The gap between the loaded bodies outside the contact.
 //!
-//! With `h(x)` the gap before loading and `e` the nearer edge, the two elastic surfaces leave between
-//! them
+//! With `h(x)` the gap before loading and `e` the nearer edge, the distance between the two elastic
+//! surfaces is
 //!
 //! ```text
 //! gap(x)  = h(x) - h(e) - 1/κ ∫ P(s) ln((x - s)/(e - s)) ds
@@ -16,22 +16,22 @@ use crate::gap::Sampler;
 use crate::{ContactError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
-    /// The distance between the loaded bodies at `x` outside the contact, measured along y: a length,
-    /// zero at both edges. Negative where the bodies would overlap.
+    /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
+    /// a length, zero at both edges. Negative where the bodies would overlap.
     ///
-    /// Next to an edge it is a small difference: its absolute error is rounding of the heights Y of
-    /// the bodies, and of `F/κ`.
+    /// Next to an edge it is a small difference: its absolute error is the rounding of the heights
+    /// Y of the bodies, and of `F/κ`.
     ///
     /// # Errors
-    /// [`ContactError::InvalidPosition`] strictly inside the contact; [`ContactError::OutsideBodies`] beyond
-    /// either body, and for NaN; those of [`pressure`](Self::pressure), of sampling the gap, and
-    /// [`ContactError::Integral`].
+    /// [`ContactError::InvalidPosition`] strictly inside the contact;
+    /// [`ContactError::OutsideBodies`] beyond either body, and for NaN; those of
+    /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
         self.solved().gap_at(x)
     }
 
-    /// The slope of that gap: how fast it opens towards larger x. Zero at a free edge, infinite at one
-    /// where the pressure is.
+    /// Returns the slope of the gap between the loaded bodies, positive where it opens towards
+    /// larger x. Zero at a free edge, infinite at an edge of infinite pressure.
     ///
     /// # Errors
     /// As [`gap_at`](Self::gap_at), and [`ContactError::Singular`] at an edge that is not free.
@@ -63,7 +63,7 @@ impl<T: Real> Solved<'_, T> {
         Ok(bodies - pushed / self.kappa)
     }
 
-    /// The edge nearest to a point outside the contacts, and whether it is free.
+    /// Returns the edge nearest to a point outside the contacts, with a flag: the edge is free.
     fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
         let (contacts, range) = (self.contacts(), self.gap.range());
         let (next, inside) = Interval::find(contacts, x);
@@ -71,7 +71,7 @@ impl<T: Real> Solved<'_, T> {
             return Err(ContactError::InvalidPosition { x, inside: false, interval });
         }
         let Interval { left, right } = self.found.interval;
-        // An edge may have been rounded to beyond the end of a body that it lies at.
+        // A rounded edge may lie beyond the end of a body.
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(ContactError::OutsideBodies { x, range });
         }

@@ -1,29 +1,29 @@
-//! How limits and pressure change with the load.
+//! Derivatives of limits and pressure by the load.
 
 use super::pressure_integral::Density;
 use super::solved::Solved;
 use crate::quadrature::panels::LoadResponse;
 use crate::{ContactError, Ends, Interval, Real, Solution};
 
-/// The exact derivatives of a contact by its load per unit length F, all else being the same.
+/// Exact derivatives of a contact by its load per unit length F, at constant other data.
 ///
-/// With the limits changing or not, the derivative of the pressure solves the equation of a flat
+/// Whether or not the limits change, the derivative of the pressure solves the equation of a flat
 /// punch, `PV∫ P_F(s)/(x - s) ds = 0`, under a unit load. In one contact it is
 ///
 /// ```text
 /// ∂P/∂F = 1/(π sqrt((x + b)(a - x)))
 /// ```
 ///
-/// (Johnson, *Contact Mechanics*, 1985, Eq. 2.64). The limits follow from `K_a = 0`, `K_b = 0`, that
-/// is `F = κ L (m₁ ± m₀)` (see [`quadrature`](crate::quadrature)), at each edge that is free:
+/// (Johnson, *Contact Mechanics*, 1985, Eq. 2.64). The limits follow from `K_a = 0`, `K_b = 0`,
+/// that is from `F = κ L (m₁ ± m₀)` (see [`quadrature`](crate::quadrature)), at each free edge:
 ///
 /// ```text
 /// dF/da = κ ( m₀/2 + L/π ∫ g'(x) (1 + cos θ) dθ),   dF/db = κ (-m₀/2 + L/π ∫ g'(x) (1 - cos θ) dθ)
 /// ```
 ///
-/// with θ from 0 to π. The limits of several contacts follow from their equations, linearised, and the
-/// pressure from theirs. It grows everywhere and all contacts widen (Buyarov and Rakhmanov, *Sb. Math.* 190,
-/// 1999, 791). Where contacts are born or merge the limits have no derivative.
+/// with θ from 0 to π. The limits of several contacts follow from their linearised equations, and
+/// so does the pressure. It grows everywhere and all contacts widen (Buyarov and Rakhmanov, *Sb.
+/// Math.* 190, 1999, 791). Where contacts appear or merge the limits have no derivative.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -42,7 +42,7 @@ use crate::{ContactError, Ends, Interval, Real, Solution};
 pub struct LoadRates<T> {
     /// da/dF, length² per force; zero at a fixed edge.
     pub a: T,
-    /// db/dF.
+    /// db/dF, length² per force; zero at a fixed edge.
     pub b: T,
     /// dx/dF of both limits of each contact, from left to right.
     pub limits: Vec<Ends<T>>,
@@ -50,7 +50,7 @@ pub struct LoadRates<T> {
     punch: Touching<T>,
 }
 
-/// What the flat punch covers.
+/// Contacts that the flat punch covers.
 #[derive(Clone, Debug, PartialEq)]
 enum Touching<T> {
     One(Interval<T>),
@@ -67,17 +67,17 @@ impl<T: Real> Density<T> for &LoadRates<T> {
 }
 
 impl<T: Real> LoadRates<T> {
-    /// Of one contact.
+    /// Creates the derivatives of a single contact.
     fn of_one(limits: Ends<T>, on: Interval<T>) -> Self {
         let Ends { left, right } = limits;
         Self { a: right, b: -left, limits: vec![limits], punch: Touching::One(on) }
     }
 
-    /// ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
+    /// Returns ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
     ///
     /// # Errors
-    /// [`ContactError::Singular`] at the edges, where it is infinite; [`ContactError::InvalidPosition`] for
-    /// NaN.
+    /// [`ContactError::Singular`] at the edges, where it is infinite;
+    /// [`ContactError::InvalidPosition`] for NaN.
     pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
         let contacts = match &self.punch {
             Touching::One(on) => std::slice::from_ref(on),
@@ -90,7 +90,7 @@ impl<T: Real> LoadRates<T> {
                 Touching::Several(punch) => punch.pressure(i, x),
             }),
             Some(on) if x == on.left || x == on.right => Err(ContactError::Singular { x }),
-            // NaN is nowhere.
+            // NaN lies in no contact.
             Some(&interval) if x >= interval.left || x.partial_cmp(&x).is_none() => {
                 Err(ContactError::InvalidPosition { x, inside: true, interval })
             }
@@ -100,12 +100,13 @@ impl<T: Real> LoadRates<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The derivatives of pressure and limits by the load.
+    /// Returns the derivatives of pressure and limits by the load.
     ///
     /// # Errors
-    /// [`ContactError::NoLoadDerivative`] with adhesion, with edges by the paper's Eq. (6), and with a
-    /// quadrature that does not know the derivatives of its integrals ([`Midpoint`](crate::Midpoint))
-    /// unless both limits are given; where contacts are born or merge.
+    /// [`ContactError::NoLoadDerivative`] with adhesion; with edges by the paper's Eq. (6); with a
+    /// quadrature that does not know the derivatives of its integrals
+    /// ([`Midpoint`](crate::Midpoint)), unless both limits are given; where contacts appear or
+    /// merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
         LoadRates::new(self.solved())
     }

@@ -4,14 +4,15 @@ use super::pressure_integral::Integrals;
 use crate::{ContactError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
-    /// Mean pressure: F over the widths of all contacts, `F/(a + b)` of a single one.
+    /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one.
     pub fn mean_pressure(&self) -> T {
         let half = |sum: T, on: &Interval<T>| sum + on.half_width();
         self.load() / (T::of(2.0) * self.intervals().iter().fold(T::zero(), half))
     }
 
-    /// Moment of the pressure about x = 0, `∫ x P dx`: force. Its error is rounding of F times the
-    /// largest x of the contact; beside a kink of the slope some 1e-12 of F L.
+    /// Returns the moment of the pressure about x = 0, `∫ x P dx`: a force. Its error is the
+    /// rounding of F times the largest x of the contact; next to a kink of the slope some 1e-12 of
+    /// F L.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
@@ -22,11 +23,11 @@ impl<T: Real> Solution<'_, T> {
         if moment.is_finite() { Ok(moment) } else { Err(ContactError::Overflow { interval }) }
     }
 
-    /// Centre of pressure, `∫ x P dx/F`: where the load acts.
+    /// Returns the centre of pressure, `∫ x P dx/F`, where the load acts.
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`]; [`ContactError::InvalidLoad`]
-    /// where F is zero.
+    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
+    /// [`ContactError::InvalidLoad`] if F is zero.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load();
         if load.is_zero() {
@@ -35,7 +36,8 @@ impl<T: Real> Solution<'_, T> {
         Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
     }
 
-    /// A force: a moment may be beyond the numbers where the centre of pressure is not.
+    /// Returns the moment over the half-width, a force per unit length: the moment may overflow
+    /// where the centre of pressure does not.
     fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
         let on = self.hull();
         let (centre, half_width) = (on.centre(), on.half_width());

@@ -1,27 +1,28 @@
 //! Partial slip: a tangential force that friction carries.
 //!
-//! The bodies are pressed together first, by P with the load F. Then a force Q < μF acts along the contact, and
-//! perhaps one of the bodies is stretched by a tension σ. The middle of each contact sticks; beside it the bodies
-//! slip, where the traction is what friction allows. Of like bodies
+//! The bodies are first pressed together, by P with the load F. Then a force Q < μF acts along the
+//! contact, and one of the bodies may be stretched by a tension σ. The middle of each contact
+//! sticks. At its sides the bodies slip, with the traction at the friction limit. For like bodies
 //!
 //! ```text
 //! q(x) = μ (P(x) - P*(x)),    ∫ q dx = Q
 //! ```
 //!
-//! where P* is the pressure of the same bodies under the load `F - Q/μ`, with the gap turned by `-σ/(2 μ E*)`; where
-//! P* presses the bodies stick (Ciavarella, *Int. J. Solids Struct.* 35, 1998, 2349; Jäger, *Arch. Appl. Mech.* 68,
-//! 1998, 1). This holds for any number of contacts, as long as they stick within their contacts; else slip would
-//! reverse while the force grows. For Hertz the stick zone is `sqrt(1 - Q/(μF))` of the contact (Cattaneo 1938, Mindlin
+//! where P* is the pressure of the same bodies under the load `F - Q/μ`, with the gap turned by
+//! `-σ/(2 μ E*)`. The bodies stick wherever P* is positive (Ciavarella, *Int. J. Solids Struct.*
+//! 35, 1998, 2349; Jäger, *Arch. Appl. Mech.* 68, 1998, 1). This holds for any number of contacts,
+//! as long as each stick zone lies within a contact; otherwise slip would reverse while the force
+//! grows. For Hertz the stick zone is `sqrt(1 - Q/(μF))` of the contact (Cattaneo 1938, Mindlin
 //! 1949), moved by `σ L/(4 μ p₀)` (Nowell and Hills 1987).
 //!
-//! P* is found from the samples of P. So it costs no evaluation, unless a stretched body sticks beside
-//! what was sampled.
+//! P* is found from the samples of P, without an evaluation, unless a stretched body sticks outside
+//! the sampled range.
 
 use super::stress::{Stress, Subsurface};
 use super::{Pressure, Solution};
 use crate::{Body, ContactError, Interval, Real};
 
-/// What acts along the contact.
+/// Loads along the contact, and its friction.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -39,17 +40,18 @@ use crate::{Body, ContactError, Interval, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Shear<T> {
-    /// The coefficient of friction μ, positive.
+    /// Coefficient of friction μ, positive.
     pub friction: T,
-    /// Q, the force per unit length that acts on body 1 in the direction of positive x; on body 2 it is opposite.
-    /// Less than μF, of either sign.
+    /// Q, the force per unit length that acts on body 1 in the direction of positive x, and on body
+    /// 2 in the opposite one. Less than μF in size, of either sign.
     pub force: T,
-    /// σ, the tension along x by which body 1 is stretched under the force, less that of body 2: a pressure, negative
-    /// in compression.
+    /// σ, the tension along x that stretches body 1 under the force, less the tension in body 2: a
+    /// pressure, negative in compression.
     pub tension: T,
 }
 
-/// A contact that sticks in part, and slips in part: [`Contact::partial_slip`](crate::Contact::partial_slip).
+/// Contact that sticks in part, and slips in part:
+/// [`Contact::partial_slip`](crate::Contact::partial_slip).
 #[derive(Clone, Debug)]
 pub struct PartialSlip<'b, T: Real> {
     normal: Solution<'b, T>,
@@ -58,7 +60,7 @@ pub struct PartialSlip<'b, T: Real> {
 }
 
 impl<'b, T: Real> PartialSlip<'b, T> {
-    /// From the contact, and that which presses where it sticks.
+    /// Combines the contact under P with the contact under P*, which covers the stick zones.
     pub(crate) fn new(
         normal: Solution<'b, T>,
         stick: Solution<'b, T>,
@@ -83,22 +85,25 @@ impl<'b, T: Real> PartialSlip<'b, T> {
         Ok(Self { normal, stick, shear })
     }
 
-    /// The contact under its load, without what acts along it: limits and pressure are those.
+    /// Returns the contact under its normal load alone; forces along it change neither limits nor
+    /// pressure.
     pub fn normal(&self) -> &Solution<'b, T> {
         &self.normal
     }
 
-    /// Where the bodies stick, from left to right. In the rest of the contacts they slip.
+    /// Returns the intervals in which the bodies stick, from left to right. In the rest of the
+    /// contacts they slip.
     pub fn stick_zones(&self) -> &[Interval<T>] {
         self.stick.intervals()
     }
 
-    /// What acts along the contact.
+    /// Returns the loads along the contact, and its friction.
     pub fn shear(&self) -> Shear<T> {
         self.shear
     }
 
-    /// The traction q along the contact. It is a difference: its error is the rounding of μP, whatever Q is.
+    /// Returns the traction q along the contact. As a difference of pressures it has the rounding
+    /// error of μP, whatever Q is.
     ///
     /// # Errors
     /// Those of [`Solution::pressure`].
@@ -107,8 +112,8 @@ impl<'b, T: Real> PartialSlip<'b, T> {
         Ok(Traction { pressures, friction: self.signed_friction() })
     }
 
-    /// The stress below the surface of one of the bodies, from pressure and traction. That of a tension that stretches
-    /// the body is to be added to σ_x.
+    /// Returns the stress below the surface of one of the bodies, from pressure and traction. The
+    /// stress of a tension that stretches the body has to be added to σ_x.
     ///
     /// # Errors
     /// Those of [`Solution::subsurface`].
@@ -119,13 +124,13 @@ impl<'b, T: Real> PartialSlip<'b, T> {
         Ok(SlipStress { parts, friction })
     }
 
-    /// μ with the sign of the force on body 1.
+    /// Returns μ with the sign of the force on body 1.
     fn signed_friction(&self) -> T {
         if self.shear.force < T::zero() { -self.shear.friction } else { self.shear.friction }
     }
 }
 
-/// The traction q along a contact: [`PartialSlip::traction`].
+/// Traction q along a contact: [`PartialSlip::traction`].
 #[derive(Debug)]
 pub struct Traction<'p, T: Real> {
     /// P and P*.
@@ -134,7 +139,8 @@ pub struct Traction<'p, T: Real> {
 }
 
 impl<T: Real> Traction<'_, T> {
-    /// q(x), a pressure: on body 1 in the direction of positive x, on body 2 opposite. Zero outside the contacts.
+    /// Returns q(x), a pressure: on body 1 in the direction of positive x, on body 2 opposite. Zero
+    /// outside the contacts.
     ///
     /// # Errors
     /// As [`Pressure::at`].
@@ -143,7 +149,7 @@ impl<T: Real> Traction<'_, T> {
         Ok(self.friction * (pressure.at(x)? - stick.at(x)?))
     }
 
-    /// q(x) at any number of points: cheaper than one by one.
+    /// Fills in q(x) at any number of points, faster than one by one.
     ///
     /// # Errors
     /// As [`Pressure::at_many`].
@@ -159,16 +165,16 @@ impl<T: Real> Traction<'_, T> {
     }
 }
 
-/// The stress below a contact that slips in part: [`PartialSlip::subsurface`].
+/// Stress below a contact that slips in part: [`PartialSlip::subsurface`].
 #[derive(Debug)]
 pub struct SlipStress<'p, T: Real> {
-    /// Of P and P*.
+    /// Stress below the contacts of P and of P*.
     parts: [Subsurface<'p, T>; 2],
     friction: T,
 }
 
 impl<T: Real> SlipStress<'_, T> {
-    /// The stress at any x, at any depth from zero on.
+    /// Returns the stress at any x, at any depth from zero on.
     ///
     /// # Errors
     /// As [`Subsurface::at`].

@@ -1,4 +1,4 @@
-//! The largest pressure.
+//! Largest pressure of a contact.
 
 use super::{ContactState, Solution, Solved};
 use crate::gap::{Cost, Gap};
@@ -6,19 +6,20 @@ use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
 use crate::{ContactError, Interval, Real, Side};
 use std::cmp::Ordering;
 
-/// The least number of points at which a largest pressure is first looked for.
+/// Least number of grid points for the first search of a largest pressure.
 const POINTS: usize = 64;
 
-/// The most of them, unless there are more than half as many panels.
+/// Largest number of grid points, unless more than half as many panels are present.
 const MOST_POINTS: usize = 1 << 14;
 
-/// The most breakpoints where the pressure is known to be finite that are looked at.
+/// Largest number of breakpoints at which the pressure, known to be finite, is evaluated.
 const MOST_BREAKPOINTS: usize = 256;
 
-/// Parts that a bracket of a top is divided into: with one point less than their number it is as dear as with one point.
+/// Number of parts into which a bracket of a maximum is divided: the 16 points between them cost no
+/// more than one, as they are evaluated at once.
 const PARTS: usize = 17;
 
-/// A largest pressure.
+/// Largest pressure and its place.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -28,33 +29,34 @@ const PARTS: usize = 17;
 /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
 /// let peak = solution.peak()?;
 /// assert!(peak.x.abs() < 1e-6);
-/// assert!((peak.pressure / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2 F/(π L)
+/// assert!((peak.pressure / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2F/(πL)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peak<T> {
-    /// Where it is.
+    /// Abscissa of the largest pressure.
     pub x: T,
-    /// How large it is.
+    /// Largest pressure.
     pub pressure: T,
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Finds the largest pressure (a pressure) and its place. The pressure is flat there: its value has all digits, its
-    /// place half of them.
+    /// Finds the largest pressure (a pressure) and its place. The pressure is flat there: its value
+    /// has all digits, its place half of them.
     ///
-    /// Where the pressure of an edge goes to minus infinity, as at an adhesive one, the peak is that
-    /// inside.
+    /// If the pressure goes to minus infinity at an edge, as at an adhesive one, the peak is the
+    /// largest pressure inside.
     ///
-    /// It takes some two hundred pressures for each contact, more where the contact took many samples: they cost
-    /// evaluations with [`Midpoint`](crate::Midpoint) only, which are not in [`cost`](Self::cost).
+    /// The search takes some two hundred pressures for each contact, more if the contact took many
+    /// samples. They cost evaluations with [`Midpoint`](crate::Midpoint) only; these are not in
+    /// [`cost`](Self::cost).
     ///
     /// # Errors
     /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
-    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the others);
-    /// [`ContactError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer than four segments; those of
-    /// sampling the gap.
+    /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the other
+    /// contacts); [`ContactError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer than
+    /// four segments; those of sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         self.integrator.complete(&self.gap)?;
         let (_, x, Estimate { value: pressure, .. }) =
@@ -81,7 +83,7 @@ impl<T: Real> Solved<'_, T> {
         Ok(best)
     }
 
-    /// Finds the largest pressure of one contact, by its number.
+    /// Finds the largest pressure of one contact, given by its number.
     pub(super) fn peak_in(
         &self,
         contact: usize,
@@ -100,7 +102,7 @@ impl<T: Real> Solved<'_, T> {
             return Err(ContactError::Unresolved { x, pressure, error });
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
-        // Where both edges are at fault it is the right one that is named.
+        // If both edges are singular, the error names the right one.
         for (side, outermost) in [(Side::Right, contact == last), (Side::Left, contact == 0)] {
             if outermost && !free[side] && strengths[side] > rounding {
                 return Err(ContactError::Singular { x: on[side] });
@@ -110,12 +112,13 @@ impl<T: Real> Solved<'_, T> {
     }
 }
 
-/// Finds the place and the value of the largest pressure in a prepared contact, adding to `cost` the price of the
-/// search.
+/// Finds the place and the value of the largest pressure in a prepared contact, and adds the cost
+/// of the search to `cost`.
 ///
-/// A grid crowds at the ends of all panels, and so at the limits and breakpoints. Between the neighbours of a place
-/// on it that is higher than both there is a top, and each top is refined that might be the largest: a
-/// pressure rises above the grid by less than it has risen from the lower neighbour.
+/// A grid crowds at the ends of all panels, and so at the limits and breakpoints. A maximum lies
+/// between the neighbours of each grid point that is higher than both. It is refined if it might be
+/// the largest: a pressure rises above a grid point by less than it has risen from the lower
+/// neighbour.
 pub(crate) fn largest_pressure<T: Real>(
     integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
@@ -138,7 +141,7 @@ pub(crate) fn largest_pressure<T: Real>(
         }
     }
     if !search.top.1.is_resolved() {
-        // Next to an edge a rule of few segments has no digit, and any value.
+        // Next to an edge a rule of few segments has no correct digit, and may give any value.
         search.keep_resolved(&mut grid)?;
     }
     for Rise { bracket, bound, .. } in rises(&grid) {
@@ -151,8 +154,8 @@ pub(crate) fn largest_pressure<T: Real>(
     search.polished(on)
 }
 
-/// Places that rise over a contact and crowd at the ends of its panels, twice as many as have nodes; without panels at
-/// the limits and breakpoints.
+/// Returns rising places over a contact that crowd at the ends of its panels, about twice as many
+/// as the panels have nodes. Without panels they crowd at the limits and breakpoints.
 pub(super) fn places<T: Real>(
     integrator: &dyn Integrator<T>,
     gap: &Gap<'_, T>,
@@ -175,20 +178,21 @@ pub(super) fn places<T: Real>(
         let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
         places.extend((0..count).rev().map(|i| span.at_angle(angle(i))));
     }
-    // The ends of a narrow span may be all there is of it.
+    // A narrow span may have no number between its ends.
     places.retain(|&x| on.contains(x));
     places.dedup();
     places
 }
 
-/// A place of the grid with less pressure on either side, and a bound of the pressure between its neighbours.
+/// Grid point with less pressure on either side, and a bound of the pressure between its
+/// neighbours.
 pub(super) struct Rise<T> {
     bracket: [T; 2],
     pub highest: T,
     bound: T,
 }
 
-/// Lists the places of a grid `[x, P]` with less pressure on either side, the highest bound first.
+/// Lists the points of a grid `[x, P]` with less pressure on either side, the highest bound first.
 pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
     let rise = |i: usize| {
         let ([highest, here], last) = (grid[i], grid.len() - 1);
@@ -203,13 +207,14 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
     rises
 }
 
-/// A search for the largest pressure.
+/// Search for the largest pressure.
 struct Search<'s, 'g, T: Real> {
     integrator: &'s dyn Integrator<T>,
     gap: &'s Gap<'g, T>,
     load_case: &'s LoadCase<T>,
     cost: &'s mut Cost,
-    /// The largest so far, of those that have a digit if any has one.
+    /// Largest pressure so far and its place; a pressure with a correct digit goes before one
+    /// without.
     top: (T, Estimate<T>),
 }
 
@@ -226,7 +231,7 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(found)
     }
 
-    /// Leaves out the places of a grid where the pressure has no digit, if it has one anywhere.
+    /// Drops the grid points whose pressure has no correct digit, unless all are so.
     fn keep_resolved(&mut self, grid: &mut Vec<[T; 2]>) -> Result<(), ContactError<T>> {
         let mut resolved = Vec::new();
         for &place in &*grid {
@@ -240,7 +245,8 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(())
     }
 
-    /// Narrows a bracket to half the digits of x, which are enough as the pressure is flat at a top.
+    /// Narrows a bracket to half the digits of x, which are enough as the pressure is flat at a
+    /// maximum.
     fn climb(&mut self, [mut lo, mut hi]: [T; 2]) -> Result<(), ContactError<T>> {
         let mut highest = T::of(0.5) * (lo + hi);
         let resolution = T::epsilon().sqrt() * (hi - lo);
@@ -258,10 +264,11 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(())
     }
 
-    /// Takes the place of the top to as many digits as derivatives by parameters ask for.
+    /// Refines the place of the maximum to as many digits as derivatives by parameters need.
     fn polished(self, on: Interval<T>) -> Result<(T, Estimate<T>), ContactError<T>> {
         let mut top = self.top;
-        // Half of them are not enough for derivatives: a step of Newton's rule takes the place where it goes.
+        // Half the digits are not enough for derivatives: a Newton step moves the place with the
+        // parameters.
         for _ in 0..T::DERIVATIVE_ORDER {
             let (x, here) = top;
             let beside = |from: T, breakpoint: T| from.min((x - breakpoint).abs());

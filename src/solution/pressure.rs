@@ -8,14 +8,15 @@ use crate::quadrature::panels::{self, CauchyTransform};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The most points of a contact that [`Pressure::sample`] takes.
+/// Largest number of points of a contact that [`Pressure::sample`] takes.
 const MOST_POINTS: usize = 1 << 20;
 
-/// Points of a row within which one at a limit, or beyond, makes all go one by one.
+/// Number of points of a row, the unit in which points are retried one by one after a failure.
 const ROW: usize = 256;
 
 impl<T: Real> Solution<'_, T> {
-    /// The pressure distribution. With [`Panels`](crate::Panels) it takes no further sample.
+    /// Returns the pressure distribution. With [`Panels`](crate::Panels) it takes no further
+    /// sample.
     ///
     /// # Errors
     /// Those of sampling the gap.
@@ -24,7 +25,7 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
-/// The pressure over a contact.
+/// Pressure over a contact.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -42,18 +43,18 @@ pub struct Pressure<'p, T: Real> {
     gap: &'p Gap<'p, T>,
     integrator: &'p dyn Integrator<T>,
     load_case: LoadCase<T>,
-    /// From the first to the last limit.
+    /// Interval from the first limit to the last.
     on: Interval<T>,
     contacts: &'p [Interval<T>],
-    /// The load that stands for the error of the limits.
+    /// Load error that corresponds to the error of the limits.
     force: T,
-    /// That error times the strengths of the edges at -b and a, with adhesion.
+    /// Relative error of the limits times the strengths of the edges at -b and a, with adhesion.
     held: Ends<T>,
     cost: Cost,
 }
 
 impl<'p, T: Real> Pressure<'p, T> {
-    /// Samples what is still missing.
+    /// Prepares the pressure, and takes the samples still missing.
     pub(crate) fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let Solved { gap, integrator, kappa, found } = solved;
         let cost = integrator.complete(gap)?;
@@ -71,17 +72,18 @@ impl<'p, T: Real> Pressure<'p, T> {
 }
 
 impl<T: Real> Pressure<'_, T> {
-    /// `P(x)`. Zero outside the contact and at a free edge.
+    /// Returns `P(x)`, zero outside the contact and at a free edge.
     ///
     /// # Errors
-    /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than
-    /// a third of the pressure, as it becomes very close to an edge, unless `x` is the limit but for rounding;
-    /// [`ContactError::Singular`] where the pressure is infinite; [`ContactError::OutsideBodies`]
-    /// beyond either body, and for NaN; those of sampling the gap at `x`.
+    /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than a
+    /// third of the pressure, as it becomes very close to an edge, unless `x` is the limit to
+    /// rounding; [`ContactError::Singular`] where the pressure is infinite;
+    /// [`ContactError::OutsideBodies`] beyond either body, and for NaN; those of sampling the gap
+    /// at `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
         let estimate = self.estimate(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
-        // Elsewhere a pressure may pass through zero, and an absolute error is all there is.
+        // With other edges a pressure may pass through zero, where only its absolute error counts.
         let free = self.load_case.free == Ends::both(true);
         if free && !estimate.is_resolved() && self.on.contains(x) && !self.is_at_limit(x) {
             Err(ContactError::Unresolved { x, pressure, error })
@@ -90,7 +92,7 @@ impl<T: Real> Pressure<'_, T> {
         }
     }
 
-    /// Tells whether x is a limit of a contact but for rounding of `-b + (a + b) t`.
+    /// Tells whether x is a limit of a contact to the rounding of `-b + (a + b) t`.
     fn is_at_limit(&self, x: T) -> bool {
         Interval::find(self.contacts, x).1.is_some_and(|on| {
             let rounding = T::of(4.0) * T::epsilon() * (on.left.abs() + on.right.abs());
@@ -98,11 +100,11 @@ impl<T: Real> Pressure<'_, T> {
         })
     }
 
-    /// `P(x)` at any number of points, in any order: cheaper than one by one. What
-    /// [`at`](Self::at) refuses as unresolved is returned as it is.
+    /// Fills in `P(x)` at any number of points, in any order, faster than one by one. Pressures
+    /// that [`at`](Self::at) refuses as unresolved are returned unchanged.
     ///
     /// # Errors
-    /// As [`estimate`](Self::estimate). The points before the one at fault have been done.
+    /// As [`estimate`](Self::estimate). The points before the failing one have been filled in.
     /// [`ContactError::LengthMismatch`] if the two slices are not of the same length.
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         if x.len() != pressures.len() {
@@ -111,9 +113,10 @@ impl<T: Real> Pressure<'_, T> {
         self.fill(x, pressures, &mut Cost::default())
     }
 
-    /// All at once if all are strictly inside and finite, else row by row: what is not goes one by one.
+    /// Fills in all pressures at once if all points are strictly inside and all pressures finite,
+    /// otherwise row by row; a row that fails goes point by point.
     fn fill(&self, x: &[T], pressures: &mut [T], cost: &mut Cost) -> Result<(), ContactError<T>> {
-        // Without a way out of the loops, for speed.
+        // No early exit from the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
             self.integrator.pressures(self.gap, &self.load_case, x, pressures, cost)?;
             let finite = |pressure: &T| pressure.is_finite();
@@ -131,9 +134,10 @@ impl<T: Real> Pressure<'_, T> {
         Ok(())
     }
 
-    /// `[x, P(x)]` at `count` points of each contact, from 2 to 2²⁰, limits included, by rising x: as dense towards the
-    /// limits as the square root with which the pressure falls there, so that lines between them draw it. A limit
-    /// where the pressure is infinite, and a place inside where it is, are left out.
+    /// Returns `[x, P(x)]` at `count` points of each contact, from 2 to 2²⁰, limits included, by
+    /// rising x. They crowd towards the limits, where the pressure falls like a square root, so
+    /// that lines between them draw it. Points where the pressure is infinite, at a limit or
+    /// inside, are left out.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -171,11 +175,12 @@ impl<T: Real> Pressure<'_, T> {
         Ok(points)
     }
 
-    /// `P(x)`, however doubtful, with its estimated error, adding to `cost` what this point takes:
-    /// nothing with [`Panels`](crate::Panels); with [`Midpoint`](crate::Midpoint) nothing on the
-    /// grid of the rule, one sample of the gap elsewhere, seven next to one of its points.
+    /// Returns `P(x)`, however uncertain, with its estimated error, and adds the cost of this point
+    /// to `cost`: nothing with [`Panels`](crate::Panels); with [`Midpoint`](crate::Midpoint)
+    /// nothing on the grid of the rule, one sample of the gap elsewhere, seven next to one of its
+    /// points.
     ///
-    /// The error is that of the quadrature, and what the error of the limits makes of it.
+    /// The error is the error of the quadrature plus the effect of the error of the limits.
     ///
     /// # Errors
     /// As [`at`](Self::at), without [`ContactError::Unresolved`].
@@ -194,9 +199,9 @@ impl<T: Real> Pressure<'_, T> {
         if !estimate.value.is_finite() {
             return Err(ContactError::Singular { x });
         }
-        // With the limits P changes as with the load that would move them, by 1/(π w) for each unit
-        // of it. The load is what it is: so the change is of second order, but for points so close
-        // to an edge that they might lie on its other side.
+        // If the limits move, P changes as under the load that would move them, by 1/(π w) for each
+        // unit of it. The load is given, so the change is of second order, except at points so
+        // close to an edge that they might lie on its other side.
         let change = self.force / (T::pi() * on.chebyshev_weight(x));
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
@@ -210,19 +215,19 @@ impl<T: Real> Pressure<'_, T> {
         Ok(estimate)
     }
 
-    /// The Cauchy transform of the pressure.
+    /// Returns the Cauchy transform of the pressure.
     pub(crate) fn cauchy_transform(&self) -> Result<CauchyTransform<T>, ContactError<T>> {
         let Self { gap, integrator, load_case, on, .. } = self;
         panels::cauchy_transform(*integrator, gap, *on, load_case)
     }
 
-    /// What making ready has cost.
+    /// Returns the cost of preparing the pressure.
     pub fn cost(&self) -> Cost {
         self.cost
     }
 }
 
-/// As it comes, infinite where a slope jumps.
+/// Returns the pressure unchecked, infinite where a slope jumps.
 impl<T: Real> Density<T> for Pressure<'_, T> {
     fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())

@@ -4,17 +4,17 @@
 //! ∫ P(s) K(x - s) ds = ∫ P w K(x - s) dθ,   s = c + L cos θ,   w = sqrt((s + b)(a - s))
 //! ```
 //!
-//! `P w` is bounded at every kind of edge. The angle is split at the breakpoints and at the point of the
-//! contact nearest to x, and each panel is halved until Gauss's rule of 16 nodes agrees with itself
-//! on the two halves to `ε^(3/4)` of the integral of the absolute value. Where the integrand is
-//! smooth the result is then good to rounding; beside a kink, where the panels shrink towards it,
-//! to about the tolerance.
+//! `P w` is bounded at every kind of edge. The angle is split at the breakpoints and at the point
+//! of the contact nearest to x. Each panel is halved until the 16-point Gauss rule agrees with the
+//! sum over the two halves to `ε^(3/4)` of the integral of the absolute value. Where the integrand
+//! is smooth the result is then good to rounding; next to a kink, where the panels shrink towards
+//! it, to about the tolerance.
 //!
-//! Angles are counted from that of x, so that the distance `x - s` keeps its relative accuracy
-//! however close the two are, and with it a kernel as narrow as wanted.
+//! Angles are measured from the angle of x, so that the distance `x - s` keeps its relative
+//! accuracy however close the two are, and the kernel may be as narrow as needed.
 //!
-//! Most panels are the same whatever x is. `P w` at their nodes, and at those of their halves, is kept:
-//! among a thousand breakpoints only the panels next to x ask for pressures again.
+//! Most panels do not depend on x. `P w` at their nodes, and at the nodes of their halves, is kept:
+//! among a thousand breakpoints only the panels next to x need new pressures.
 
 mod graded_rule;
 
@@ -24,24 +24,24 @@ use crate::{ContactError, Ends, Interval, Pressure, Real};
 use graded_rule::GradedRule;
 use std::sync::OnceLock;
 
-/// Nodes of a panel.
+/// Number of nodes of a panel.
 const NODES: usize = 16;
 
-/// Panels beyond those between the breakpoints before an integral is given up.
+/// Largest number of panels beyond those between the breakpoints, before an integral is given up.
 const MOST_PANELS: usize = 20_000;
 
-/// What is integrated: the pressure, or its rate with the load.
+/// Integrated quantity: the pressure, or its rate with the load.
 pub(crate) trait Density<T: Real> {
-    /// At places strictly inside the contacts.
+    /// Fills in the values at places strictly inside the contacts.
     fn values(&self, x: &[T], values: &mut [T]) -> Result<(), ContactError<T>>;
 }
 
-/// A density on all contacts, ready to be integrated.
+/// Density on all contacts, ready to be integrated.
 pub(crate) struct Integrals<T: Real, D> {
     pub density: D,
-    /// The integral of the density over all contacts.
+    /// Integral of the density over all contacts.
     pub load: T,
-    /// The contacts, from left to right.
+    /// Contacts, from left to right.
     contacts: Vec<One<T>>,
 }
 
@@ -49,19 +49,19 @@ pub(crate) struct Integrals<T: Real, D> {
 #[derive(Clone)]
 struct One<T> {
     on: Interval<T>,
-    /// The breakpoints inside, rising.
+    /// Breakpoints inside, rising.
     breakpoints: Vec<T>,
-    /// Whether `P w` vanishes at the left and at the right limit.
+    /// Flags: `P w` vanishes at this limit.
     free: Ends<bool>,
     /// `P w` on the panels between the breakpoints, from the right one on.
     kept: OnceLock<Vec<Kept<T>>>,
 }
 
-/// `P w` at the nodes of a panel, of its right half and of its left one, each from right to left.
+/// `P w` at the nodes of a panel, of its right half and of its left half, each from right to left.
 type Kept<T> = [[T; NODES]; 3];
 
 impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
-    /// The pressure of what was solved.
+    /// Prepares the pressure of a solution.
     pub fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let contacts = solved.contacts();
         let last = contacts.len() - 1;
@@ -77,7 +77,8 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
 }
 
 impl<T: Real, D: Density<T>> Integrals<T, D> {
-    /// Prepares the density of a unit load that is smooth inside the contacts, and infinite at their limits.
+    /// Prepares the density of a unit load that is smooth inside the contacts, and infinite at
+    /// their limits.
     pub fn of_unit_load(density: D, contacts: &[Interval<T>]) -> Self {
         let (breakpoints, free) = (Vec::new(), Ends::both(false));
         let one = One { on: contacts[0], breakpoints, free, kept: OnceLock::new() };
@@ -85,7 +86,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         Self { density, load: T::one(), contacts }
     }
 
-    /// `∫ K dθ` for kernels that are given `x - s` and `P w`.
+    /// Returns `∫ K dθ` for kernels of `x - s` and `P w`.
     pub fn over<const N: usize>(
         &self,
         x: T,
@@ -94,8 +95,9 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         self.over_as_of(T::zero(), x, |_, distance, strength| kernel(distance, strength))
     }
 
-    /// The same to no more than the tolerance of an integral of this size: for a kernel that may be
-    /// the rounding of a difference and nothing else. It is told whether s lies in the contact with x.
+    /// Returns the integral to the tolerance of an integral of size `least` or more: for a kernel
+    /// that may be only the rounding of a difference. The kernel also gets a flag: s lies in the
+    /// contact with x.
     pub fn over_as_of<const N: usize>(
         &self,
         least: T,
@@ -105,7 +107,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         self.sum(&self.contacts, tolerance(), least, x, kernel)
     }
 
-    /// The same over one contact alone, by its number: to rounding beside a kink, too, if that can be had.
+    /// Returns the integral over one contact, given by its number: to rounding next to a kink too,
+    /// if possible.
     pub fn over_one<const N: usize>(
         &self,
         contact: usize,
@@ -151,7 +154,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
                 pending.push((i, whole, known));
             }
         }
-        // Below the least normal number, which is about that, there are fewer digits.
+        // Below about the least normal number there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
         let mut left = MOST_PANELS;
         while let Some((contact, whole, known)) = pending.pop() {
@@ -184,7 +187,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
 }
 
 impl<T: Real> One<T> {
-    /// Taken from whichever edge is nearer.
+    /// Returns the kept panels, each computed from the edge nearer to it.
     fn kept(&self, density: &impl Density<T>) -> Result<&[Kept<T>], ContactError<T>> {
         if let Some(kept) = self.kept.get() {
             return Ok(kept);
@@ -206,8 +209,8 @@ impl<T: Real> One<T> {
         Ok(self.kept.get_or_init(|| kept))
     }
 
-    /// What the rounding of s makes of the pressure beside a breakpoint, where it may go like a
-    /// logarithm: no halving mends that.
+    /// Returns the relative error of the pressure by the rounding of s next to a breakpoint, where
+    /// the pressure may go like a logarithm: halving does not reduce it.
     fn noise(&self, s: T) -> T {
         let Interval { left, right } = self.on;
         let mut distance = right - left;
@@ -219,7 +222,7 @@ impl<T: Real> One<T> {
         if distance > rounding { rounding / distance } else { T::one() }
     }
 
-    /// `P w` at the nodes of a panel.
+    /// Returns `P w` at the nodes of a panel.
     fn bounded(
         &self,
         density: &impl Density<T>,
@@ -236,7 +239,7 @@ impl<T: Real> One<T> {
     }
 }
 
-/// The share of an integral to which its panels must agree with their halves.
+/// Returns the share of an integral to which its panels must agree with their halves.
 fn tolerance<T: Real>() -> T {
     T::epsilon().powf(T::of(0.75))
 }
@@ -247,7 +250,7 @@ pub(super) fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
     }
 }
 
-/// The angles of the nodes of a panel, each from the nearer end, since either may be at x.
+/// Returns the angles of the nodes of a panel, each from the nearer end, since either may be at x.
 fn turns<T: Real>([from, to]: [T; 2]) -> [T; NODES] {
     let half = T::of(0.5) * (to - from);
     let nodes = GaussLegendre::sixteen().nodes;
@@ -258,7 +261,7 @@ fn turns<T: Real>([from, to]: [T; 2]) -> [T; NODES] {
     })
 }
 
-/// A range of angles with the integrals over it, and those of the absolute values.
+/// Range of angles with the integrals over it, and the integrals of the absolute values.
 struct GradedPanel<T, const N: usize> {
     ends: [T; 2],
     sum: [T; N],
@@ -276,7 +279,7 @@ impl<T: Real, const N: usize> GradedPanel<T, N> {
         let weights = GaussLegendre::sixteen().weights;
         let mut panel = Self { ends, sum: [T::zero(); N], size: [T::zero(); N] };
         for (i, turn) in turns(ends).into_iter().enumerate() {
-            // A node may have been rounded to the breakpoint where the pressure is infinite.
+            // Rounding may have moved a node to the breakpoint where the pressure is infinite.
             if !bounded[i].is_finite() {
                 continue;
             }

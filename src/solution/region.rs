@@ -5,7 +5,7 @@ use super::{Peak, Solution};
 use crate::gap::Cost;
 use crate::{ContactError, Ends, Interval, Real};
 
-/// One of the intervals in which the bodies touch, and what acts there.
+/// One of the intervals in which the bodies touch, with its load and largest pressure.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -22,42 +22,42 @@ use crate::{ContactError, Ends, Interval, Real};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRegion<T> {
-    /// From its left limit to its right one.
+    /// Interval from the left limit to the right one.
     pub interval: Interval<T>,
-    /// The load per unit length that it bears, `∫ P dx` over it.
+    /// Load per unit length on this contact, `∫ P dx` over it.
     pub load: T,
-    /// The strengths of the singularities at the left and at the right limit, pressures: near the right one
-    /// `P ≈ K/sin θ` with `x = c + L cos θ`, c and L being those of this contact. Zero, or zero to
+    /// Strengths of the singularities at the left and at the right limit, pressures: near the right
+    /// one `P ≈ K/sin θ` with `x = c + L cos θ`, c and L of this contact. Zero, or zero to
     /// rounding, at a free limit.
     pub edge_singularities: Ends<T>,
-    /// The largest pressure; `None` where the pressure is infinite, at a corner or where the slope of the gap
-    /// jumps up.
+    /// Largest pressure; `None` where the pressure is infinite, at a corner or where the slope of
+    /// the gap jumps up.
     pub peak: Option<Peak<T>>,
-    /// The moment about the centre, by the half-width.
+    /// Moment about the centre over the half-width: force per unit length.
     turning: T,
 }
 
 impl<T: Real> ContactRegion<T> {
-    /// Half-width L.
+    /// Returns the half-width L.
     pub fn half_width(&self) -> T {
         self.interval.half_width()
     }
 
-    /// Mean pressure, the load over the width.
+    /// Returns the mean pressure, the load over the width.
     pub fn mean_pressure(&self) -> T {
         T::of(0.5) * self.load / self.half_width()
     }
 
-    /// Moment of the pressure about x = 0, `∫ x P dx` over this contact: force. Not finite where it is beyond
-    /// the numbers.
+    /// Returns the moment of the pressure about x = 0, `∫ x P dx` over this contact: a force. Not
+    /// finite if it exceeds the largest number.
     pub fn moment(&self) -> T {
         self.interval.centre() * self.load + self.half_width() * self.turning
     }
 
-    /// Centre of pressure, `∫ x P dx/∫ P dx` over this contact.
+    /// Returns the centre of pressure, `∫ x P dx/∫ P dx` over this contact.
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`] where the load is zero, as it may be with adhesion.
+    /// [`ContactError::InvalidLoad`] if the load is zero, as it may be with adhesion.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
         if load.is_zero() {
@@ -68,10 +68,10 @@ impl<T: Real> ContactRegion<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The contacts one by one, from left to right: what each of them bears, and how.
+    /// Returns the contacts one by one, from left to right, with loads, edges and peaks.
     ///
-    /// The loads are good to rounding, beside a kink of the slope to 1e-12 of themselves; they add up to
-    /// [`load`](Self::load). Each contact takes some hundred pressures.
+    /// The loads are good to rounding, next to a kink of the slope to a relative error of 1e-12;
+    /// they add up to [`load`](Self::load). Each contact takes some hundred pressures.
     ///
     /// ```
     /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -109,7 +109,7 @@ impl<T: Real> Solution<'_, T> {
             let strength = |(outermost, strength)| if outermost { strength } else { T::zero() };
             Ok(ContactRegion {
                 interval,
-                // Of a single one it is known.
+                // The load of a single contact is known.
                 load: if last == 0 { self.load() } else { load },
                 edge_singularities: outermost.zip(strengths).map(strength),
                 peak,

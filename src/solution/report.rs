@@ -1,12 +1,12 @@
-//! What a solve went through.
+//! Report of a solve: its attempts and their outcomes.
 
 use crate::ContactError;
 use crate::Real;
 
-/// The most attempts that are told apart; of more the last is kept.
+/// Largest number of attempts kept; of more, the last replaces the one before.
 const MOST: usize = 12;
 
-/// The starts that a solve has tried, in their order, and what became of each.
+/// Starts that a solve has tried, in their order, and the outcome of each.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -28,67 +28,66 @@ pub struct Report {
     count: usize,
 }
 
-/// One start, and what became of it.
+/// One start, and its outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Attempt {
-    /// Where the contacts were sought.
+    /// Place where the contacts were sought.
     pub start: Start,
-    /// What the checks say of what was found.
+    /// Result of the checks.
     pub outcome: Outcome,
 }
 
-/// Where contacts were sought.
+/// Place where contacts were sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Start {
-    /// From the middle of the bodies towards their lowest gap: they say that they bulge towards
-    /// each other, or [a single interval](crate::Contact::single_interval) was asked for. Or
-    /// between two corners, where nothing is to be sought.
+    /// Middle of the bodies, from where the search goes to their lowest gap: the bodies declare
+    /// that they bulge towards each other, or [a single interval](crate::Contact::single_interval)
+    /// was asked for. Also used between two corners, where both limits are known.
     Middle,
-    /// At the lowest gap between the bodies.
+    /// Lowest gap between the bodies.
     LowestGap,
-    /// Where the user said, by [`Contact::start`](crate::Contact::start).
+    /// Interval set by the user, with [`Contact::start`](crate::Contact::start).
     Given,
-    /// Around the line in which the load is to act.
+    /// Surroundings of the line along which the load is to act.
     LineOfLoad,
-    /// Where the solver found them last.
+    /// Contacts of the solver's last solution.
     Last,
-    /// Where a coarse active set on cells of constant pressure has them.
+    /// Contacts of a coarse active set on cells of constant pressure.
     ActiveSet,
-    /// Where the attempt before has left them.
+    /// Contacts that the previous attempt has left.
     Attempt,
 }
 
-/// What became of a attempt.
+/// Outcome of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
-    /// It is the contact: corners press, the pressure is nowhere negative and the bodies do not
-    /// overlap, as far as they were looked at. Bodies that [bulge](crate::profile::Convexity)
-    /// towards each other need no look, and where an edge is adhesive they may pull.
+    /// Contact found: corners press, the pressure is nowhere negative and the bodies do not
+    /// overlap, as far as they were checked. Bodies that [bulge](crate::profile::Convexity) towards
+    /// each other need no check, and where an edge is adhesive they may pull.
     Passed,
-    /// It solves the equations, and nobody asked for more: the edges are by the paper's Eq. (6), or
-    /// [a single interval](crate::Contact::single_interval) was asked for.
+    /// Solution without further checks: the edges are by the paper's Eq. (6), or [a single
+    /// interval](crate::Contact::single_interval) was asked for.
     Unchecked,
-    /// It meets the conditions of the contact so roughly that no check says anything: a limit is in
-    /// doubt by more than a 1600th of the half-width
-    /// ([`Solution::limits_error`](crate::Solution::limits_error)), as from a search that stops
-    /// early or from a coarse quadrature.
+    /// Solution too rough for any check to decide: a limit is uncertain by more than a 1600th of
+    /// the half-width ([`Solution::limits_error`](crate::Solution::limits_error)), as from a search
+    /// that stops early or from a coarse quadrature.
     Doubtful,
-    /// The bodies would pull at each other inside.
+    /// Tension between the bodies inside a contact.
     Tension,
-    /// The bodies would overlap outside.
+    /// Overlap of the bodies outside the contacts.
     Overlap,
-    /// Two contacts became one.
+    /// Merger of two contacts.
     Merged,
-    /// A contact vanished.
+    /// Loss of a contact.
     Lost,
-    /// A contact reached a corner.
+    /// Contact that reached a corner.
     ReachedCorner,
-    /// No limits were found.
+    /// Failure: no limits were found.
     NotFound,
 }
 
@@ -113,7 +112,7 @@ impl Report {
         self.attempts[self.count - 1] = Attempt { start, outcome };
     }
 
-    /// Takes back that the last attempt has passed.
+    /// Marks the last attempt as doubtful, if it has passed.
     pub(crate) fn doubt(&mut self) {
         if let Some(Attempt { outcome, .. }) = self.attempts[..self.count].last_mut()
             && *outcome == Outcome::Passed
@@ -122,13 +121,13 @@ impl Report {
         }
     }
 
-    /// The attempts, the last of which has led to the solution.
+    /// Returns the attempts; the last one has led to the solution.
     #[must_use]
     pub fn attempts(&self) -> &[Attempt] {
         &self.attempts[..self.count]
     }
 
-    /// Whether the solution was checked, and is the contact as far as the checks can see.
+    /// Tells whether the solution was checked, and is the contact as far as the checks can see.
     #[must_use]
     pub fn is_checked(&self) -> bool {
         self.attempts().last().is_some_and(|attempt| attempt.outcome == Outcome::Passed)

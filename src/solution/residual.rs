@@ -1,15 +1,15 @@
-//! By how much a solution fails the integral equation.
+//! Residual of the integral equation.
 
 use super::pressure_integral::{Density, Integrals};
 use crate::{ContactError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
-    /// `PV∫ P(s)/(x - s) ds - κ g(x)` at a place strictly inside the contact: by how much the
-    /// pressure fails the integral equation, the paper's Eq. (3). A pressure.
+    /// Returns the residual of the integral equation, the paper's Eq. (3), at a place strictly
+    /// inside the contact: `PV∫ P(s)/(x - s) ds - κ g(x)`, a pressure.
     ///
-    /// The integral is taken from values of P alone, by a quadrature that has nothing in common
-    /// with those that gave them, and g from the curves themselves. At a breakpoint g is that of its left
-    /// side; where a slope jumps there the integral is infinite.
+    /// The integral uses values of P alone, by a quadrature independent of the solver's, and g
+    /// comes from the curves themselves. At a breakpoint g is taken on its left side; where the
+    /// slope jumps there the integral is infinite.
     ///
     /// # Errors
     /// [`ContactError::InvalidPosition`] for an x not strictly inside; those of
@@ -25,8 +25,8 @@ impl<T: Real> Solution<'_, T> {
             return Err(ContactError::Singular { x });
         }
         let at_x = at_x[0] * interval.chebyshev_weight(x);
-        // PV∫ ds/((x - s) w(s)) is zero.
-        // In the contact with x only: the others are regular.
+        // PV∫ ds/((x - s) w(s)) is zero over the contact with x, so that a constant can be
+        // subtracted there; the integrals over the others are regular.
         let difference = |own, distance: T, strength: T| {
             [(if own { strength - at_x } else { strength }) / distance]
         };

@@ -1,4 +1,4 @@
-//! What was solved, without what it took.
+//! A solved contact, without its cost and report.
 
 use super::ContactState;
 use crate::gap::Gap;
@@ -6,7 +6,7 @@ use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::{Interval, Real};
 
-/// A contact with all that its pressure follows from, prepared.
+/// Contact with all data of its pressure, prepared.
 #[derive(Clone, Copy)]
 pub(crate) struct Solved<'s, T: Real> {
     pub gap: &'s Gap<'s, T>,
@@ -16,12 +16,12 @@ pub(crate) struct Solved<'s, T: Real> {
 }
 
 impl<'s, T: Real> Solved<'s, T> {
-    /// The contacts on their panels, if they are several.
+    /// Returns the contacts on their panels, if they are several.
     pub fn several(&self) -> Option<&'s Several<T>> {
         panels::several(self.integrator)
     }
 
-    /// Returns the slope of the gap in a contact from the samples at hand, if they tell it.
+    /// Returns the slope of the gap in a contact from the samples of the solve, if they cover x.
     pub fn sampled_slope(&self, contact: usize, x: T) -> Option<T> {
         match self.several() {
             Some(several) => several.panel_set(contact).slope(x),
@@ -29,7 +29,7 @@ impl<'s, T: Real> Solved<'s, T> {
         }
     }
 
-    /// From left to right.
+    /// Returns the contacts, from left to right.
     pub fn contacts(&self) -> &'s [Interval<T>] {
         self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)
     }

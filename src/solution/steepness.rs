@@ -1,21 +1,22 @@
-//! How steep the surfaces are, on which the half-planes of the equations depend.
+//! Steepness of the surfaces, which limits the half-plane model.
 
 use super::Solution;
 use crate::gap::Sampler;
 use crate::{Body, ContactError, Real, Side};
 
-/// The slope of a surface above which a body is no longer much like a half-plane. What the half-plane leaves out
-/// is of the order of the square of the slope, a tenth at this one (Johnson, *Contact Mechanics*, 1985, §4.1, asks
-/// for contacts that are small beside the radii of the bodies).
+/// Slope of a surface above which the half-plane is a poor model of a body. Its error is of the
+/// order of the square of the slope, a tenth at this one (Johnson, *Contact Mechanics*, 1985, §4.1,
+/// asks for contacts that are small beside the radii of the bodies).
 pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 
-/// Points of each contact at which slopes are taken.
+/// Number of points of each contact at which slopes are taken.
 const POINTS: usize = 17;
 
 impl<T: Real> Solution<'_, T> {
-    /// Whether the slope of the gap, by the samples at hand and at the limits of the contacts, is more than
-    /// [`STEEPEST_HALF_PLANE`]: then it is doubtful whether the bodies are much like half-planes. It takes no
-    /// evaluation, and does not see two surfaces that are steep alike: [`steepest_slope`](Self::steepest_slope) does.
+    /// Tells whether the slope of the gap, at the samples of the solve and at the limits of the
+    /// contacts, exceeds [`STEEPEST_HALF_PLANE`]: half-planes may then be a poor model of the
+    /// bodies. It takes no evaluation, and does not see two surfaces that are equally steep:
+    /// [`steepest_slope`](Self::steepest_slope) does.
     #[must_use]
     pub fn is_steep(&self) -> bool {
         let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
@@ -25,10 +26,10 @@ impl<T: Real> Solution<'_, T> {
         slopes.any(|slope| slope.is_some_and(steep))
     }
 
-    /// The largest slope `|f'|` of either surface within the contacts, before loading: how far the bodies are from
-    /// the half-planes of the equations. Above [`STEEPEST_HALF_PLANE`] the solution is as exact as ever, but its
-    /// equations describe the bodies less well; so large a slope is often a unit that is wrong, or a contact modulus
-    /// that is missing.
+    /// Returns the largest slope `|f'|` of either surface within the contacts, before loading: a
+    /// measure of how far the bodies are from half-planes. Above [`STEEPEST_HALF_PLANE`] the
+    /// solution is as exact as ever, but its equations describe the bodies less well. So large a
+    /// slope often comes from a wrong unit, or a missing contact modulus.
     ///
     /// It inverts both curves at 17 points of each contact, and at the breakpoints.
     ///

@@ -1,7 +1,7 @@
 //! Stress below the surface of either body.
 //!
-//! To the equations each body is an elastic half-plane. At a distance y below its surface, which is
-//! y = 0, the pressure P and a traction q = μ P along the surface leave
+//! In the equations each body is an elastic half-plane with its surface at y = 0. At depth y the
+//! pressure P and a traction q = μ P along the surface cause the stresses
 //!
 //! ```text
 //! σ_x  = -2/π (A₂ + μ A₃),   σ_y  = -2/π (A₀ + μ A₁),   τ_xy = -2/π (A₁ + μ A₂)
@@ -15,23 +15,25 @@
 //! σ_x = -P - 2 μ/π PV∫ P(s)/(x - s) ds,   σ_y = -P,   τ_xy = -μ P
 //! ```
 //!
-//! where the integral is κ g(x) inside the contact, by the equation that is solved.
+//! where the integral is κ g(x) inside the contact, by the equation of the contact.
 //!
-//! **Either body.** Without friction both bodies have the same stress at the same depth. With it the
-//! traction on the other body is opposite: where the upper body slides towards positive x over the
-//! lower one, the lower has μ, and the upper -μ. That such a traction leaves the pressure as it is
-//! holds for like bodies, or where μ is small (Johnson, §7.2).
+//! **Either body.** Without friction both bodies have the same stress at the same depth. With
+//! friction the traction on the other body is opposite: if the upper body slides towards positive x
+//! over the lower one, the lower has μ, and the upper -μ. Such a traction leaves the pressure
+//! unchanged only for like bodies, or for small μ (Johnson, §7.2).
 //!
 //! **Accuracy.** The integrals follow from one function of ζ = x + i y and its derivative,
 //!
 //! ```text
-//! W(ζ) = ∫ P(s)/(ζ - s) ds:   A₀ + A₂ = -Im W,   A₂ - A₀ = -y Re W',   2 A₁ = y Im W',   A₁ + A₃ = Re W
+//! W(ζ) = ∫ P(s)/(ζ - s) ds
+//! A₀ + A₂ = -Im W,   A₂ - A₀ = -y Re W',   2 A₁ = y Im W',   A₁ + A₃ = Re W
 //! ```
 //!
-//! (Muskhelishvili's potential), which the panels of the slope give in closed form. The stress is good to some units in
-//! the last place of the largest pressure at any depth, beside kinks and jumps of the slope too; below a jump it is no
-//! better than the rounding of x as a share of y. At a distance d from a free edge, the rounding of the limits adds
-//! `sqrt(L/d)` units. A value takes about a microsecond for each contact with smooth bodies.
+//! (Muskhelishvili's potential), which the panels of the slope give in closed form. The stress is
+//! good to some units in the last place of the largest pressure at any depth, next to kinks and
+//! jumps of the slope too; below a jump its relative error is at least the rounding of x over y. At
+//! a distance d from a free edge, the rounding of the limits adds `sqrt(L/d)` units. A value takes
+//! about a microsecond for each contact with smooth bodies.
 //!
 //! ```
 //! use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -69,16 +71,16 @@ use crate::{ContactError, Interval, Pressure, Real, Solution};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stress<T> {
-    /// σ_x, along the surface.
+    /// σ_x, parallel to the surface.
     pub sigma_x: T,
-    /// σ_y, across it.
+    /// σ_y, normal to the surface.
     pub sigma_y: T,
     /// τ_xy, with y into the body.
     pub tau_xy: T,
 }
 
 impl<T: Real> Stress<T> {
-    /// So much of another added.
+    /// Adds `share` times another stress.
     pub(super) fn with(self, share: T, other: Self) -> Self {
         Self {
             sigma_x: self.sigma_x + share * other.sigma_x,
@@ -87,19 +89,20 @@ impl<T: Real> Stress<T> {
         }
     }
 
-    /// The principal stresses in the plane, the larger one first.
+    /// Returns the principal stresses in the plane, the larger one first.
     pub fn principal(&self) -> [T; 2] {
         let mean = T::of(0.5) * (self.sigma_x + self.sigma_y);
         let radius = self.max_shear();
         [mean + radius, mean - radius]
     }
 
-    /// The largest shear stress in the plane, half the difference of the principal stresses.
+    /// Returns the largest shear stress in the plane, half the difference of the principal
+    /// stresses.
     pub fn max_shear(&self) -> T {
         (T::of(0.5) * (self.sigma_x - self.sigma_y)).hypot(self.tau_xy)
     }
 
-    /// σ_z = ν (σ_x + σ_y), the stress that keeps the strain plane.
+    /// Returns σ_z = ν (σ_x + σ_y), the stress that keeps the strain plane.
     ///
     /// # Errors
     /// [`ContactError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
@@ -107,7 +110,7 @@ impl<T: Real> Stress<T> {
         Ok(checked_ratio(poisson)? * (self.sigma_x + self.sigma_y))
     }
 
-    /// The equivalent stress of von Mises in plane strain,
+    /// Returns the von Mises equivalent stress in plane strain,
     ///
     /// ```text
     /// sqrt( (1 - ν + ν²)(σ_x + σ_y)² - 3 (σ_x σ_y - τ_xy²) ).
@@ -116,14 +119,14 @@ impl<T: Real> Stress<T> {
     /// # Errors
     /// [`ContactError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
     pub fn von_mises(&self, poisson: T) -> Result<T, ContactError<T>> {
-        // The same as a sum of squares.
+        // The formula above, written as a sum of squares.
         let share = T::of(0.5) - checked_ratio(poisson)?;
         let sum = self.sigma_x + self.sigma_y;
         Ok((share * sum).hypot(T::of(3.0).sqrt() * self.max_shear()))
     }
 }
 
-/// The stress below a contact: [`Solution::subsurface`].
+/// Stress below a contact: [`Solution::subsurface`].
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -144,7 +147,7 @@ pub struct Subsurface<'p, T: Real> {
     friction: T,
 }
 
-/// A largest stress and its place.
+/// Largest stress and its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StressPeak<T> {
@@ -152,13 +155,13 @@ pub struct StressPeak<T> {
     pub x: T,
     /// Depth below the surface.
     pub depth: T,
-    /// How large it is.
+    /// Stress at this place.
     pub value: T,
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Makes ready for stress below the surface. With [`Panels`](crate::Panels) that takes no sample of the bodies; after
-    /// another quadrature panels are sampled on the contact.
+    /// Prepares the stress below the surface. With [`Panels`](crate::Panels) this takes no sample
+    /// of the bodies; after another quadrature it samples panels on the contact.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
@@ -170,7 +173,7 @@ impl<T: Real> Solution<'_, T> {
 }
 
 impl<T: Real> Subsurface<'_, T> {
-    /// The same with a traction μ P on the surface of this body, in the direction of positive x; of
+    /// Adds a traction μ P on the surface of this body, in the direction of positive x; μ has
     /// either sign. Default 0.
     ///
     /// # Errors
@@ -182,18 +185,19 @@ impl<T: Real> Subsurface<'_, T> {
         Ok(Self { friction: coefficient, ..self })
     }
 
-    /// Returns the stress at any x, at any depth from zero on. Depths below ε³ L are taken for zero.
+    /// Returns the stress at any x, at any depth from zero on. Depths below ε³ L count as zero.
     ///
     /// # Errors
-    /// [`ContactError::AboveSurface`] for a negative depth, and what is not finite;
-    /// [`ContactError::Singular`] on the surface where the pressure is infinite; on the surface, with friction, those
-    /// of sampling the gap.
+    /// [`ContactError::AboveSurface`] for a depth that is negative, and for numbers that are not
+    /// finite; [`ContactError::Singular`] on the surface where the pressure is infinite; on the
+    /// surface, with friction, those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
         let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
         Ok(normal.with(self.friction, along))
     }
 
-    /// The stress that the pressure leaves, and that of a traction as large as it, if that is asked for.
+    /// Returns the stress under the pressure, and the stress under an equal traction, which is
+    /// valid on the surface only if `with_traction`.
     pub(super) fn parts(
         &self,
         x: T,
@@ -203,7 +207,7 @@ impl<T: Real> Subsurface<'_, T> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(ContactError::AboveSurface { x, depth });
         }
-        // Where all digits of the depth are lost.
+        // All digits of the depth are lost there.
         if depth <= T::epsilon().powi(3) * self.hull().half_width() {
             return self.on_surface(x, with_traction);
         }
@@ -216,7 +220,7 @@ impl<T: Real> Subsurface<'_, T> {
         Ok([normal, Stress { sigma_x: a3, sigma_y: a1, tau_xy: a2 }])
     }
 
-    /// The limits of both as the depth goes to zero.
+    /// Returns the limits of both stresses as the depth goes to zero.
     fn on_surface(&self, x: T, with_traction: bool) -> Result<[Stress<T>; 2], ContactError<T>> {
         let Interval { left, right } = self.hull();
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
@@ -233,7 +237,7 @@ impl<T: Real> Subsurface<'_, T> {
         let pull = if !with_traction {
             T::zero()
         } else if touches {
-            // An edge may have been rounded to beyond the end of a body that it lies at.
+            // A rounded edge may lie beyond the end of a body.
             let gap = &self.solution.gap;
             let [from, to] = gap.range();
             self.solution.kappa * Sampler::default().slope(gap, x.max(from).min(to))?
@@ -246,7 +250,7 @@ impl<T: Real> Subsurface<'_, T> {
         Ok([normal, Stress { sigma_x: -along, sigma_y: zero, tau_xy: -pressure }])
     }
 
-    /// The contact.
+    /// Returns the interval from the first limit of the contacts to the last.
     pub fn hull(&self) -> Interval<T> {
         self.solution.hull()
     }

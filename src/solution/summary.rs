@@ -1,11 +1,11 @@
-//! A solution as numbers alone.
+//! Solution in numbers alone.
 
 use super::{Peak, Report, Solution};
 use crate::gap::Cost;
 use crate::{ContactError, Ends, Interval, Real};
 
-/// What a solution comes to, in numbers that it owns: a row of a table, or with the feature `serde` of
-/// a file. [`Solution::summary`] makes it.
+/// Numbers of a solution, without its bodies: a row of a table, or with the feature `serde` of a
+/// file. [`Solution::summary`] makes it.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -22,41 +22,44 @@ use crate::{ContactError, Ends, Interval, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Summary<T> {
-    /// The intervals `[-b, a]` in which the bodies touch, from left to right: lengths.
+    /// Intervals `[-b, a]` in which the bodies touch, from left to right: lengths.
     pub intervals: Vec<Interval<T>>,
     /// Load per unit length F, of all contacts: force/length.
     pub load: T,
-    /// The load per unit length that each contact bears, in the order of the intervals: force/length.
+    /// Load per unit length on each contact, in the order of the intervals: force/length.
     pub loads: Vec<T>,
-    /// The scale κ: a pressure.
+    /// Scale κ: a pressure.
     pub kappa: T,
-    /// The tilt τ of body 2, counter-clockwise: an angle in radians.
+    /// Tilt τ of body 2, counter-clockwise: an angle in radians.
     pub tilt: T,
     /// Mean pressure, F over the widths of all contacts: a pressure.
     pub mean_pressure: T,
-    /// The largest pressure p₀ and its x, a pressure and a length; `None` where the pressure is infinite.
+    /// Largest pressure p₀ and its x, a pressure and a length; `None` where the pressure is
+    /// infinite.
     pub peak: Option<Peak<T>>,
-    /// Centre of pressure x̄, a length; `None` where the load is zero, as it may be with adhesion.
+    /// Centre of pressure x̄, a length; `None` if the load is zero, as it may be with adhesion.
     pub centre_of_pressure: Option<T>,
-    /// K_b and K_a, the strengths of the edge singularities at the first and at the last limit: pressures.
+    /// K_b and K_a, the strengths of the edge singularities at the first and at the last limit:
+    /// pressures.
     pub edge_singularities: Ends<T>,
-    /// Estimated error of the limits as a share of the half-width L, no unit; `None` where both were given.
+    /// Estimated error of the limits as a share of the half-width L, no unit; `None` if both were
+    /// given.
     pub limits_error: Option<T>,
-    /// Whether it was checked to be the contact of the bodies ([`Report::is_checked`]).
+    /// True if the solution was checked to be the contact of the bodies ([`Report::is_checked`]).
     pub checked: bool,
-    /// Evaluations and samples that finding the limits has taken: counts.
+    /// Evaluations and samples of the search for the limits: counts.
     pub cost: Cost,
-    /// The starts that were tried, and what the checks say.
+    /// Starts that were tried, and the results of the checks.
     pub report: Report,
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// The numbers of the solution, to be kept without the bodies: limits, loads, largest pressure,
-    /// quality and cost. It takes some hundred pressures for each contact.
+    /// Returns the numbers of the solution, to be kept without the bodies: limits, loads, largest
+    /// pressure, quality and cost. It takes some hundred pressures for each contact.
     ///
     /// # Errors
-    /// Those of [`contacts`](Self::contacts) and [`centre_of_pressure`](Self::centre_of_pressure), but not
-    /// that the load is zero.
+    /// Those of [`contacts`](Self::contacts) and [`centre_of_pressure`](Self::centre_of_pressure),
+    /// except for a load of zero.
     pub fn summary(&self) -> Result<Summary<T>, ContactError<T>> {
         let contacts = self.contacts()?;
         let peak = match self.peak() {

@@ -1,13 +1,14 @@
 //! The heights of the gap before loading over a contact, from its slopes alone.
 //!
-//! With `x = c + L cos θ` and h the height above that at the left limit,
+//! With `x = c + L cos θ` and h the height above the left limit,
 //!
 //! ```text
 //! h(x) = ∫ g dx from the left limit to x      (1/π) ∫ h dθ = (1/π) ∫ g θ dx      θ from 0 to π
 //! ```
 //!
-//! The second is by parts: θ/π is the share of the angles to the right of x. Gauss's rule of 16 nodes on spans of θ
-//! that are halved until it agrees with itself.
+//! The second is the first after integration by parts: θ/π is the share of the angles to the right
+//! of x. The 16-point Gauss rule is used on spans of θ that are halved until it agrees with the sum
+//! over the halves.
 
 use super::pressure_integral::add;
 use super::solved::Solved;
@@ -16,35 +17,36 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::search::{Bracket, Brent, SearchError, StoppingCriteria, TryFindError, try_find};
 use crate::{ContactError, Interval, Real};
 
-/// Spans of θ beyond those between the breakpoints before an integral is given up.
+/// Largest number of spans of θ beyond those between the breakpoints, before an integral is given
+/// up.
 const MOST_SPANS: usize = 20_000;
 
-/// Nodes on a span.
+/// Number of nodes on a span.
 const NODES: usize = 16;
 
-/// Heights above that at the left limit of a contact.
+/// Heights above the left limit of a contact.
 #[derive(Clone, Copy)]
 pub(super) struct UndeformedGap<T> {
-    /// The mean over θ.
+    /// Mean height over θ.
     pub mean: T,
-    /// The least.
+    /// Least height.
     pub least: T,
-    /// That at the place asked for, if it is in this contact.
+    /// Height at a given place, if it is in this contact.
     pub at: Option<T>,
 }
 
-/// One span of θ, from its left end in x.
+/// Span of θ, from its left end in x.
 struct Span<T> {
-    /// θ at the left end of x, and at the right one.
+    /// θ at the left end in x, and at the right end.
     theta: [T; 2],
-    /// `∫ g dx` and `∫ g θ dx`, and those of the absolute values.
+    /// `∫ g dx` and `∫ g θ dx`, and in `size` the integrals of the absolute values.
     sum: [T; 2],
     size: [T; 2],
     /// x and g at the nodes.
     nodes: [[T; 2]; NODES],
 }
 
-/// The slope of the gap before loading, in one contact.
+/// Slope of the gap before loading, in one contact.
 struct Slopes<'s, T: Real> {
     solved: Solved<'s, T>,
     contact: usize,
@@ -53,7 +55,7 @@ struct Slopes<'s, T: Real> {
 }
 
 impl<T: Real> Slopes<'_, T> {
-    /// From the samples at hand, or where there are none from the curves.
+    /// Returns the slope from the samples of the solve if they cover x, otherwise from the curves.
     fn at(&mut self, x: T) -> Result<T, ContactError<T>> {
         let known = self.solved.sampled_slope(self.contact, x);
         known.map_or_else(|| self.sampler.slope(self.solved.gap, x), Ok)
@@ -80,13 +82,13 @@ impl<T: Real> Slopes<'_, T> {
         Ok(span)
     }
 
-    /// x and the slope at a limit, which is not finite everywhere.
+    /// Returns x and the slope at a limit, or `None` if the slope is not finite.
     fn at_limit(&mut self, x: T) -> Option<[T; 2]> {
         self.at(x).ok().filter(|slope| slope.is_finite()).map(|slope| [x, slope])
     }
 
-    /// Takes the place between two nodes where the slope rises through zero, if it is the lowest so far; given the
-    /// height at an angle close by.
+    /// Lowers `found.least` to the height at the place between two nodes where the slope rises
+    /// through zero, if it is lower; `height` is given at the angle `start` close by.
     fn dip(
         &mut self,
         found: &mut UndeformedGap<T>,
@@ -105,7 +107,7 @@ impl<T: Real> Slopes<'_, T> {
         let lowest = match try_find(&brent, |x| self.at(x), &bracket) {
             Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => root.x,
             Err(TryFindError::Function(error)) => return Err(error),
-            // A bracket of two neighbouring numbers: either will do.
+            // The bracket is two neighbouring numbers: either will do.
             Err(TryFindError::Search(_)) => from,
         };
         let least = height + self.span([start, self.on.angle(lowest)])?.sum[0];
@@ -122,7 +124,7 @@ impl<T: Real> UndeformedGap<T> {
         let mut angles = vec![T::pi()];
         angles.extend(solved.gap.breakpoints(on).map(|x| on.angle(x)));
         angles.push(zero);
-        // The leftmost last.
+        // The leftmost span is the last, to be taken first.
         let mut pending = Vec::new();
         let mut size = [zero; 2];
         for ends in angles.windows(2).rev().filter(|ends| ends[0] > ends[1]) {

@@ -1,12 +1,13 @@
-//! Whether the limits balance the bodies.
+//! Check of the limits by the conditions at the edges.
 
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Real, Side};
 
-/// Whether the limits are by the cells where they were found to be: the steps that their conditions still ask
-/// for, as strengths at the limits, are within what the solver said and what the cells leave open.
+/// Checks with the cells that the limits are where they were found: the remaining Newton steps, as
+/// strengths at the limits, must be within the error estimated by the solver and the uncertainty of
+/// the cells.
 pub(super) fn balanced<T: Real>(
     kappa: T,
     found: &ContactState<T>,
@@ -30,7 +31,7 @@ pub(super) fn balanced<T: Real>(
         }
         linear.solve(&system.residual, &mut steps);
     } else {
-        // No strength meets this.
+        // Infinite steps exceed any tolerance.
         steps.resize(n, T::one() / T::zero());
     }
     let contacts = cells.contacts();
@@ -44,10 +45,10 @@ pub(super) fn balanced<T: Real>(
         let said = T::of(10.0) * found.error.unwrap_or(T::zero()) * on.half_width();
         let by_limit = kappa * cells.strength_by_limit(system, i, side);
         let strength = by_limit * step.abs();
-        // An estimate may be off by as much; a tolerance is kept.
+        // An estimate may be wrong by this factor; a tolerance is met.
         let allowed = by_limit * (said + T::of(16.0) * open + rounding) + kappa * doubt;
         let met = strength <= allowed;
-        // Of those at fault it is the rightmost that is named, as of two.
+        // Of several failing limits, the error names the rightmost.
         if !met {
             fault = Err(ContactError::Unbalanced { x, strength, allowed });
         }

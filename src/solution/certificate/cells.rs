@@ -1,8 +1,9 @@
-//! The slope of the gap in short cells, and whether the panels of the solver have missed anything of it.
+//! The slope of the gap in short cells, compared with the panels of the solver.
 //!
-//! Panels are as long as the coefficients of their series allow, and what lies between two nodes shows
-//! in none of them. So all of the gap is sampled a second time, in cells of a given length at most, and in the
-//! contacts what the limits were found from is compared with them.
+//! Panels are as long as the coefficients of their series allow, and a feature between two nodes
+//! shows in none of the coefficients. So all of the gap is sampled a second time, in cells of at
+//! most a given length. In the contacts the slope from which the limits were found is compared with
+//! them.
 
 use super::{MOST_EVALUATIONS, undecided};
 use crate::gap::{Cost, Gap, Sampler};
@@ -10,16 +11,16 @@ use crate::numerics::chebyshev::Table;
 use crate::quadrature::panels::{Panel, PanelSet};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// The share of the largest slope by which the two may differ, besides the noise.
+/// Largest difference of the two slopes, as a share of the largest slope, besides the noise.
 const ALLOWED: f64 = 1e-6;
 
-/// The share of a cell below which a part of it is not looked at.
+/// Half-length of a cell, as a share of the spacing, below which the cell is not compared.
 const SHORT: f64 = 1e-6;
 
-/// Samples the gap in cells.
+/// Samples of the gap in cells.
 pub(super) struct Cells<'g, T: Real> {
     gap: &'g Gap<'g, T>,
-    /// The longest of them.
+    /// Largest length of a cell.
     pub spacing: T,
     one: PanelSet<T>,
 }
@@ -29,12 +30,13 @@ impl<'g, T: Real> Cells<'g, T> {
         Self { gap, spacing, one: PanelSet::new(T::epsilon().powf(T::of(0.75))) }
     }
 
-    /// Returns what all of them have cost.
+    /// Returns the cost of all cells.
     pub fn cost(&self) -> Cost {
         self.one.cost
     }
 
-    /// Looks at the heights of the gap at places of a row, and at what the slopes say of them.
+    /// Returns the heights of the gap at places of a row, after a check that they agree with its
+    /// slopes.
     pub fn heights<const N: usize>(
         &mut self,
         row: &PanelSet<T>,
@@ -43,15 +45,15 @@ impl<'g, T: Real> Cells<'g, T> {
         row.heights(self.gap, x, &mut self.one.cost)
     }
 
-    /// Samples the cells between places, which rise.
+    /// Samples the cells between rising places.
     pub fn over(&mut self, places: &[T]) -> Result<PanelSet<T>, ContactError<T>> {
         let (gap, cells) = (self.gap, &mut self.one);
         let mut row = PanelSet::new(cells.tolerance);
         row.tilt = gap.tilt();
-        // Beyond its last node a cell does not see: the ends are looked at.
+        // A cell shows nothing beyond its last node: the ends are probed.
         let ends = Ends { left: places[0], right: places[places.len() - 1] };
         let looks = Ends::from_fn(|end| cells.look_at(gap, end, ends[end]));
-        // The cell before, its first panel and how steep it is.
+        // The previous cell, its first panel and its largest slope.
         let mut before: Option<(Interval<T>, usize, T)> = None;
         for pair in places.windows(2) {
             let cell = Interval { left: pair[0], right: pair[1] };
@@ -61,7 +63,7 @@ impl<'g, T: Real> Cells<'g, T> {
                 && !cells.meets(last, &cells.panels[0], cells.tolerance * steep)
                 && !gap.is_breakpoint(cell.left)
             {
-                // So it is where two of them do not meet, and both are sampled again.
+                // Two cells do not meet here: both are sampled again with this end probed.
                 cells.held.right = cells.look_at(gap, Side::Right, cell.left);
                 cells.sample_anew(gap, other)?;
                 row.panels.truncate(first);
@@ -78,8 +80,8 @@ impl<'g, T: Real> Cells<'g, T> {
         Ok(row)
     }
 
-    /// Lists the ends of cells from an edge of a contact to a place, by rising x: no longer than the spacing, and the
-    /// shorter the nearer they are to the edge.
+    /// Lists the ends of cells from an edge of a contact to a place, by rising x. Cells are no
+    /// longer than the spacing, and shorter the nearer they are to the edge.
     pub fn places(&self, edge: T, end: T, half_width: T) -> Vec<T> {
         let (sign, reach) = (if end < edge { -T::one() } else { T::one() }, (end - edge).abs());
         let (mut places, mut reached) = (vec![edge], T::zero());
@@ -99,9 +101,9 @@ impl<'g, T: Real> Cells<'g, T> {
         places
     }
 
-    /// Compares what is assumed of the slope in a contact, and how far it may be off, with the nodes of all cells of a
-    /// row, which are eight or more in each; where they differ most is what is named. Returns the least error that is
-    /// assumed.
+    /// Compares the assumed slope in a contact, given with its error, with the nodes of all cells
+    /// of a row, eight or more in each. Fails at the largest difference, if it exceeds the
+    /// tolerance. Returns the least error assumed.
     pub fn compare(
         &self,
         row: &[Panel<T>],
@@ -111,7 +113,7 @@ impl<'g, T: Real> Cells<'g, T> {
         let mut sampler = Sampler::default();
         let mut doubt = None;
         let mut missed: Option<(T, ContactError<T>)> = None;
-        // Those halved down to a jump end at one of its two sides, by chance.
+        // A cell halved down to a jump ends on one side of it, by chance.
         let short = T::of(SHORT) * self.spacing;
         for cell in row.iter().filter(|cell| cell.half() > short) {
             for &z in &Table::of(cell.n).z[..cell.n] {
@@ -123,7 +125,7 @@ impl<'g, T: Real> Cells<'g, T> {
                 if (cell.value(x) - assumed).abs() <= most {
                     continue;
                 }
-                // The series of the cell may itself be off.
+                // The series of the cell may itself be wrong.
                 let slope = sampler.slope(self.gap, x)?;
                 let off = (slope - assumed).abs();
                 if off > most {

@@ -1,11 +1,11 @@
-//! No tension inside.
+//! Proof that the pressure is positive inside a contact.
 //!
-//! Where the slope of the gap rises throughout, the pressure is positive (its integral over g' has a
-//! kernel that is). Elsewhere what is bounded from below is the pressure times the square root of
-//! the distance from an edge, or at a free edge divided by it: a function that is smooth between
-//! the breakpoints and as positive at the edges as elsewhere. Between breakpoints it is a Chebyshev series on
-//! cells, which are halved until the coefficients leave no doubt of the sign; so the cells are
-//! graded towards the logarithms at the breakpoints.
+//! If the slope of the gap rises throughout, the pressure is positive, as an integral of g' with a
+//! positive kernel. Otherwise the bounded function is the pressure times the square root of the
+//! distance from an edge, or at a free edge divided by it: a function that is smooth between the
+//! breakpoints and as positive at the edges as elsewhere. Between breakpoints it is a Chebyshev
+//! series on cells, which are halved until the coefficients prove the sign; so the cells are graded
+//! towards the logarithms at the breakpoints.
 
 use super::series_bounds::{below, least, truncation_error};
 use super::{Extremum, nearer, undecided};
@@ -13,40 +13,41 @@ use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::Table;
 use crate::{ContactError, Ends, Interval, Real};
 
-/// Nodes of a cell.
+/// Number of nodes of a cell.
 const NODES: usize = 16;
-/// How often a span between two breakpoints is halved.
+/// Largest number of halvings of a span between two breakpoints.
 const MOST_LEVELS: usize = 52;
-/// Cells in all.
+/// Largest number of cells in all.
 const MOST_CELLS: usize = 1 << 16;
-/// Breakpoints at which the pressure is asked for, besides those where the slope jumps down.
+/// Largest number of breakpoints at which the pressure is taken, besides those where the slope
+/// jumps down.
 const MOST_JOINTS: usize = 512;
 
-/// Pressures at the nodes of a cell, and the series of what is smooth.
+/// Pressures at the nodes of a cell, and the series of the pressure times its smoothing factor.
 struct CheckedCell<T> {
     x: [T; NODES],
     pressure: [T; NODES],
     series: [T; NODES],
 }
 
-/// What has been found so far: the deepest tension, and the least ratio.
+/// Results so far: the deepest tension, and the least ratio.
 struct Found<T> {
     worst: Option<Extremum<T>>,
     ratio: Option<Extremum<T>>,
     cells: usize,
 }
 
-/// A contact whose pressures are known.
+/// Contact with known pressures.
 pub(super) struct Inside<'c, T: Real> {
     pub pressures: &'c dyn Fn(&[T], &mut [T]),
     pub gap: &'c Gap<'c, T>,
     pub on: Interval<T>,
-    /// Whether its limits are free.
+    /// Flags: the limit is free.
     pub free: Ends<bool>,
     pub load: T,
-    /// From the first limit of all contacts to the last.
+    /// Interval from the first limit of all contacts to the last.
     pub hull: Interval<T>,
-    /// Pressures down to the negative of this are zero.
+    /// Largest tension that counts as zero.
     pub allowed: T,
 }
 
@@ -56,8 +57,8 @@ impl<T: Real> Inside<'_, T> {
         ContactError::Tension { x, pressure, interval, load }
     }
 
-    /// The least pressure found, negative only if it is less than what is allowed for; and where
-    /// the ratio of the pressure to that under a smooth body is least.
+    /// Finds the place where the ratio of the pressure to that under a smooth body is least. Fails
+    /// at the deepest tension found beyond `allowed`.
     pub fn least(&self, cost: Cost) -> Result<Extremum<T>, ContactError<T>> {
         let on = self.on;
         let mut found = Found { worst: None, ratio: None, cells: 0 };
@@ -66,7 +67,7 @@ impl<T: Real> Inside<'_, T> {
             (self.pressures)(&[x], &mut pressure);
             self.meet(&mut found, x, pressure[0]);
         }
-        // Each span between two breakpoints is a cell or more.
+        // Each span between two breakpoints is one cell or more.
         if self.gap.breakpoints(on).count() < MOST_CELLS {
             let mut left = on.left;
             for right in self.gap.breakpoints(on).chain([on.right]) {
@@ -81,7 +82,7 @@ impl<T: Real> Inside<'_, T> {
         }
     }
 
-    /// Takes a pressure into account.
+    /// Records a pressure that is a tension beyond `allowed`, if it is the deepest so far.
     fn meet(&self, found: &mut Found<T>, x: T, value: T) {
         if value < -self.allowed {
             found.worst = nearer(Some(Extremum { x, value }), found.worst);
@@ -109,7 +110,7 @@ impl<T: Real> Inside<'_, T> {
             let coarse = T::epsilon().sqrt() * size;
             let fine = T::of(0.25) * self.allowed;
             if left_out <= fine || (bound > T::zero() && left_out <= coarse) {
-                // The sign is that of the polynomial, but for what is allowed.
+                // The sign is the sign of the polynomial, up to `allowed`.
                 let enough = if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
                 let [s, value] = least(&series, enough);
                 let x = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
@@ -126,7 +127,7 @@ impl<T: Real> Inside<'_, T> {
         Ok(())
     }
 
-    /// Looks at a cell; nothing if there is no room.
+    /// Samples a cell; `None` if its nodes do not fit between its ends.
     fn cell(&self, [from, to]: [T; 2]) -> Option<CheckedCell<T>> {
         let (half, table) = (T::of(0.5), Table::of(NODES));
         let (middle, reach) = (half * from + half * to, half * (to - from));
@@ -140,7 +141,7 @@ impl<T: Real> Inside<'_, T> {
         Some(CheckedCell { x, pressure, series: table.coefficients(&smooth) })
     }
 
-    /// What makes the pressure smooth at the edges.
+    /// Returns the factor that makes the pressure smooth at the edges.
     fn factor(&self, x: T) -> T {
         let free = self.free;
         let by_half_width = T::one() / self.on.half_width();
@@ -151,7 +152,7 @@ impl<T: Real> Inside<'_, T> {
         part(self.on.right - x, free.right) * part(x - self.on.left, free.left)
     }
 
-    /// The least pressure itself on a cell that has some below zero, by shrinking a grid.
+    /// Finds the least pressure on a cell where it is negative, by shrinking a grid.
     fn deepest(&self, [mut from, mut to]: [T; 2], found: &mut Found<T>) {
         for _ in 0..12 {
             let Some(CheckedCell { x, pressure, .. }) = self.cell([from, to]) else { break };

@@ -1,10 +1,11 @@
-//! No overlap outside.
+//! Proof that the bodies do not overlap outside the contacts.
 //!
-//! From each limit the gap is followed to the end of the bodies, or half the way to the next contact. There the pressure
-//! takes Φ/κ off the slope of the bodies. In y = √d, d the distance from the limit, the integral of what is left is
-//! smooth up to there. Where P ≥ 0, Φ falls outward: where the bodies are steeper than anywhere in the contact the gap
-//! grows, the slope itself is not computed, and what the pressure adds to the height is made up for only where the gap
-//! stops growing.
+//! From each limit the gap is followed to the end of the bodies, or half the way to the next
+//! contact. There the pressure reduces the slope of the gap by Φ/κ. The integral of the reduced
+//! slope is smooth up to the limit as a function of y = √d, d the distance from it. Where P ≥ 0, Φ
+//! falls outward: where the bodies are steeper than anywhere in the contact the gap grows, and the
+//! reduced slope is not computed. The share of the pressure in the height is then added only where
+//! the gap stops growing.
 
 use super::cells::Cells;
 use super::series_bounds::{above, below, extremes, integral, least, truncation_error};
@@ -15,14 +16,15 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
 use crate::{ContactError, Interval, Real, Side};
 
-/// Nodes of a cell.
+/// Number of nodes of a cell.
 const NODES: usize = 24;
-/// How often a panel is halved.
+/// Largest number of halvings of a panel.
 const MOST_LEVELS: usize = 40;
-/// Those cells on one side.
+/// Largest number of cells on one side.
 const MOST_CELLS: usize = 1 << 16;
 
-/// The share of the rise at the largest slope from which on cells resolve nothing.
+/// Truncation error from which on cells resolve nothing, as a share of the rise at the largest
+/// slope.
 const VAGUE: f64 = 1e-2;
 
 /// Contacts under load.
@@ -30,30 +32,31 @@ pub(super) struct Loaded<'c, T: Real> {
     pub found: &'c ContactState<T>,
     pub several: &'c Several<T>,
     pub system: &'c System<T>,
-    /// The least and the largest slope of the bodies in each contact.
+    /// Least and largest slope of the bodies in each contact.
     pub slopes: &'c [[T; 2]],
-    /// Overlaps up to this are none.
+    /// Largest overlap that counts as zero.
     pub allowed: T,
 }
 
-/// One side of a contact, and what has been followed of it.
+/// One side of a contact, and the gap followed there so far.
 pub(super) struct OutsideOf<'o, T: Real> {
     of: &'o Loaded<'o, T>,
     contact: usize,
     side: Side,
-    /// Whether Φ falls outward.
+    /// True if Φ falls outward.
     falls: bool,
-    /// The height of the gap at `y`, and what the slopes of the bodies have added since.
+    /// Height of the gap at `y`; `pending` is the height that the slopes of the bodies have added
+    /// since.
     height: T,
     y: T,
     pending: T,
-    /// Whether the gap has been open: a least gap of nothing at the edge itself is none.
+    /// True once the gap has been open: a least gap of zero at the edge itself does not count.
     open: bool,
     cells: usize,
-    /// The deepest overlap, and the least gap from which on the bodies part again.
+    /// Deepest overlap, and in `closest` the least gap from which on the bodies part again.
     pub worst: Option<Extremum<T>>,
     pub closest: Option<Extremum<T>>,
-    /// Where the last cell ends, if the bodies come closer up to there.
+    /// End of the last cell, if the bodies come closer up to there.
     pub falling: Option<Extremum<T>>,
 }
 
@@ -83,7 +86,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         (self.sign() * (x - self.edge())).max(T::zero())
     }
 
-    /// Returns what the pressure takes off the slope of the gap at a distance.
+    /// Returns the reduction of the slope of the gap by the pressure at a distance.
     fn pull(&self, distance: T) -> T {
         self.of.several.pull(self.of.system, self.contact, self.side, distance)
     }
@@ -93,7 +96,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         let edge = self.edge();
         let places = cells.places(edge, end, self.on().half_width());
         let mut row = cells.over(&places)?;
-        // Short of the last cell: at the end of a body the slope may be infinite.
+        // Without the last cell: at the end of a body the slope may be infinite.
         let last = places.len() - 1;
         let known = match self.side {
             Side::Left => [places[1.min(last)], edge],
@@ -116,7 +119,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         Ok(())
     }
 
-    /// The next panel outward.
+    /// Takes the next panel outward.
     fn take(
         &mut self,
         panel: &Panel<T>,
@@ -153,7 +156,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         Ok(())
     }
 
-    /// What the pressure takes off the height between two places.
+    /// Returns the reduction of the height by the pressure between two places.
     fn drawn(&self, from: T, to: T) -> T {
         let (half, rule) = (T::of(0.5), GaussLegendre::suited(1, T::zero()));
         let (mut sum, mut top) = (T::zero(), to);
@@ -182,7 +185,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
         let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
-        // How fast g changes: so much of it is lost with the rounding of x.
+        // Rate of change of g: the rounding of x costs a part of it.
         let bends = panel.coefficients().iter().enumerate();
         let bend = bends.fold(T::zero(), |sum, (k, a)| sum + T::count(k) * a.abs()) / panel.half();
         let mut waiting = vec![(whole, 0)];
@@ -197,7 +200,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
                 let x = self.edge() + sign * distance;
-                // Rounding of x is more than the length of a panel that ends beside a breakpoint.
+                // Next to a breakpoint the rounding of x may exceed the length of a panel.
                 let g = panel.value(x.max(panel.x[0]).min(panel.x[1]));
                 let opens = sign * (g - self.pull(distance));
                 let lost = T::of(0.125) * (x.abs() + distance) * bend;
@@ -220,7 +223,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             if known {
                 self.falling = None;
             } else if below(rate) < T::zero() {
-                // To what counts, and no further than rounding.
+                // As fine as the tolerance needs, but no finer than rounding.
                 let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
                 let rounding = T::of(16.0) * T::epsilon() * rounding;
                 let enough = (T::of(1e-3) * allowed).max(rounding).max(T::of(1e-9) * lowest);
@@ -249,7 +252,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         Ok(())
     }
 
-    /// Where the bodies have come closer up to now, they part from here on, or end.
+    /// Records the last place of approach: from here on the bodies part, or end.
     pub fn part_again(&mut self) {
         self.closest = nearer(self.falling.take(), self.closest);
     }

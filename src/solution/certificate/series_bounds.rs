@@ -1,24 +1,24 @@
-//! What the coefficients of a Chebyshev series say of the least value of the polynomial.
+//! Bounds of a polynomial from the coefficients of its Chebyshev series.
 
 use crate::Real;
 use crate::numerics::chebyshev::{expand, value_at};
 use crate::quadrature::panels::Panel;
 
-/// Halves looked at before a least value is taken as it is.
+/// Largest number of halves examined before the least value found is accepted.
 const MOST_HALVES: usize = 512;
 
-/// No value of the series is below this.
+/// Returns a lower bound of the series.
 pub(super) fn below<T: Real>(series: &[T]) -> T {
     let others = series[1..].iter().fold(T::zero(), |sum, a| sum + a.abs());
     series[0] - others
 }
 
-/// No value of the series is above this.
+/// Returns an upper bound of the series.
 pub(super) fn above<T: Real>(series: &[T]) -> T {
     series.iter().skip(1).fold(series[0], |sum, a| sum + a.abs())
 }
 
-/// The least and the largest slope on panels.
+/// Returns a lower and an upper bound of the slope on panels.
 pub(super) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
     let infinite = T::one() / T::zero();
     panels.iter().map(Panel::coefficients).fold([infinite, -infinite], |[least, most], series| {
@@ -26,8 +26,8 @@ pub(super) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
     })
 }
 
-/// The place, from -1 to 1, and the value of the minimum, to within `enough`: halves whose bound is
-/// not below the best value known are left out.
+/// Returns the place of the minimum, from -1 to 1, and its value to within `enough`: halves whose
+/// bound is not below the best known value are skipped.
 pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
     let one = T::one();
     let mut best = [-one, value_at(series, -one)];
@@ -50,7 +50,7 @@ pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
     best
 }
 
-/// The coefficients of the integral from -1, one more than there are.
+/// Returns the coefficients of the integral from -1, one more than `series` has.
 pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
     let n = series.len();
     let at = |k: usize| series.get(k).copied().unwrap_or(T::zero());
@@ -63,7 +63,7 @@ pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
     sums
 }
 
-/// What the last coefficients say that those left out add up to.
+/// Estimates the truncation error from the last coefficients.
 pub(super) fn truncation_error<T: Real>(series: &[T]) -> T {
     let n = series.len();
     let last = series[n - 4..].iter().fold(T::zero(), |max, a| max.max(a.abs()));

@@ -1,19 +1,18 @@
-//! A contact as seen from a point.
+//! A contact in angles measured from a point.
 
 use super::{Kept, NODES};
 use crate::{Ends, Interval, Real};
 
-/// The contact as seen from x: angles are counted from the point nearest to x, away from the edge
-/// nearest to x.
+/// Contact in angles from the point nearest to x, positive away from the edge nearest to x.
 pub(super) struct GradedRule<T> {
     pub on: Interval<T>,
-    /// Whether that is the right edge.
+    /// True if the edge nearest to x is the right one.
     right: bool,
-    /// The angle between that edge and the nearest point, up to π/2.
+    /// Angle between the nearest edge and the nearest point, up to π/2.
     theta: T,
-    /// How far outside the contact x is.
+    /// Distance of x from the contact, zero inside.
     beyond: T,
-    /// How far inside, and x itself.
+    /// Distance of x from the nearest edge, negative outside the contact.
     inward: T,
     x: T,
 }
@@ -30,7 +29,7 @@ impl<T: Real> GradedRule<T> {
         graded_rule
     }
 
-    /// The angle of a point of the contact from the edge.
+    /// Returns the angle between the nearest edge and a point of the contact.
     fn angle(&self, x: T) -> T {
         let angle = self.on.angle(x);
         if self.right {
@@ -41,7 +40,8 @@ impl<T: Real> GradedRule<T> {
         }
     }
 
-    /// The edges and the breakpoints, from the edge on. A breakpoint at the nearest point is that point.
+    /// Lists the edges and the breakpoints, the nearest edge first. A breakpoint within rounding of
+    /// the nearest point is moved there.
     pub fn ends(&self, breakpoints: &[T]) -> Vec<T> {
         let turn = |&breakpoint: &T| {
             let turn = self.angle(breakpoint) - self.theta;
@@ -58,8 +58,8 @@ impl<T: Real> GradedRule<T> {
         ends
     }
 
-    /// The panels between them, with their numbers from the right; that in which the nearest point
-    /// lies is divided there, and has none.
+    /// Lists the panels between edges and breakpoints, with their numbers from the right. The panel
+    /// with the nearest point inside is divided there; its two parts have no number.
     pub fn panels(&self, breakpoints: &[T]) -> Vec<([T; 2], Option<usize>)> {
         let (zero, last) = (T::zero(), breakpoints.len());
         let mut panels = Vec::with_capacity(last + 2);
@@ -74,7 +74,8 @@ impl<T: Real> GradedRule<T> {
         panels
     }
 
-    /// What is kept of a panel (0), or of its nearer (1) or farther half (2), as seen from here.
+    /// Returns the kept values of a panel (0), or of its nearer (1) or farther half (2), in the
+    /// order of angles here.
     pub fn seen(&self, kept: &Kept<T>, part: usize) -> [T; NODES] {
         if self.right {
             return kept[part];
@@ -84,7 +85,7 @@ impl<T: Real> GradedRule<T> {
         seen
     }
 
-    /// `x - s` for a point s of the contact.
+    /// Returns `x - s` for a point s of the contact.
     pub fn distance(&self, turn: T) -> T {
         let half_turn = T::of(0.5) * turn;
         let width = self.on.right - self.on.left;
@@ -92,8 +93,8 @@ impl<T: Real> GradedRule<T> {
         if self.right { distance } else { -distance }
     }
 
-    /// A point s strictly inside the contact, and by how much the distance of s from the nearer edge,
-    /// if free, was rounded: `P w` goes with it there.
+    /// Returns a point s strictly inside the contact, and the factor by which rounding changed the
+    /// distance of s from the nearer edge, if free: `P w` is proportional to it there.
     pub fn place(&self, turn: T, free: Ends<bool>) -> (T, T) {
         let half = T::of(0.5);
         let Interval { left, right } = self.on;
@@ -104,7 +105,7 @@ impl<T: Real> GradedRule<T> {
         let inward = width * if near { half_angle.sin() } else { half_angle.cos() }.powi(2);
         let at_right = near == self.right;
         let distance = self.distance(turn);
-        // From whichever of x and the edge is nearer.
+        // Computed from x or from the edge, whichever is nearer.
         let s = if distance.abs() < half * self.inward {
             self.x - distance
         } else if at_right {

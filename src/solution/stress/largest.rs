@@ -1,4 +1,4 @@
-//! Where the stress is largest.
+//! Largest stress below a contact.
 
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
@@ -6,37 +6,41 @@ use super::{Stress, StressPeak, Subsurface, checked_ratio};
 use crate::{ContactError, Interval, Real, Side};
 use std::cmp::Ordering;
 
-/// Abscissae and depths of the first look.
+/// Number of abscissae and of depths on the first grid.
 const COLUMNS: usize = 33;
 const ROWS: usize = 32;
 
-/// The depths of the first look, in half-widths, besides the surface. The way up may end nearer to it.
+/// Range of depths on the first grid, in half-widths, besides the surface. A climb may end nearer
+/// to the surface.
 const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
 
-/// Tops of the pressure, and of the stress at the surface, that stress is looked for below.
+/// Largest number of maxima of the pressure, and of the surface stress, below which stress is
+/// searched.
 const MOST_TOPS: usize = 8;
 
-/// The share of the largest stress of the first look from which a place may be the foot of a higher top: from one depth
-/// to the next, a factor of 1.6, stress changes by a few hundredths.
+/// Share of the largest stress on the first grid, above which a place may lead to a higher maximum:
+/// from one depth to the next, a factor of 1.6, stress changes by a few hundredths.
 const FOOT: f64 = 0.9;
 
 impl<T: Real> Subsurface<'_, T> {
-    /// Finds the largest shear stress in the plane. Its value has nearly all digits, its place half of them.
+    /// Finds the largest shear stress in the plane. Its value has nearly all digits, its place half
+    /// of them.
     ///
-    /// It is looked for on a grid of 33 abscissae, from half a half-width beyond either edge, and 32 depths from the
-    /// surface to four half-widths; all over the surface; and below the limits of each contact and the highest tops of
-    /// its pressure, ever closer to them.
+    /// The search covers a grid of 33 abscissae, from half a half-width beyond either edge, and 32
+    /// depths from the surface to four half-widths; all of the surface; and points below the limits
+    /// of each contact and the highest maxima of its pressure, ever closer to them.
     ///
-    /// Below a tip, where the pressure is infinite but the shear is not, it may be approached only as
-    /// the depth goes to zero: then the depth is next to nothing.
+    /// Below a tip, where the pressure is infinite but the shear is not, the largest shear may be
+    /// approached only as the depth goes to zero: then the depth returned is next to zero.
     ///
-    /// It takes some three thousand stresses below each contact: milliseconds for one, seconds for a hundred.
+    /// The search takes some three thousand stresses below each contact: milliseconds for one,
+    /// seconds for a hundred.
     ///
     /// # Errors
-    /// [`ContactError::Singular`] where the shear is infinite: at an edge where the pressure is, and
+    /// [`ContactError::Singular`] where the shear is infinite: at an edge of infinite pressure, and
     /// with friction also where the slope of the gap jumps; those of [`at`](Self::at);
-    /// [`ContactError::Cancelled`] by who [watches](crate::Contact::watch).
+    /// [`ContactError::Cancelled`] by the function that [watches](crate::Contact::watch).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
         self.check_edges()?;
         if !self.friction.is_zero() {
@@ -45,10 +49,10 @@ impl<T: Real> Subsurface<'_, T> {
         self.largest(|stress| Ok(stress.max_shear()))
     }
 
-    /// The largest equivalent stress of von Mises, found in the same way.
+    /// Finds the largest von Mises equivalent stress, in the same way.
     ///
     /// # Errors
-    /// As [`max_shear`](Self::max_shear), and without friction, too, where the slope of the gap jumps,
+    /// As [`max_shear`](Self::max_shear), without friction also where the slope of the gap jumps,
     /// unless ν is 1/2; [`ContactError::InvalidPoissonRatio`].
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
@@ -63,7 +67,7 @@ impl<T: Real> Subsurface<'_, T> {
     fn check_edges(&self) -> Result<(), ContactError<T>> {
         let (found, hull) = (self.solution.found, self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
-        // Where both are it is the right one that is named.
+        // If both edges are singular, the error names the right one.
         for side in [Side::Right, Side::Left] {
             if !found.free[side] && found.strengths[side].abs() > least {
                 return Err(ContactError::Singular { x: hull[side] });
@@ -80,7 +84,7 @@ impl<T: Real> Subsurface<'_, T> {
         }
     }
 
-    /// Those breakpoints, from left to right.
+    /// Lists the breakpoints at which the pressure is infinite, from left to right.
     fn tips(&self) -> Result<Vec<T>, ContactError<T>> {
         let Self { solution, pressure, .. } = self;
         let inside = |&on: &Interval<T>| solution.gap.breakpoints(on);
@@ -108,7 +112,8 @@ impl<T: Real> Subsurface<'_, T> {
         best.ok_or(ContactError::InvalidLoad { quantity: "load", value })
     }
 
-    /// Lists places on the surface of a contact: its grid of pressures, and those that stress crowds at.
+    /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
+    /// concentrates.
     fn features(&self, contact: usize, on: Interval<T>) -> Result<Features<T>, ContactError<T>> {
         let grid = places(&**self.solution.integrator, &self.solution.gap, contact, on);
         let mut pressures = vec![T::zero(); grid.len()];
@@ -122,32 +127,32 @@ impl<T: Real> Subsurface<'_, T> {
 
 /// Places on the surface of a contact.
 struct Features<T> {
-    /// A grid that crowds at the limits and breakpoints.
+    /// Grid that crowds at the limits and breakpoints.
     grid: Vec<T>,
-    /// The limits and the highest tops of the pressure.
+    /// Limits and highest maxima of the pressure.
     steep: Vec<T>,
-    /// The breakpoints where the pressure is infinite.
+    /// Breakpoints where the pressure is infinite.
     tips: Vec<T>,
 }
 
-/// A stress below one contact by its place: along the surface from the centre, in half-widths, and the logarithm of the
-/// depth in half-widths.
+/// Stress below one contact by its place: the distance from the centre along the surface, in
+/// half-widths, and the logarithm of the depth in half-widths.
 struct Hill<'s, T: Real, V> {
     below: &'s Subsurface<'s, T>,
     on: Interval<T>,
     value: &'s V,
 }
 
-/// A place and the stress there.
+/// Place and the stress there.
 type Found<T> = ([T; 2], StressPeak<T>);
 
 impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
-    /// The logarithm of the depth, in half-widths, from which on places are not told apart from the surface.
+    /// Returns the logarithm of the depth, in half-widths, above which places count as the surface.
     fn surface() -> T {
         T::epsilon().ln()
     }
 
-    /// The steps of the first look.
+    /// Returns the steps of the first grid.
     fn steps() -> [T; 2] {
         let down = (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64;
         [3.0 / (COLUMNS - 1) as f64, down].map(T::of)
@@ -159,7 +164,7 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         let depth = if is_below { on.half_width() * place[1].exp() } else { T::zero() };
         let along = place[0];
         let x = if along.abs().is_one() {
-            // The limits as they are: a stress may fall from there like a square root.
+            // The limits themselves: a stress may fall from there like a square root.
             if along > T::zero() { on.right } else { on.left }
         } else {
             on.centre() + on.half_width() * along
@@ -167,20 +172,20 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         solution.gap.check_watch(solution.cost(), on)?;
         let value = match self.below.at(x, depth) {
             Ok(stress) => (self.value)(stress)?,
-            // Shear that is bounded, or an edge whose strength is nothing but rounding.
+            // The shear is bounded, or the strength of the edge is only rounding.
             Err(ContactError::Singular { .. }) => -T::one(),
             Err(error) => return Err(error),
         };
         Ok((place, StressPeak { x, depth, value }))
     }
 
-    /// The place of an abscissa.
+    /// Returns the abscissa x as a place, in half-widths from the centre.
     fn along(&self, x: T) -> T {
         (x - self.on.centre()) / self.on.half_width()
     }
 
-    /// Finds the largest stress: climbs from the highest place of each part of the first look, unless it is too low to
-    /// be the foot of the highest top.
+    /// Finds the largest stress: climbs from the highest place of each part of the first search,
+    /// unless it is too low to lead to the highest maximum.
     fn top(&self, features: &Features<T>) -> Result<StressPeak<T>, ContactError<T>> {
         let mut feet = self.first_look(features)?;
         feet.sort_by(|(_, one), (_, other)| {
@@ -197,7 +202,8 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         Ok(best)
     }
 
-    /// The highest place of the grid, of the neighbourhood of each feature, and of each top along the surface.
+    /// Finds the highest place of the grid and of the neighbourhood of each feature, and the maxima
+    /// along the surface.
     fn first_look(&self, features: &Features<T>) -> Result<Vec<Found<T>>, ContactError<T>> {
         let [step, down] = Self::steps();
         let rows = || (0..ROWS).map(|row| T::of(SHALLOWEST.ln()) + down * T::count(row));
@@ -223,8 +229,8 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         for limit in [-T::one(), T::one()] {
             feet.push(self.at([limit, Self::surface()])?);
         }
-        // The way up to a corner or a tip is a ridge that narrows with the depth, and bends. Below a tip it is too narrow
-        // in the end, but there it is known where it ends.
+        // The stress rises to a corner or a tip along a ridge that narrows with the depth, and
+        // bends. Below a tip the ridge becomes too narrow to follow, but its end is known.
         for &x in &features.tips {
             feet.push(self.at([self.along(x), T::of(0.5) * Self::surface()])?);
         }
@@ -242,9 +248,9 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         Ok(best)
     }
 
-    /// Goes uphill by Rosenbrock's method, until rounding hides the top. Steps are tried along two axes: one that gains
-    /// is made longer, one that does not shorter and turned round. Once both have gained and then not, the first axis is
-    /// laid along the way that was made.
+    /// Climbs by Rosenbrock's method, until rounding hides the maximum. Steps are tried along two
+    /// axes: a step that gains is lengthened, one that fails is shortened and reversed. Once both
+    /// axes have gained and then failed, the first one is turned to the direction of progress.
     fn climb(&self, (mut place, mut best): Found<T>) -> Result<StressPeak<T>, ContactError<T>> {
         let deepest = T::of(DEEPEST.ln());
         let (least, rounding) = (T::of(0.1) * T::epsilon().sqrt(), T::of(4.0) * T::epsilon());
