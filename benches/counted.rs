@@ -1,6 +1,6 @@
-//! The benches whose instructions are counted, as one program: the solver is compiled but once.
+//! The benches whose instructions are counted, as one program: the solver is compiled only once.
 //!
-//! The variable BENCH says which of them it is; see instructions.sh.
+//! The variable BENCH selects the bench; see instructions.sh.
 #![allow(missing_docs)]
 #![allow(clippy::duplicate_mod, reason = "programs of their own")]
 

@@ -1,5 +1,5 @@
-//! The default solve beside the bare equations: the price of knowing nothing of the bodies, and of looking
-//! whether a solution is one.
+//! The default solve next to the bare equations: the price of knowing nothing about the bodies, and
+//! of checking the solution.
 //!
 //! ```sh
 //! cargo bench --bench default                             # the table of docs/speed.md
@@ -7,12 +7,13 @@
 //! cargo bench --bench default -- repeat circle cold 100   # only this, 100 times: for instructions.sh
 //! ```
 //!
-//! The [scenes]: a parabola and a circle as closures, the paper's Examples 3 and 4, and a parabola with a wave,
-//! pressed into one contact. No pressures are asked for.
+//! The [scenes]: a parabola and a circle as closures, the paper's Examples 3 and 4, and a parabola
+//! with a wave, pressed into one contact. No pressures are computed.
 //!
-//! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before or below it by as
-//! much; counted is the first time, when nothing is known beyond the lower one. In `bare-cold` and `bare-next` one
-//! interval is sought and not checked (`Contact::single_interval`).
+//! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before,
+//! then back; evaluations are counted the first time, when nothing is known beyond the lower load.
+//! In `bare-cold` and `bare-next` one interval is sought and not checked
+//! (`Contact::single_interval`).
 
 #[allow(dead_code)] // Examples 1, 2 and 5 are not among the scenes.
 #[path = "../examples/paper/curves.rs"]
@@ -31,10 +32,10 @@ use timing::time;
 
 const CASES: [&str; 4] = ["cold", "bare-cold", "next", "bare-next"];
 
-/// The next load, by the first.
+/// Ratio of the next load to the first.
 const NEXT: f64 = 1.02;
 
-/// Hands over a case: a call that solves it once and returns its cost.
+/// Passes a case to the visitor: a call that solves it once and returns its cost.
 fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) {
     let Scene { lower, upper, load } = scene(name);
     let is_bare = case.starts_with("bare");
@@ -56,8 +57,9 @@ fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) 
     });
 }
 
-/// Prints a line for each scene: µs of the default solve and by those of the bare equations, and the evaluations of the
-/// curves. `tests/suite/default_solve.rs` compares the evaluations in docs/speed.md.
+/// Prints a line for each scene: the time of the default solve in µs and relative to the bare
+/// equations, and the evaluations of the curves. `tests/suite/default_solve.rs` compares the
+/// evaluations in docs/speed.md.
 fn table() {
     println!(
         "|scene|cold, µs|by bare|evaluations|heights|next load, µs|by bare|evaluations and heights|"
@@ -85,7 +87,7 @@ fn table() {
     }
 }
 
-/// A body with another word on its convexity.
+/// Body with another declaration of its convexity.
 struct Declared<'b>(&'b dyn ParametricProfile<f64>, Convexity);
 
 impl ParametricProfile<f64> for Declared<'_> {
@@ -112,7 +114,7 @@ impl ParametricProfile<f64> for Declared<'_> {
     }
 }
 
-/// Points of the measured circle.
+/// Number of points of the measured circle.
 const POINTS: usize = 100_000;
 
 /// Returns bodies that are convex, each with its name and a load.
@@ -144,8 +146,9 @@ fn convex_bodies() -> [(&'static str, Box<dyn ParametricProfile<f64>>, f64); 7] 
     ]
 }
 
-/// Prints a line for each body on a flat: the evaluations of a first solve, those for heights among them, where its convexity
-/// is declared and where not, and the time and that of the next load without the word by that with it.
+/// Prints a line for each body on a flat: the evaluations of a first solve, including those for
+/// heights, with its convexity declared and undeclared, and the ratio of undeclared to declared
+/// times for the first solve and for the next load.
 fn declared() {
     println!(
         "|body|evaluations, declared|undeclared|time by that declared|next load by that declared|"

@@ -1,23 +1,24 @@
-//! What a program pays that has the solver in it: a first solve, the next ones, and pressures, in
-//! `f64` and `f32`, and how each grows with the pieces that the body is joined from.
+//! Cost of the solver in a program that embeds it: a first solve, the next ones, and pressures, in
+//! `f64` and `f32`, and their growth with the number of pieces of the body.
 //!
-//! `cargo bench --bench embedding` prints µs a call and the evaluations of the curves, tab-separated.
-//! `cargo bench --bench embedding -- 10 100` measures 10 and 100 pieces. In the line that starts with
-//! "growth" stands the power of the number of pieces with which the last step has grown.
+//! `cargo bench --bench embedding` prints µs a call and the evaluations of the curves,
+//! tab-separated. `cargo bench --bench embedding -- 10 100` measures 10 and 100 pieces. The line
+//! that starts with "growth" gives the power of the number of pieces with which the last step has
+//! grown.
 //!
-//! The scene: a circle cut into equal arcs, pressed on a flat to half its radius, so that half of the
-//! arcs (of the angle, 52 %) are in the contact. A body of one piece is not joined. It is said to bulge, so
-//! that no heights are taken; `several.rs` has bodies of which nothing is said.
+//! The scene: a circle cut into equal arcs, pressed on a flat to half its radius, so that half of
+//! the arcs (by angle, 52 %) are in the contact. A body of one piece is not joined. Its convexity
+//! is declared, so that no heights are sampled; `several.rs` has bodies of undeclared convexity.
 //!
 //! - cold: from the bodies to the limits;
 //! - load: with a `Solver`, the same scene under a load up to 2 % less;
 //! - body: with a `Solver`, a body up to 0.2 % larger, already made, and its scene;
 //! - moment: as cold, under a moment that turns the bodies by a tenth;
-//! - turned: as cold, with a body that is turned by so much already;
-//! - P1, P100, P10k: pressures at so many points.
+//! - turned: as cold, with a body that is already turned by a tenth;
+//! - P1, P100, P10k: pressures at 1, 100 and 10 000 points.
 //!
-//! `cargo bench --bench embedding -- repeat cold f64 1 1000` only does one of these, 1000 times, and
-//! prints nothing: for `instructions.sh`.
+//! `cargo bench --bench embedding -- repeat cold f64 1 1000` does only one of these, 1000 times,
+//! and prints nothing: for `instructions.sh`.
 
 #[path = "shared/timing.rs"]
 mod timing;
@@ -35,14 +36,14 @@ const PIECES: [usize; 5] = [1, 10, 100, 1_000, 10_000];
 /// π F for a half-width of half the radius, κ = 1: 2 (K(m) - E(m)), m = 1/4.
 const C: f64 = 0.436_576_291_006_337_8;
 
-/// By how much the slope of a turned body is larger.
+/// Increase of the slope of a turned body.
 const TILT: f64 = 0.1;
 
 fn roller<T: Real>(radius: f64, tilt: f64, pieces: usize) -> Box<dyn ParametricProfile<T>> {
     let (radius, tilt) = (T::of(radius), T::of(tilt));
     let arc = move |from: f64, to: f64| {
         Curve::new([T::of(from), T::of(to)], move |k: T| {
-            // Not 1 - cos k, which would be nothing but rounding in narrow arcs of `f32`.
+            // Not 1 - cos k, which would be mere rounding in narrow arcs of `f32`.
             let (half_sin, half_cos) = (T::of(0.5) * k).sin_cos();
             let double = radius + radius;
             let [y, x] = [double * half_sin * half_sin, double * half_sin * half_cos];
@@ -58,8 +59,8 @@ fn roller<T: Real>(radius: f64, tilt: f64, pieces: usize) -> Box<dyn ParametricP
     Box::new(Piecewise::new(arcs.collect()).expect("the arcs meet"))
 }
 
-/// Hands over each case: its name, and a call that does it once and returns the evaluations of the
-/// curves while solving.
+/// Passes each case to the visitor: its name, and a call that does it once and returns the
+/// evaluations of the curves while solving.
 fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() -> usize)) {
     let bodies = [1.0, 1.001, 1.002].map(|radius| roller::<T>(radius, 0.0, pieces));
     let scene = |turn: usize| Contact::new(&Flat, &*bodies[turn % 3]).expect("they overlap");
@@ -100,13 +101,14 @@ fn cases<T: Real>(pieces: usize, visit: &mut dyn FnMut(&str, &mut dyn FnMut() ->
     }
 }
 
-/// A line for each number of pieces, and one for the growth from the last but one to the last.
+/// Prints a line for each number of pieces, and one for the growth from the last but one to the
+/// last.
 fn table<T: Real>(scalar: &str, pieces: &[usize]) {
     let (mut last, mut growth) = (None::<(usize, Vec<f64>)>, Vec::new());
     for &pieces in pieces {
         let (mut micros, mut evaluations) = (Vec::new(), Vec::new());
         cases::<T>(pieces, &mut |_, call| {
-            // Once around the loads or bodies; a solver starts with its first solve.
+            // One round of the loads or bodies; a solver starts with its first solve.
             call();
             evaluations.push((call() + call() + call()) / 3);
             micros.push(time(|| {

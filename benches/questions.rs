@@ -1,4 +1,5 @@
-//! What questions to a solution cost: the stress below it, the approach of the bodies, a certificate.
+//! The cost of questions to a solution: the stress below it, the approach of the bodies, a
+//! certificate.
 //!
 //! ```sh
 //! cargo bench --bench questions                                # the table of docs/speed.md
@@ -11,7 +12,7 @@
 //! - stress: the stress at 100 places, from 1e-3 to 4 half-widths deep;
 //! - shear: the largest shear stress;
 //! - approach: the approach of references 20 half-widths deep;
-//! - by-approach: a solve from nothing for that approach;
+//! - by-approach: a cold solve for that approach;
 //! - certify: the certificate.
 
 #[allow(dead_code)] // Examples 1, 2 and 5 are not among the scenes.
@@ -29,14 +30,15 @@ use timing::time;
 
 const CASES: [&str; 6] = ["ready", "stress", "shear", "approach", "by-approach", "certify"];
 
-/// Places of `stress`, and their depths in half-widths.
+/// Number of places of `stress`, and their depths in half-widths.
 const PLACES: usize = 100;
 const DEPTHS: [f64; 2] = [1e-3, 4.0];
 
-/// The depth of the references, in half-widths.
+/// Depth of the references, in half-widths.
 const DEEP: f64 = 20.0;
 
-/// Hands over a case: a call that does it once and returns what it costs of the curves.
+/// Passes a case to the visitor: a call that does it once and returns its cost in evaluations of
+/// the curves.
 fn questions(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) {
     let Scene { lower, upper, load } = scene(name);
     let steel = Material::elastic(2.0, 0.3);
@@ -56,7 +58,7 @@ fn questions(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost
             visit(&mut || {
                 for i in 0..PLACES {
                     let share = (i as f64 + 0.5) / PLACES as f64;
-                    // Columns that have nothing to do with the depth.
+                    // Columns that are independent of the depth.
                     let along = 3.0 * (0.618_034 * i as f64).fract() - 1.5;
                     let depth = on.half_width() * shallow * (deep / shallow).powf(share);
                     let x = on.centre() + along * on.half_width();
@@ -83,7 +85,8 @@ fn questions(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost
     }
 }
 
-/// Prints a line for each scene: µs of each question, and the evaluations of the curves and for heights of the last two.
+/// Prints a line for each scene: µs of each question, and the evaluations of the curves and for
+/// heights of the last two.
 fn table() {
     println!(
         "|scene|100 stresses, µs|largest shear, ms|approach, µs|solve by approach, µs|evaluations|certificate, ms|evaluations|"

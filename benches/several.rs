@@ -1,4 +1,4 @@
-//! What several contacts cost: one, two, ten, and about a hundred of a measured profile.
+//! The cost of several contacts: one, two, ten, and about a hundred of a measured profile.
 //!
 //! ```sh
 //! cargo bench --bench several                      # the table, tab-separated
@@ -6,13 +6,14 @@
 //! cargo bench --bench several -- heights CELLS     # the profile, for benches/rivals/bem_rough.py
 //! ```
 //!
-//! - `word`: a circle pressed to half its radius, said to bulge; `one`: the same, of which nothing is said,
-//!   so that its heights are looked at and its pressure is checked;
+//! - `word`: a circle pressed to half its radius, convexity declared; `one`: the same circle
+//!   undeclared, so that its heights are sampled and its pressure is checked;
 //! - `two`: `x⁴ - 2x²` at a third of the load at which its two contacts merge;
 //! - `ten`: ten contacts by a polynomial map;
 //! - `rough`: a `Spline` through 10 000 points of a parabola with five waves.
 //!
-//! cold: from the bodies to the limits. warm: with a `Solver`, loads 0, 2, 4 and 6 % above the first.
+//! cold: from the bodies to the limits. warm: with a `Solver`, loads 0, 2, 4 and 6 % above the
+//! first.
 //! Each solution is checked once, for the number of its contacts and its load.
 
 #[path = "shared/timing.rs"]
@@ -29,14 +30,14 @@ use timing::time;
 
 const CASES: [&str; 5] = ["word", "one", "two", "ten", "rough"];
 
-/// Half of the profile, its bend, and how many points.
+/// Half-length of the profile, its curvature, and its number of points.
 const HALF: f64 = 10.0;
 const BEND: f64 = 1e-3;
 const POINTS: i32 = 10_000;
-/// A parabola of this bend would touch on a quarter of it.
+/// Load under which a parabola of this curvature would touch on a quarter of the profile.
 const ROUGH_LOAD: f64 = 0.5 * BEND * HALF * HALF * 0.25;
 
-/// Lengths of the waves, heights and phases.
+/// Lengths, heights and phases of the waves.
 const WAVES: [[f64; 3]; 5] = [
     [0.1, 1.2e-4, 0.3],
     [0.231, 1.1e-4, 1.7],
@@ -56,7 +57,7 @@ fn profile() -> Spline<f64> {
     Spline::through(&points).expect("the points are in order")
 }
 
-/// The body of a closed form.
+/// Body of a closed form.
 struct Ten(PolynomialMap<f64, Hertz<f64>>);
 
 impl ParametricProfile<f64> for Ten {
@@ -72,11 +73,11 @@ impl ParametricProfile<f64> for Ten {
 struct Case {
     body: Box<dyn ParametricProfile<f64>>,
     load: f64,
-    /// The fewest and the most contacts that it may have.
+    /// Smallest and largest number of contacts allowed.
     contacts: [usize; 2],
 }
 
-/// κ is 1.
+/// Returns a case by its name; κ is 1.
 fn case(name: &str) -> Case {
     let circle = |convexity| {
         let curve = Curve::new([-1.0, 1.0], |k: f64| {
@@ -109,11 +110,11 @@ fn case(name: &str) -> Case {
     }
 }
 
-/// Hands over a cold and a warm solve: a call that does it once and returns contacts, samples, evaluations and
-/// heights.
-/// Shows a case by its name, and what one solve of it takes.
+/// Visitor of a case: its name, and a call that solves it once and returns contacts, samples,
+/// evaluations and heights.
 type Visit<'v> = dyn FnMut(&str, &mut dyn FnMut() -> [usize; 4]) + 'v;
 
+/// Passes a cold and a warm solve of a case to the visitor.
 fn solves(name: &str, visit: &mut Visit<'_>) {
     let Case { body, load, contacts: [fewest, most] } = case(name);
     let counts = |solution: linecontact::Solution<f64>| {
@@ -132,7 +133,8 @@ fn solves(name: &str, visit: &mut Visit<'_>) {
     });
 }
 
-/// What boundary elements are to solve: κ, F, the ends and the heights at the middles of so many cells.
+/// Prints a problem for boundary elements: κ, F, the ends and the heights at the middles of `cells`
+/// cells.
 fn heights(cells: u32) {
     let (body, ends) = (profile(), 0.75 * HALF);
     let solution =
@@ -143,7 +145,7 @@ fn heights(cells: u32) {
     println!("{:?} {:?} {:?} {}", on.left, on.right, peak.pressure, solution.intervals().len());
     for i in 0..cells {
         let x = ends * (2.0 * (f64::from(i) + 0.5) / f64::from(cells) - 1.0);
-        // Near x the parameter of a spline is x itself.
+        // The parameter of a spline is x itself.
         println!("{:?}", body.at(x).y);
     }
 }

@@ -1,4 +1,4 @@
-//! Scenes a second, over one thread and over more.
+//! Scenes per second, with one thread and with several.
 //!
 //! `cargo bench --features rayon --bench sweep [scenes]`
 #![allow(missing_docs)]
@@ -8,7 +8,7 @@ use std::time::Instant;
 
 const PANELS: Panels = Panels { tolerance: 1e-12 };
 
-/// Rollers of slightly different radii, each with its largest pressure.
+/// Solves rollers of slightly different radii, each with its peak pressure.
 fn solve(scenes: &[f64]) -> Vec<Result<f64, ContactError<f64>>> {
     let one = |solver: &mut linecontact::Solver<f64>, &radius: &f64| {
         let arc = Curve::new([-1.5, 1.5], |k: f64| {

@@ -3,7 +3,7 @@
 //! `cargo bench --bench tasks` prints one line of tab-separated values per task and tolerance.
 //! Arguments: tolerances (default 1e-3 1e-6 1e-9 1e-12) and names of tasks (default all).
 //!
-//! `cargo bench --bench tasks -- judge FILE` reads what other programs have found
+//! `cargo bench --bench tasks -- judge FILE` reads the results of other programs
 //! (`benches/rivals`), and prints their errors by the same measure, before its own.
 //!
 //! T1, T2, T3a and T3b (κ = 1 and π/2), T5: the paper's Examples 1 to 4; T4: a circle on a flat.
@@ -34,7 +34,7 @@ fn scene<'a>(task: &Task, bodies: &'a [Body; 2], panels: &'a Panels) -> Result<C
     })
 }
 
-/// The contact, and `x` and `P(x)` at the points.
+/// Computes the pressures at the points, and returns the limits.
 fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> {
     let on = solution.hull();
     points.x = places(on);
@@ -42,7 +42,7 @@ fn pressures(solution: &Solution<f64>, points: &mut Points) -> Result<[f64; 2]> 
     Ok([on.left, on.right])
 }
 
-/// A solve from the bodies on.
+/// Solves from the bodies on.
 fn cold(task: &Task, bodies: &[Body; 2], tolerance: f64, points: &mut Points) -> Result<[f64; 2]> {
     let panels = Panels { tolerance };
     let contact = scene(task, bodies, &panels)?;
@@ -50,7 +50,8 @@ fn cold(task: &Task, bodies: &[Body; 2], tolerance: f64, points: &mut Points) ->
     pressures(&solution, points)
 }
 
-/// µs of a solve that starts from the one before: the same bodies under a load up to 2 % less.
+/// Returns the µs of a solve that starts from the one before: the same bodies under a load up to 2
+/// % less.
 fn warm(task: &Task, bodies: &[Body; 2], tolerance: f64) -> Result<f64> {
     let panels = Panels { tolerance };
     let contact = scene(task, bodies, &panels)?;
@@ -72,13 +73,13 @@ struct Points {
     p: [f64; 101],
 }
 
-/// 101 equidistant places.
+/// Returns 101 equidistant places.
 fn places(on: Interval<f64>) -> [f64; 101] {
     let (c, half) = (on.centre(), on.half_width());
     Z.map(|z| c + half * z)
 }
 
-/// The same on [-1, 1], as a table, which the other programs have, too.
+/// Table of these places on [-1, 1], which the other programs have, too.
 const Z: [f64; 101] = {
     let mut z = [0.0; 101];
     let mut i = 0;
@@ -99,18 +100,18 @@ impl Points {
     }
 }
 
-/// sin k, cos k and cos k - 1, all to full relative accuracy.
+/// Returns sin k, cos k and cos k - 1, all to full relative accuracy.
 fn trig(k: f64) -> (f64, f64, f64) {
     let (s, c) = (0.5 * k).sin_cos();
     let m = -2.0 * s * s;
     (2.0 * s * c, 1.0 + m, m)
 }
 
-/// Points in a batch.
+/// Number of points in a batch.
 const W: usize = 4;
 
-/// The same at W points, for |k| up to 6: by series of a quarter of k, which a compiler turns into vector
-/// instructions.
+/// Returns sin k, cos k and cos k - 1 at W points, for |k| up to 6: by series of a quarter of k,
+/// which a compiler turns into vector instructions.
 fn trig_many(k: &[f64; W]) -> [[f64; W]; 3] {
     // 1/3! ... 1/19! and 1/2! ... 1/20!, of alternating sign.
     let (mut odd, mut even) = ([0.0; W], [0.0; W]);
@@ -135,7 +136,7 @@ fn trig_many(k: &[f64; W]) -> [[f64; W]; 3] {
     trig
 }
 
-/// `a b + c`, with one instruction where there is one.
+/// Returns `a b + c`, with one instruction where there is one.
 fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
@@ -203,7 +204,7 @@ curves! {
         (27.0 * k * c - 27.0 * s - 1800.0 * m) * 1e4, (1800.0 * s - 27.0 * k * s) * 1e4];
 }
 
-/// The lower body of Example 4, both pieces of one type.
+/// Lower body of Example 4, both pieces of one type.
 enum Lower4<const COUNT: bool> {
     Left,
     Right,
@@ -236,8 +237,8 @@ fn bodies<const COUNT: bool>(task: &str) -> [Body; 2] {
     }
 }
 
-/// A task: name, κ, C, fixed limits, and its solution: centre, half-width, Chebyshev coefficients
-/// of the right-hand side (T5: of what would give the part of P that is free of the logarithm).
+/// Task: name, κ, C, fixed limits, and its solution: centre, half-width, Chebyshev coefficients of
+/// the right-hand side (T5: of a right-hand side for the part of P without the logarithm).
 struct Task {
     name: &'static str,
     kappa: f64,
@@ -264,7 +265,7 @@ const TASKS: [Task; 6] = [
         "0 11675.914075788261 -1.689868735563791 0.0012598662795463855 -7.643078970743352e-08 \
         2.5613425669178454e-10 5.2157753485198495e-14") },
 ];
-/// T5 has a kink at z = `KINK`: G is more by Σ `JUMP[m] (z - KINK)^m` on its right.
+/// Kink of T5, as z: on its right G is larger by Σ `JUMP[m] (z - KINK)^m`.
 const KINK: f64 = 0.6485919418492684;
 const JUMP: &str = "0 31252.11420401319 -19.02592960852482 0.010535653793177342 \
     -1.1187810397463631e-05 3.4111734521404177e-09 -8.953820989601547e-12";
@@ -294,9 +295,9 @@ impl Task {
         smooth + if log.is_finite() { jump * log } else { 0.0 } / (PI * PI)
     }
 
-    /// Errors of the pressure and of the limits.
+    /// Returns the errors of the pressure and of the limits.
     fn errors(&self, [left, right]: [f64; 2], points: &Points) -> [f64; 2] {
-        // By `total_cmp` NaN is the largest number.
+        // `total_cmp` orders NaN as the largest number.
         let largest = |of: &dyn Fn([f64; 2]) -> f64| points.iter().map(of).max_by(f64::total_cmp);
         let error = largest(&|[x, p]| (p - self.pressure(x)).abs());
         let scale = largest(&|[x, _]| self.pressure(x).abs());
@@ -306,7 +307,8 @@ impl Task {
     }
 }
 
-/// Errors of the pressure and of the limits, evaluations of the curves, µs cold.
+/// Returns the errors of the pressure and of the limits, the evaluations of the curves, and µs
+/// cold.
 fn measure(task: &Task, tolerance: f64) -> Result<([f64; 2], usize, f64)> {
     let (counted, bodies) = (bodies::<true>(task.name), bodies::<false>(task.name));
     let (mut points, before) = (Points::new(), CALLS.load(Relaxed));
@@ -320,8 +322,8 @@ fn measure(task: &Task, tolerance: f64) -> Result<([f64; 2], usize, f64)> {
     Ok((errors, calls, us))
 }
 
-/// A line of what another program has found: its name, task, setting, -b, a, evaluations, µs, and
-/// the pressures at 101 equidistant points of its contact.
+/// Judges a line of the results of another program: its name, task, setting, -b, a, evaluations,
+/// µs, and the pressures at 101 equidistant points of its contact.
 fn judge(line: &str) -> Option<()> {
     let columns: Vec<&str> = line.split('\t').collect();
     let [name, of, setting, left, right, evaluations, us, pressures] = columns[..] else {

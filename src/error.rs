@@ -1,4 +1,4 @@
-//! What can go wrong with a scene, and how to mend it.
+//! Errors of a scene, with remedies.
 
 mod advice;
 
@@ -32,8 +32,9 @@ impl fmt::Display for Body {
     }
 }
 
-/// Why a contact could not be solved, or a question to its solution not be answered. Every variant says where,
-/// and with what values; [`kind`](Self::kind) says which of the two it is, or whether the input is at fault.
+/// Reason why a contact could not be solved, or a question to its solution not be answered. Every
+/// variant names the place and the values; [`kind`](Self::kind) tells apart faulty input, a failed
+/// solve and an unanswered question.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ContactError<T: Real> {
@@ -43,7 +44,7 @@ pub enum ContactError<T: Real> {
     /// A body could not be joined from its pieces.
     #[error(transparent)]
     Pieces(#[from] PiecewiseError<T>),
-    /// A body could not be made of its points.
+    /// A spline could not be made from its points.
     #[error(transparent)]
     Points(#[from] SplineError<T>),
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
@@ -57,12 +58,12 @@ pub enum ContactError<T: Real> {
         /// The span of `x` sampled last.
         last: Interval<T>,
     },
-    /// A profile is at fault.
+    /// The profile of a body is faulty.
     #[error("{body} body: {source}")]
     Profile {
-        /// Whose profile.
+        /// Body with this profile.
         body: Body,
-        /// What is wrong.
+        /// Fault of the profile.
         source: ProfileError<T>,
     },
     /// The two bodies have no `x` in common.
@@ -82,7 +83,7 @@ pub enum ContactError<T: Real> {
         apart(*x, range), span(range[0], range[1])
     )]
     OutsideBodies {
-        /// Where.
+        /// Abscissa asked for.
         x: T,
         /// The range of `x` that both bodies cover.
         range: [T; 2],
@@ -90,21 +91,22 @@ pub enum ContactError<T: Real> {
     /// `X(k) = x` could not be inverted.
     #[error("{body} body: X(k) = {x} cannot be inverted: {source}", x = six(*x))]
     Inversion {
-        /// Whose profile.
+        /// Body with this profile.
         body: Body,
-        /// The abscissa.
+        /// Abscissa.
         x: T,
-        /// What the search says, in terms of `k`.
+        /// Error of the search, in terms of `k`.
         source: SearchError<T>,
     },
-    /// The load, half-width, peak pressure or approach asked for is not finite; or it is not positive, which a
-    /// load needs to be only where limits are sought without adhesion; or so small that it has lost digits.
+    /// The load, half-width, peak pressure or approach asked for is not finite, or so small that it
+    /// has lost digits, or not positive. A load needs to be positive only where limits are sought
+    /// without adhesion.
     #[error(
         "the {quantity} is {value}: it must be finite, and positive where limits are sought{}",
         lost_digits(*value), value = six(*value)
     )]
     InvalidLoad {
-        /// What was asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        /// Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`.
         quantity: &'static str,
         /// Its value.
         value: T,
@@ -115,7 +117,7 @@ pub enum ContactError<T: Real> {
         /// κ as given.
         kappa: T,
     },
-    /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
+    /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is not.
     #[error("E* = {}: the contact modulus must be positive, and π E*/2 finite", six(*modulus))]
     InvalidModulus {
         /// E* as given.
@@ -131,13 +133,13 @@ pub enum ContactError<T: Real> {
         /// The interval as given.
         interval: Interval<T>,
     },
-    /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
+    /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is out of range.
     #[error(
         "{name} = {}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
          finite, distances shorter than the bodies and longer than the rounding of x", six(*value)
     )]
     InvalidEdgePressure {
-        /// Which of them.
+        /// Name of the quantity.
         name: &'static str,
         /// Its value.
         value: T,
@@ -152,32 +154,35 @@ pub enum ContactError<T: Real> {
     NoFirstContact {
         /// Two abscissae.
         x: [T; 2],
-        /// The slope difference there.
+        /// Slope differences at these abscissae.
         slope: [T; 2],
     },
-    /// The contact that carries the load reaches beyond a body; of several, the first or the last. Or the bodies touch
-    /// at an end before any limit comes there.
+    /// The contact that carries the load reaches beyond a body; of several contacts, the first or
+    /// the last does. Or the bodies touch at an end before any limit gets there.
     #[error(
         "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp \
          corner there{}",
         borne(*end, [*carried, *load], *half_width, *peak), hint(*kappa_is_default)
     )]
     DomainTooShort {
-        /// The end that the contact reaches first.
+        /// End of the bodies that the contact reaches first.
         end: T,
-        /// The load carried by the largest contact that stays on the bodies, or by several as wide as they
-        /// can be: the same whatever load is asked for. Zero where the bodies touch at this end first.
+        /// Load carried by the largest contact that stays on the bodies, or by several contacts of
+        /// the largest possible width. It does not depend on the load asked for. Zero where the
+        /// bodies touch at this end first.
         carried: T,
         /// The load asked for.
         load: T,
-        /// The half-width of that contact; half of what lies between the first limit of several and the last.
+        /// Half-width of this largest contact; of several contacts, half the distance from the
+        /// first limit to the last.
         half_width: T,
-        /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        /// Peak pressure of this contact; infinite where it is held at a corner, or where the slope
+        /// jumps.
         peak: T,
-        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        /// True if κ was left at its default of 1: then the stiffness may be missing.
         kappa_is_default: bool,
     },
-    /// A contact of this half-width reaches beyond a body.
+    /// A contact of the half-width asked for reaches beyond a body.
     #[error(
         "a contact of half-width {wanted} would leave the bodies at x = {end}: there is room for \
          {half_width}, which carries {load} with peak pressure {peak}; extend the domain or lower \
@@ -190,23 +195,23 @@ pub enum ContactError<T: Real> {
         wanted: T,
         /// The half-width of the largest contact that stays on the bodies.
         half_width: T,
-        /// The end that it reaches.
+        /// End of the bodies that this largest contact reaches.
         end: T,
-        /// The load that it carries.
+        /// Load that it carries.
         load: T,
-        /// Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        /// Its peak pressure; infinite where it is held at a corner, or where the slope jumps.
         peak: T,
-        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        /// True if κ was left at its default of 1: then the stiffness may be missing.
         kappa_is_default: bool,
     },
-    /// No position of a contact of some width balances the pressures at its two edges.
+    /// No position of a contact balances the pressures at its two edges, for some half-width.
     #[error(
         "no contact is found near x = {near}: none of half-width {half_width}, the width asked for or else the \
          last that was tried, is in balance there; {SEVERAL}, or give a start",
         near = six(*near), half_width = six(*half_width)
     )]
     NoEquilibrium {
-        /// Half-width tried: the one asked for, if one was.
+        /// Half-width asked for, or else the half-width tried last.
         half_width: T,
         /// Point of first contact.
         near: T,
@@ -229,8 +234,9 @@ pub enum ContactError<T: Real> {
     BudgetSpent {
         /// Evaluations of the curves, or values of the slope of the gap, by then.
         evaluations: usize,
-        /// How many may be made: 2²⁰ and 1024 for each piece of the bodies; by [`Midpoint`](crate::Midpoint),
-        /// which keeps no samples, sixteen times as many, and besides what 4096 pressures take.
+        /// Largest number allowed: 2²⁰ and 1024 for each piece of the bodies.
+        /// [`Midpoint`](crate::Midpoint) keeps no samples: sixteen times this number, plus the
+        /// evaluations of 4096 pressures.
         budget: usize,
         /// The span of `x` sampled last.
         last: Interval<T>,
@@ -243,11 +249,11 @@ pub enum ContactError<T: Real> {
     LimitSearch {
         /// The best limits so far.
         best: Interval<T>,
-        /// What the search says, in terms of the half-width or the distance from the point
-        /// of first contact.
+        /// Error of the search, in terms of the half-width or the distance from the point of first
+        /// contact.
         source: SearchError<T>,
     },
-    /// The limits are as good as the numbers allow, but Eq. (6) is not met.
+    /// The limits are as accurate as the numbers allow, but Eq. (6) is not met.
     #[error(
         "the best limits, -b = {} and a = {}, leave P(a - ε_a) - A = {at_a} and \
          P(ε_b - b) - B = {at_b}: more than ε₁, ε₂; take more segments or larger tolerances",
@@ -256,33 +262,34 @@ pub enum ContactError<T: Real> {
     EdgePressureNotMet {
         /// The best limits.
         best: Interval<T>,
-        /// What is left at `a`.
+        /// Residual of Eq. (6) at `a`: `P(a - ε_a) - A`.
         at_a: T,
-        /// What is left at `-b`.
+        /// Residual of Eq. (6) at `-b`: `P(ε_b - b) - B`.
         at_b: T,
     },
-    /// Zero segments, or more points than can be counted.
+    /// The number of segments is zero, or there are more points than can be counted.
     #[error(
         "{segments} segments with {extrapolations} extrapolations: give at least one segment, and \
          fewer than 2^24 points at the finest level"
     )]
     InvalidSegments {
-        /// N.
+        /// Number of segments, N.
         segments: usize,
-        /// ET.
+        /// Number of extrapolations, ET.
         extrapolations: u32,
     },
-    /// The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq. (6) has
-    /// left a singularity, or where the slope of a body jumps.
+    /// The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
+    /// where Eq. (6) has left a singularity, or where the slope of a body jumps.
     #[error(
         "the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x)
     )]
     Singular {
-        /// Where.
+        /// Abscissa asked for.
         x: T,
     },
-    /// A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other: a step in
-    /// Y, or a wrong derivative, of which [`check_derivatives`](crate::check_derivatives) tells which body it is.
+    /// A body's Y does not match its Y', so that heights and slopes of the gap contradict each
+    /// other. Y has a step, or a derivative is wrong:
+    /// [`check_derivatives`](crate::check_derivatives) tells for which body.
     #[error(
         "from x = {} the gap rises by {by_heights} by the heights Y of the bodies, but by {by_slopes} by their \
          slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y; check_derivatives tells which",
@@ -290,22 +297,23 @@ pub enum ContactError<T: Real> {
         by_slopes = apart(*by_slopes, &[*by_heights])
     )]
     InconsistentHeights {
-        /// Two places.
+        /// Two abscissae.
         between: [T; 2],
-        /// `Y₂ - Y₁` at the second, less that at the first.
+        /// Rise of `Y₂ - Y₁` from the first abscissa to the second.
         by_heights: T,
-        /// `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first to the second.
+        /// `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first abscissa to the second.
         by_slopes: T,
     },
-    /// The bodies [declare](crate::Convexity) that they bulge towards each other, but the slope of the gap falls.
+    /// The bodies [declare](crate::Convexity) that they bulge towards each other, but the slope of
+    /// the gap falls.
     #[error(
         "the slope of the gap falls from {} {}, but the bodies declare that they bulge towards each other: declare \
          Convexity::Unknown, or correct the curve", span(slopes[0], slopes[1]), along(*between)
     )]
     NotConvex {
-        /// Two places, the left one first; the same one twice where the slope jumps.
+        /// Two abscissae, the left one first; equal where the slope jumps.
         between: [T; 2],
-        /// The slopes of the gap there, before the bodies turn: ratios of lengths.
+        /// Slopes of the gap at these abscissae, before the bodies turn: ratios of lengths.
         slopes: [T; 2],
     },
     /// The bodies would have to pull at each other inside the contact: they part there.
@@ -315,31 +323,33 @@ pub enum ContactError<T: Real> {
         pressure = six(*pressure), load = six(*load)
     )]
     Tension {
-        /// Where the pressure is negative.
+        /// Abscissa at which the pressure is negative.
         x: T,
-        /// What it would be there; minus infinity where the slope of the gap jumps down.
+        /// Pressure there; minus infinity where the slope of the gap jumps down.
         pressure: T,
-        /// What solves the equations with it: the first and the last limit, and the load.
+        /// Solution of the equations with this pressure: the interval from the first limit to the
+        /// last.
         interval: Interval<T>,
-        /// The load per unit length of that.
+        /// Load per unit length of this solution.
         load: T,
     },
-    /// A fixed edge at which the body lifts off: the singularity of the pressure there is negative,
-    /// or the contact ends before the corner.
+    /// The body lifts off at a fixed edge: the singularity of the pressure there is negative, or
+    /// the contact ends before the corner.
     #[error(
         "the contact is said to end at the corner x = {x}, but under the load {load} the body lifts off there (the \
          strength of the singularity is {strength}): use Edge::FreeUntil, for a corner that is free until it is reached",
         x = six(*x), strength = six(*strength), load = six(*load)
     )]
     LiftsOff {
-        /// The corner.
+        /// Abscissa of the corner.
         x: T,
-        /// K, see [`Solution::edge_singularities`](crate::Solution::edge_singularities): zero to
-        /// rounding where the contact ends before the corner.
+        /// Strength K of the singularity, see
+        /// [`Solution::edge_singularities`](crate::Solution::edge_singularities): zero to rounding
+        /// where the contact ends before the corner.
         strength: T,
-        /// What solves the equations with it.
+        /// Contact that solves the equations with this strength.
         interval: Interval<T>,
-        /// The load per unit length of that.
+        /// Load per unit length of this contact.
         load: T,
     },
     /// The bodies would overlap outside the contact: they touch there as well.
@@ -349,32 +359,33 @@ pub enum ContactError<T: Real> {
         load = six(*load)
     )]
     Overlap {
-        /// Where.
+        /// Abscissa of the overlap.
         x: T,
-        /// The gap there, negative.
+        /// Gap there, negative.
         gap: T,
-        /// What solves the equations with it: the first and the last limit.
+        /// Solution of the equations with this overlap: the interval from the first limit to the
+        /// last.
         interval: Interval<T>,
-        /// The load per unit length of that.
+        /// Load per unit length of this solution.
         load: T,
     },
-    /// The slope of the gap inside the contact is not what the samples say from which the contact was
-    /// found: something lies between two of them.
+    /// The slope of the gap inside the contact differs from the panels by which the contact was
+    /// found: a feature lies between two of their samples.
     #[error(
         "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something \
          narrow has been missed there; declare breakpoints at its ends, or correct the curve",
         x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
     )]
     FeatureMissed {
-        /// Where.
+        /// Abscissa of the difference.
         x: T,
-        /// The slope of the gap.
+        /// Slope of the gap.
         slope: T,
-        /// What it was taken for.
+        /// Slope according to the panels.
         assumed: T,
     },
-    /// The samples of the certificate leave a pressure at a free edge that is not that of the contact:
-    /// what the limits were found from was not the whole of the curves.
+    /// The samples of the certificate give the pressure a singularity at a free edge that the found
+    /// contact does not have: the limits were found from a part of the curves only.
     #[error(
         "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a \
          singularity of strength {strength}, where the limits were found to within {allowed}; declare \
@@ -382,11 +393,11 @@ pub enum ContactError<T: Real> {
          each call", x = six(*x), strength = six(*strength), allowed = six(*allowed)
     )]
     Unbalanced {
-        /// The limit.
+        /// Abscissa of the limit.
         x: T,
-        /// The strength K of the inverse-square-root singularity there, a pressure.
+        /// Strength K of the inverse-square-root singularity there, a pressure.
         strength: T,
-        /// How large it may be by the estimated error of the limits, and by that of the samples.
+        /// Largest strength that the estimated errors of the limits and of the samples allow.
         allowed: T,
     },
     /// The certificate has spent its budget.
@@ -396,7 +407,7 @@ pub enum ContactError<T: Real> {
         x = six(*x)
     )]
     Undecided {
-        /// Where it has stopped.
+        /// Abscissa at which the certificate has stopped.
         x: T,
         /// Evaluations of the curves by then.
         evaluations: usize,
@@ -412,7 +423,8 @@ pub enum ContactError<T: Real> {
         /// The tolerance as given.
         tolerance: T,
     },
-    /// The [resolution](crate::Contact::resolution) is not a length, or lost in the rounding of x.
+    /// The [resolution](crate::Contact::resolution) is not a length, or is lost in the rounding of
+    /// x.
     #[error(
         "the resolution is {resolution}: the narrowest feature to be seen is a length along x, finite and more than {least}",
         resolution = six(*resolution), least = six(*least)
@@ -420,7 +432,8 @@ pub enum ContactError<T: Real> {
     InvalidResolution {
         /// The resolution as given: a length.
         resolution: T,
-        /// The least length that the rounding of x in the contact allows; zero where none was found yet.
+        /// Least length that the rounding of x in the contact allows; zero where no contact was
+        /// found yet.
         least: T,
     },
     /// A work of adhesion is negative or not finite.
@@ -429,7 +442,7 @@ pub enum ContactError<T: Real> {
         /// The work of adhesion as given.
         work: T,
     },
-    /// Limits that are both given leave nothing to be sought: only a load can be asked of them.
+    /// Both limits are given: then only a load can be asked for.
     #[error(
         "both limits are given, -b = {} and a = {}: then the load must be given too, not the \
          half-width or the peak", apart(interval.left, &[interval.right]), apart(interval.right, &[interval.left])
@@ -447,16 +460,16 @@ pub enum ContactError<T: Real> {
         /// The value.
         value: T,
     },
-    /// A moment, or the place where the load acts, was asked for where the bodies cannot be turned.
+    /// A moment, or the place where the load acts, was given for bodies that cannot be turned.
     #[error(
         "a moment, or the place where the load acts, can be given with the default quadrature Panels and \
          search, between edges that are Free, Fixed or FreeUntil: {why}"
     )]
     TiltNotSupported {
-        /// What stands in the way.
+        /// Reason, for the message.
         why: &'static str,
     },
-    /// No tilt is found under which the load acts at the place asked for: the contact would leave the bodies.
+    /// No tilt makes the load act at the place asked for: the contact would leave the bodies.
     #[error(
         "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt \
          {tilt}, and beyond that the contact leaves the bodies, from x = {}; move the load \
@@ -467,16 +480,16 @@ pub enum ContactError<T: Real> {
     TiltNotFound {
         /// Load per unit length asked for.
         load: T,
-        /// Where it was to act: `x₀ + M/F`.
+        /// Place where the load was to act: `x₀ + M/F`.
         at: T,
-        /// The nearest place at which a contact was found that bears it.
+        /// Nearest place at which a contact was found that carries the load.
         reached: T,
         /// The tilt of that contact.
         tilt: T,
-        /// Where the bodies end.
+        /// Ends of the bodies.
         ends: Ends<T>,
     },
-    /// The bodies come apart: the pull is more than adhesion can bear.
+    /// The bodies come apart: the tensile load exceeds the adhesion.
     #[error(
         "no contact under the load {load}: the pull is more than the adhesion can bear; the \
          contact was followed down to {least}; pull less",
@@ -488,7 +501,7 @@ pub enum ContactError<T: Real> {
         /// The least load under which a contact was found.
         least: T,
     },
-    /// An edge was asked for at which the pressure is not bounded, and a peak pressure with it.
+    /// A peak pressure was asked for together with an edge at which the pressure is not bounded.
     #[error(
         "with {edge:?} the pressure is infinite at the edge, or may be: a peak pressure can be given \
          between free edges only; give the load or the half-width"
@@ -497,7 +510,7 @@ pub enum ContactError<T: Real> {
         /// The edge asked for.
         edge: Edge<T>,
     },
-    /// The contact with this peak pressure reaches beyond a body, or beyond a corner.
+    /// The contact with this peak pressure reaches beyond a body or a corner.
     #[error(
         "the peak pressure {wanted} takes a wider contact than there is room for: with half-width \
          {half_width}, up to x = {end}, it is {found} under the load {load}; extend the domains \
@@ -508,18 +521,18 @@ pub enum ContactError<T: Real> {
     PeakTooHigh {
         /// The peak pressure asked for.
         wanted: T,
-        /// The largest half-width that there is room for.
+        /// Largest half-width that there is room for.
         half_width: T,
-        /// The peak pressure there.
+        /// Peak pressure of the contact with this half-width.
         found: T,
-        /// The end of the bodies, or the corner, that this contact reaches.
+        /// End of the bodies, or the corner, that this contact reaches.
         end: T,
         /// The load that it carries.
         load: T,
-        /// Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        /// True if κ was left at its default of 1: then the stiffness may be missing.
         kappa_is_default: bool,
     },
-    /// The pressure has no largest value to be set.
+    /// No contact is found with this peak pressure.
     #[error(
         "no contact is found with the peak pressure {wanted}: with half-width {half_width} it is {found}; {}",
         how_to_peak(*found),
@@ -530,11 +543,12 @@ pub enum ContactError<T: Real> {
         wanted: T,
         /// The half-width tried last.
         half_width: T,
-        /// The peak pressure there; infinite where the slope of a body jumps, NaN where no contact was found.
+        /// Peak pressure there; infinite where the slope of a body jumps, NaN where no contact was
+        /// found.
         found: T,
     },
-    /// The wanted value lies in a jump: a contact is born outside the others, a corner is reached, or even the lightest
-    /// load gives more.
+    /// The value asked for lies in a jump: a contact arises outside the others, a corner is
+    /// reached, or even the lightest load gives more.
     #[error(
         "nothing between {below} and {above} can be had, so not {wanted}: under the load {load} it jumps, where a \
          contact is born or a corner reached; ask for one of both sides",
@@ -543,11 +557,11 @@ pub enum ContactError<T: Real> {
     InJump {
         /// The half-width, peak pressure or approach asked for.
         wanted: T,
-        /// The load at which it jumps.
+        /// Load at which the quantity jumps.
         load: T,
-        /// The value under less; 0 where there is none.
+        /// Value under smaller loads; 0 where there is none.
         below: T,
-        /// The value under more; infinite where the pressure is.
+        /// Value under larger loads; infinite where the pressure is.
         above: T,
     },
     /// A point is above the surface, or not finite.
@@ -564,7 +578,7 @@ pub enum ContactError<T: Real> {
     /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
     #[error("Poisson's ratio is {}: it must be from 0 to 1/2, as 0.3 of steel", six(*ratio))]
     InvalidPoissonRatio {
-        /// As given.
+        /// Poisson's ratio as given.
         ratio: T,
     },
     /// Young's modulus is not a positive finite number.
@@ -573,25 +587,26 @@ pub enum ContactError<T: Real> {
         modulus = six(*modulus)
     )]
     InvalidYoungsModulus {
-        /// Whose.
+        /// Body with this modulus.
         body: Body,
-        /// As given.
+        /// Young's modulus as given.
         modulus: T,
     },
-    /// Both bodies are rigid: there is no pressure then.
+    /// Both bodies are rigid: then there is no pressure.
     #[error("both bodies are Material::Rigid: at least one must be elastic")]
     BothRigid,
-    /// An approach was asked for, but not what the bodies are made of: E* alone does not tell how much of it
-    /// each of them gives.
+    /// An approach was asked for without the materials of the bodies: it depends on the deformation
+    /// of each body, which E* alone does not give.
     #[error("the approach depends on E and ν of both bodies: give them by Contact::materials")]
     NoMaterials,
-    /// The depth, radius or length of a reference is not a positive finite number, or a disc is smaller than the contact.
+    /// The depth, radius or length of a reference is not a positive finite number, or a disc is
+    /// smaller than the contact.
     #[error(
         "a reference at {length}: its depth, radius or length must be positive and finite, and a disc larger \
          than the contact", length = six(*length)
     )]
     InvalidReference {
-        /// As given.
+        /// Length as given.
         length: T,
     },
     /// No contact that stays on the bodies has this approach.
@@ -603,30 +618,31 @@ pub enum ContactError<T: Real> {
     ApproachTooLarge {
         /// The approach asked for.
         wanted: T,
-        /// About the largest approach of a contact that stays on the bodies.
+        /// Approximate largest approach of a contact that stays on the bodies.
         approach: T,
-        /// The load of that.
+        /// Load at this approach.
         load: T,
     },
-    /// An approach that a table of a spring does not cover.
+    /// The table of a spring does not cover this approach.
     #[error(
         "the table covers approaches from {}, not {}: make it for a wider range of loads (apart, the bodies bear none)",
         span(range[0], range[1]), apart(*approach, range)
     )]
     OutsideTable {
-        /// As given.
+        /// Approach as given.
         approach: T,
-        /// From the least to the largest in the table.
+        /// Least and largest approach in the table.
         range: [T; 2],
     },
-    /// The approach to these references does not grow with the load: no load goes with it alone.
+    /// The approach to these references does not grow with the load, so that it does not determine
+    /// the load.
     #[error(
         "under the load {load} the approach falls by {rate} with each unit of it: the references are \
          too close to the surface; put them deeper, take larger lengths, or an x inside the contact",
         load = six(*load), rate = six(*rate)
     )]
     ApproachFalls {
-        /// Where it was seen.
+        /// Load at which the approach falls.
         load: T,
         /// dδ/dF there, negative or zero.
         rate: T,
@@ -634,7 +650,7 @@ pub enum ContactError<T: Real> {
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]
     InvalidFriction {
-        /// As given.
+        /// Coefficient as given.
         coefficient: T,
     },
     /// The coefficient of friction of partial slip is not a positive finite number.
@@ -649,45 +665,46 @@ pub enum ContactError<T: Real> {
     /// The force or the tension of partial slip is not finite.
     #[error("{quantity} = {}: what acts along the contact must be finite", six(*value))]
     InvalidShear {
-        /// `force` or `tension`.
+        /// Name of the quantity: `force` or `tension`.
         quantity: &'static str,
-        /// As given.
+        /// Value as given.
         value: T,
     },
-    /// Friction does not carry the force: the bodies slip everywhere.
+    /// The force exceeds friction: the bodies slip everywhere.
     #[error(
         "the tangential force {} is no less than friction carries, μF = {}: the bodies slip everywhere; lower it, or \
          raise the load", apart(*force, &[*limit]), apart(*limit, &[*force])
     )]
     SlipsEverywhere {
-        /// Q.
+        /// Tangential force Q.
         force: T,
-        /// μF.
+        /// Largest force that friction carries, μF.
         limit: T,
     },
-    /// The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
-    /// rounding. Without slip the traction is Q ∂P/∂F, of [`Solution::load_rates`](crate::Solution::load_rates).
+    /// The force is so small, relative to friction, that the slip zones and their traction are lost
+    /// in rounding. Without slip the traction is Q ∂P/∂F, see
+    /// [`Solution::load_rates`](crate::Solution::load_rates).
     #[error(
         "the tangential force {} is so much less than friction carries, μF = {}, that nothing is seen to \
          slip: take Q times the rate of the pressure in load_rates", six(*force), six(*limit)
     )]
     SticksEverywhere {
-        /// Q.
+        /// Tangential force Q.
         force: T,
-        /// μF.
+        /// Largest force that friction carries, μF.
         limit: T,
     },
-    /// The bodies would stick beside the contact: with so large a tension, or so small a force, slip reverses
-    /// while the force grows, and the history counts.
+    /// The bodies would stick outside the contact. With such a large tension, or such a small
+    /// force, slip reverses while the force grows, and the history counts.
     #[error(
         "the bodies would stick from {}, beyond the contact from {}: slip reverses; lower \
          the tension, or raise the force",
         span(zone.left, zone.right), span(contact.left, contact.right)
     )]
     ReversedSlip {
-        /// Where they would stick.
+        /// Zone in which the bodies would stick.
         zone: Interval<T>,
-        /// The contact nearest to it.
+        /// Contact nearest to this zone.
         contact: Interval<T>,
     },
     /// Friction on bodies of different elasticity changes the pressure.
@@ -696,42 +713,42 @@ pub enum ContactError<T: Real> {
          modelled; like bodies, or incompressible ones, have β = 0", beta = six(*beta)
     )]
     UnlikeBodies {
-        /// β in plane strain, from -1/2 to 1/2.
+        /// Dundurs' constant β in plane strain, from -1/2 to 1/2.
         beta: T,
     },
     /// Partial slip is not known with these conditions.
     #[error("partial slip is not known where {why}")]
     SlipNotSupported {
-        /// What stands in the way.
+        /// Reason, for the message.
         why: &'static str,
     },
-    /// A point is not inside the contact, or not outside it, as it has to be.
+    /// A point is not inside the contact, or not outside it, as required.
     #[error(
         "x = {} must lie {}side the contact from {}",
         apart(*x, &[interval.left, interval.right]), if *inside { "in" } else { "out" },
         span(interval.left, interval.right)
     )]
     InvalidPosition {
-        /// Where.
+        /// Abscissa of the point.
         x: T,
-        /// Whether it had to be strictly inside.
+        /// True if the point must be strictly inside.
         inside: bool,
-        /// The contact.
+        /// Contact.
         interval: Interval<T>,
     },
-    /// The load does not change the contact in a way that is known.
+    /// The derivatives of the contact by the load are not known.
     #[error("the derivatives by the load are not known: {why}")]
     NoLoadDerivative {
-        /// What stands in the way.
+        /// Reason, for the message.
         why: &'static str,
     },
-    /// Conditions at the edges by the paper's Eq. (6) leave nothing else to be asked for than a load.
+    /// Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed.
     #[error(
         "with edge pressures by Eq. (6) the load must be given, not the half-width, the peak or a moment: give \
          it, or use edges()"
     )]
     EdgePressureLoad,
-    /// There is not one place for each pressure.
+    /// The number of places for pressures is not the number of abscissae.
     #[error(
         "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"
     )]
@@ -747,9 +764,9 @@ pub enum ContactError<T: Real> {
          pressure is too rough; set a looser tolerance or a finer quadrature", x = six(*x)
     )]
     Integral {
-        /// The abscissa that it was for.
+        /// Abscissa for which the integral was taken.
         x: T,
-        /// Panels tried.
+        /// Number of panels tried.
         panels: usize,
     },
     /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
@@ -760,32 +777,33 @@ pub enum ContactError<T: Real> {
         x = six(*x), pressure = six(*pressure), error = six(*error)
     )]
     Unresolved {
-        /// Where.
+        /// Abscissa asked for.
         x: T,
-        /// What the rule gives.
+        /// Pressure by the quadrature.
         pressure: T,
-        /// Its estimated error.
+        /// Estimated error of this pressure.
         error: T,
     },
 }
 
-/// What a [`ContactError`] is about: what was given, the solve, or a question to its solution.
+/// Subject of a [`ContactError`]: the input, the solve, or a question to its solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A body, an edge, a load or a setting is not what it must be. The same call fails again.
+    /// A body, edge, load or setting is invalid. The same call fails again.
     Input,
-    /// No contact was found, or what was found is none. Another load, domain or start may help.
+    /// No contact was found, or the result is not a contact. Another load, domain or start may
+    /// help.
     Solve,
-    /// The contact is known, but not what was asked of it there.
+    /// The contact is known, but the quantity asked for is not available there.
     Evaluation,
 }
 
-/// Says of each error what it is about.
+/// Assigns a kind to each error.
 macro_rules! kinds {
     ($($kind:ident: $($error:ident)*;)*) => {
         impl<T: Real> ContactError<T> {
-            /// What this error is about.
+            /// Returns the kind of this error.
             #[must_use]
             pub fn kind(&self) -> ErrorKind {
                 match self {
@@ -811,7 +829,7 @@ kinds! {
 }
 
 impl<T: Real> ContactError<T> {
-    /// The same error, with what is known of the stiffness.
+    /// Returns this error, marked with whether κ is the default.
     pub(crate) fn with_stiffness(mut self, is_default: bool) -> Self {
         if let Self::DomainTooShort { kappa_is_default, .. }
         | Self::HalfWidthTooLarge { kappa_is_default, .. }
@@ -822,7 +840,8 @@ impl<T: Real> ContactError<T> {
         self
     }
 
-    /// Whether a search for one contact may fail like this because the bodies touch in several places.
+    /// Tells whether a search for one contact may end with this error because the bodies touch in
+    /// several places.
     pub(crate) fn may_be_several(&self) -> bool {
         matches!(
             self,

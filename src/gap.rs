@@ -6,7 +6,7 @@
 //! g(x) = Y₂'(k₂)/X₂'(k₂) - Y₁'(k₁)/X₁'(k₁)   where X₁(k₁) = X₂(k₂) = x      (4, 5, 8)
 //! ```
 //!
-//! There are two ways to a value. A [`Sampler`] inverts `X(k) = x` at any `x`, starting from its
+//! There are two ways to compute it. A [`Sampler`] inverts `X(k) = x` at any `x`, starting from its
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
@@ -28,35 +28,37 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a user watches a solve with: see [`Contact::watch`](crate::Contact::watch).
+/// Function with which a user watches a solve: see [`Contact::watch`](crate::Contact::watch).
 pub(crate) type Watch<'b, T> = &'b (dyn Fn(Cost, crate::Interval<T>) -> ControlFlow<()> + Sync);
 
-/// Evaluations of smooth bodies after which a search is given up: thousands of times what one takes.
+/// Number of evaluations of smooth bodies after which a search gives up: thousands of times the
+/// usual number.
 const MOST_EVALUATIONS: usize = 1 << 20;
 
-/// As many more for each piece.
+/// Number of further evaluations for each piece.
 const MOST_FOR_A_PIECE: usize = 1 << 10;
 
-/// The slope of the gap between two bodies, not yet sampled. A clone is the same gap, and costs no
+/// Slope of the gap between two bodies, not yet sampled. A clone is the same gap, and costs no
 /// allocation.
 #[derive(Clone)]
 pub struct Gap<'b, T: Real> {
     bodies: [Surface<'b, T>; 2],
     inversion: &'b dyn LimitSearch<T>,
     range: [T; 2],
-    /// Tells the gap from every other that was made, so that samples are not taken for those of
-    /// another.
+    /// Number of this gap, different from every other that was made, so that samples of one gap are
+    /// not used for another.
     number: u64,
     convex: bool,
-    /// By how much body 2 is turned counter-clockwise: what is added to the slope, and times x to the height.
+    /// Counter-clockwise tilt of body 2, as a slope: added to the slope of the gap, and times x to
+    /// its height.
     tilt: T,
     watch: Option<Watch<'b, T>>,
-    /// The length of the narrowest feature to be seen, where the user says.
+    /// Length of the narrowest feature to be seen, if the user gives one.
     resolution: Option<T>,
 }
 
-/// A body, lent by the user or owned. (What is owned holds no references: else a contact would have to be
-/// dropped before whatever it refers to, and not only used no more.)
+/// Body, lent by the user or owned. (An owned body holds no references: otherwise a contact would
+/// have to be dropped before its referents, instead of only not being used any more.)
 #[derive(Clone)]
 pub(crate) enum Shape<'b, T: Real> {
     Lent(&'b dyn ParametricProfile<T>),
@@ -72,13 +74,13 @@ impl<T: Real> Shape<'_, T> {
     }
 }
 
-/// A body as a row of smooth pieces.
+/// Body as a row of smooth pieces.
 #[derive(Clone)]
 struct Surface<'b, T: Real> {
     shape: Shape<'b, T>,
-    /// The number of pieces of a compound profile; `None` for one that is smooth itself.
+    /// Number of pieces of a compound profile; `None` for one that is smooth itself.
     joined: Option<usize>,
-    /// Of the first piece, its range of k and its ends. (The piece itself may be the shape's own.)
+    /// Range of k and ends of the first piece. (The piece itself may belong to the shape.)
     k: [T; 2],
     ends: [CurvePoint<T>; 2],
 }
@@ -105,7 +107,7 @@ impl<'b, T: Real> Surface<'b, T> {
     fn piece(&self, index: usize) -> Piece<'_, T> {
         let profile = self.shape.profile();
         let piece = self.joined.and_then(|_| profile.piece(index));
-        // One that is missing is noticed where it is used: the first is not in its place.
+        // A missing piece is noticed where it is used: the first is not in its place.
         piece.unwrap_or(Piece { curve: profile, k: self.k, ends: self.ends })
     }
 
@@ -113,7 +115,8 @@ impl<'b, T: Real> Surface<'b, T> {
         [self.piece(0).ends[0].x, self.piece(self.len() - 1).ends[1].x]
     }
 
-    /// The first piece that does not end before `x` (from the left) or at it (from the right).
+    /// Returns the first piece that does not end before `x` (from the left) or at it (from the
+    /// right).
     fn index_at(&self, x: T, side: Side) -> usize {
         let (mut low, mut high) = (0, self.len() - 1);
         while low < high {
@@ -128,7 +131,7 @@ impl<'b, T: Real> Surface<'b, T> {
         low
     }
 
-    /// The first breakpoint to the right of `x`.
+    /// Returns the first breakpoint to the right of `x`.
     fn breakpoint_after(&self, x: T) -> Option<T> {
         self.joined?;
         let index = self.index_at(x, Side::Right);
@@ -136,7 +139,7 @@ impl<'b, T: Real> Surface<'b, T> {
         (index + 1 < self.len() && end > x).then_some(end)
     }
 
-    /// The last breakpoint to the left of `x`.
+    /// Returns the last breakpoint to the left of `x`.
     fn breakpoint_before(&self, x: T) -> Option<T> {
         self.joined?;
         let index = self.index_at(x, Side::Left);
@@ -145,7 +148,7 @@ impl<'b, T: Real> Surface<'b, T> {
     }
 }
 
-/// What sampling the gap has cost.
+/// Cost of sampling the gap.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -161,13 +164,14 @@ impl<'b, T: Real> Surface<'b, T> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
-    /// Values of the gap slope `g(x)`.
+    /// Number of values of the gap slope `g(x)`.
     pub samples: usize,
-    /// Evaluations of the users' curves while solving: points asked for, one by one with
+    /// Number of evaluations of the users' curves while solving: points taken one by one with
     /// [`ParametricProfile::at`] or in a batch with [`ParametricProfile::at_many`].
     pub evaluations: usize,
-    /// Besides those, evaluations of the users' curves for what is asked of the bodies as a whole: for their
-    /// heights, with what it takes to invert `X(k) = x` there, and to check what another quadrature has found.
+    /// Number of further evaluations of the users' curves, for questions about the bodies as a
+    /// whole: for their heights, including the inversion of `X(k) = x` there, and for checks of the
+    /// result of another quadrature.
     pub heights: usize,
 }
 
@@ -222,7 +226,8 @@ impl<'b, T: Real> Gap<'b, T> {
         Self { watch: Some(watch), ..self }
     }
 
-    /// Tells who watches how far the solve is, and whether it may go on.
+    /// Reports the progress of the solve to the watching function, and stops the solve if it asks
+    /// for this.
     #[inline]
     pub(crate) fn check_watch(
         &self,
@@ -237,7 +242,7 @@ impl<'b, T: Real> Gap<'b, T> {
         }
     }
 
-    /// The same bodies, so turned: the samples of one are those of the other.
+    /// Returns the same bodies with this tilt; samples are valid for both.
     pub(crate) fn tilted(&self, tilt: T) -> Self {
         Self { tilt, ..self.clone() }
     }
@@ -246,29 +251,30 @@ impl<'b, T: Real> Gap<'b, T> {
         self.tilt
     }
 
-    /// A height of the gap at x that was taken before the bodies were turned. (A body may have no end.)
+    /// Returns the height of the gap at x after the tilt, given the height before. (A body may have
+    /// no end.)
     pub(crate) fn turned(&self, x: T, height: T) -> T {
         if same(self.tilt, T::zero()) { height } else { height + self.tilt * x }
     }
 
-    /// Whether the bodies say of themselves that the gap between them is convex, and are believed: they touch in one
-    /// interval.
+    /// Tells whether the bodies declare that the gap between them is convex, and are believed: they
+    /// touch in one interval.
     pub(crate) fn is_convex(&self) -> bool {
         self.convex
     }
 
-    /// The place nearest to `x` that both bodies cover.
+    /// Returns the place nearest to `x` that both bodies cover.
     pub(crate) fn nearest(&self, x: T) -> T {
         x.max(self.range[0]).min(self.range[1])
     }
 
-    /// The range of `x` that both bodies cover.
+    /// Returns the range of `x` that both bodies cover.
     pub fn range(&self) -> [T; 2] {
         self.range
     }
 
-    /// The first place to the right of `x`, and on both bodies, where either profile passes from
-    /// one piece to the next.
+    /// Returns the first place to the right of `x`, and on both bodies, where either profile passes
+    /// from one piece to the next.
     pub fn breakpoint_after(&self, x: T) -> Option<T> {
         let x = x.max(self.range[0]);
         let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_after(x));
@@ -279,8 +285,8 @@ impl<'b, T: Real> Gap<'b, T> {
         breakpoint.filter(|&breakpoint| breakpoint < self.range[1])
     }
 
-    /// The last place to the left of `x`, and on both bodies, where either profile passes from one
-    /// piece to the next.
+    /// Returns the last place to the left of `x`, and on both bodies, where either profile passes
+    /// from one piece to the next.
     pub fn breakpoint_before(&self, x: T) -> Option<T> {
         let x = x.min(self.range[1]);
         let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_before(x));
@@ -291,23 +297,23 @@ impl<'b, T: Real> Gap<'b, T> {
         breakpoint.filter(|&breakpoint| breakpoint > self.range[0])
     }
 
-    /// Whether either profile passes from one piece to the next at `x`.
+    /// Tells whether either profile passes from one piece to the next at `x`.
     pub(crate) fn is_breakpoint(&self, x: T) -> bool {
         [Body::Lower, Body::Upper].into_iter().any(|body| {
             self.piece_at(body, x, Side::Left).0 != self.piece_at(body, x, Side::Right).0
         })
     }
 
-    /// The breakpoints strictly inside an interval, rising.
+    /// Returns the breakpoints strictly inside an interval, rising.
     pub fn breakpoints(&self, on: crate::Interval<T>) -> impl Iterator<Item = T> {
         let first = self.breakpoint_after(on.left);
         std::iter::successors(first, |&breakpoint| self.breakpoint_after(breakpoint))
             .take_while(move |&breakpoint| breakpoint < on.right)
     }
 
-    /// Of the breakpoints strictly inside an interval those where the slope jumps in the direction of
-    /// `sign`, so that the pressure is infinite; and of the others no more than about `most`,
-    /// evenly. (Pressures at all of very many breakpoints would take longer than all else.)
+    /// Returns the breakpoints strictly inside an interval where the slope jumps in the direction
+    /// of `sign`, so that the pressure is infinite, and about `most` of the others, evenly.
+    /// (Pressures at all of very many breakpoints would take longer than all else.)
     pub(crate) fn telling_breakpoints(
         &self,
         on: crate::Interval<T>,
@@ -322,8 +328,8 @@ impl<'b, T: Real> Gap<'b, T> {
         self.breakpoints(on).enumerate().filter(telling).map(|(_, breakpoint)| breakpoint)
     }
 
-    /// By how much the slope jumps at a breakpoint, from the ends of the pieces, which are known; and
-    /// how large it is there.
+    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, and the
+    /// size of the slope there.
     pub(crate) fn jump(&self, breakpoint: T) -> [T; 2] {
         let [mut jump, mut size] = [T::zero(); 2];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
@@ -339,7 +345,7 @@ impl<'b, T: Real> Gap<'b, T> {
         [jump, size]
     }
 
-    /// The smooth piece of a body to the left or right of `x`, and its number.
+    /// Returns the smooth piece of a body to the left or right of `x`, and its number.
     #[inline(always)]
     pub(crate) fn piece_at(&self, body: Body, x: T, side: Side) -> (usize, Piece<'_, T>) {
         let surface = &self.bodies[body as usize];
@@ -347,7 +353,7 @@ impl<'b, T: Real> Gap<'b, T> {
         (index, surface.piece(index))
     }
 
-    /// The same, where the curve is to be evaluated: with pieces as they should be, one that has `x`.
+    /// Returns the piece at `x` for an evaluation of its curve, after a check that it contains `x`.
     pub(crate) fn piece_with(
         &self,
         body: Body,
@@ -368,7 +374,8 @@ impl<'b, T: Real> Gap<'b, T> {
         Ok((index, piece))
     }
 
-    /// The slope of a body at a point of it, by a central difference over a share of its piece.
+    /// Returns the slope of a body at one of its points, by a central difference over a share of
+    /// its piece.
     pub(crate) fn difference(&self, body: Body, x: T, k: T, share: T) -> T {
         let (_, piece) = self.piece_at(body, x, Side::Left);
         let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
@@ -381,8 +388,8 @@ impl<'b, T: Real> Gap<'b, T> {
         self.inversion
     }
 
-    /// Whether what a search has cost is within its budget, or several times that, given what it has
-    /// sampled last.
+    /// Checks that the cost of a search is within its budget, or several times the budget, given
+    /// the span sampled last.
     pub(crate) fn check_budget(
         &self,
         cost: Cost,
@@ -405,7 +412,7 @@ impl<'b, T: Real> Gap<'b, T> {
         }
     }
 
-    /// A number that no other gap has, unless it is a clone.
+    /// Returns a number that no other gap has, unless it is a clone.
     pub(crate) fn number(&self) -> u64 {
         self.number
     }

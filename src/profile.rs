@@ -1,17 +1,17 @@
 //! Bodies as plane curves `[X(k), Y(k)]`.
 //!
-//! A profile is what the user writes: implement [`ParametricProfile`] for a struct, or wrap
-//! a closure in a [`Curve`]. Smooth profiles are joined by [`Piecewise`].
+//! A profile is written by the user: implement [`ParametricProfile`] for a struct, or wrap a
+//! closure in a [`Curve`]. Smooth profiles are joined by [`Piecewise`].
 //!
-//! Shapes that many scenes need are here, with exact derivatives and with heights and slopes that
-//! keep their digits where a formula would cancel:
+//! Common shapes are here, with exact derivatives and with heights and slopes that keep their
+//! digits where a formula would cancel:
 //!
 //! | shape | `Y` | parameter |
 //! |---|---|---|
 //! | [`Flat`] | 0 | `X`; no ends |
 //! | [`Line`] | `m X` | `X` |
 //! | [`Parabola`] | `X²/(2R)` | `X` |
-//! | [`Ellipse`], also [`circle`](Ellipse::circle) | `B (1 - sqrt(1 - X²/A²))` | angle from the lowest point |
+//! | [`Ellipse`], [`circle`](Ellipse::circle) | `B (1 - sqrt(1 - X²/A²))` | angle from the vertex |
 //! | [`Involute`] | flank of a gear tooth | angle rolled off |
 //! | [`Crowning`] | `-C ln(1 - X²/l²)` | `X` |
 //! | [`wedge`] | two lines | joined |
@@ -19,11 +19,11 @@
 //! | [`Spline`] | through measured points, or near them | `X`, joined |
 //!
 //! Each vertex is at the origin; convex shapes open upwards. [`Placed`] moves, turns, mirrors,
-//! flips and scales one; [`Piecewise::placed`] does so with a joined one.
+//! flips and scales a shape; [`Piecewise::placed`] does so with a joined one.
 //!
 //! With the feature `serde` these shapes can be kept in files, under the names of their parameters
-//! (`radius`, `along`, `across`, `slope`, `base_radius`, `origin`, `depth`, `half_length`, `domain`,
-//! `angles`). One that is read is made by its constructor, and refused as by that:
+//! (`radius`, `along`, `across`, `slope`, `base_radius`, `origin`, `depth`, `half_length`,
+//! `domain`, `angles`). A shape read from a file is made by its constructor, with the same errors:
 //!
 //! ```
 //! # #[cfg(feature = "serde")] {
@@ -79,7 +79,7 @@ use crate::rounded::{six, span};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A point of a curve with the derivatives by the parameter.
+/// Point of a curve with the derivatives by the parameter.
 ///
 /// ```
 /// use linecontact::{Curve, CurvePoint, ParametricProfile};
@@ -95,20 +95,20 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CurvePoint<T> {
-    /// `X(k)`, along the contact.
+    /// Abscissa `X(k)`, along the contact.
     pub x: T,
-    /// `Y(k)`, across it; the upper body lies towards larger `Y`.
+    /// Height `Y(k)`, across the contact; the upper body lies towards larger `Y`.
     pub y: T,
-    /// `X'(k)`.
+    /// Derivative `X'(k)`.
     pub dx: T,
-    /// `Y'(k)`.
+    /// Derivative `Y'(k)`.
     pub dy: T,
 }
 
-/// A body's surface as a parametric curve over which `X` rises or falls strictly.
+/// Surface of a body as a parametric curve over which `X` rises or falls strictly.
 ///
-/// The parameter `k` needs no meaning, and `X` need not have an inverse in closed form. The
-/// unit of `X` and `Y` is free, but the same for both bodies of a contact.
+/// The parameter `k` needs no meaning, and `X` need not have an inverse in closed form. The unit of
+/// `X` and `Y` is free, but the same for both bodies of a contact.
 ///
 /// A profile is a pure function of `k`: the solver may call it in any order and, because it
 /// is `Sync`, from several threads.
@@ -136,24 +136,24 @@ pub struct CurvePoint<T> {
     note = "both bodies of a contact, its loads and edges have one number type"
 )]
 pub trait ParametricProfile<T: Real>: Send + Sync {
-    /// The range of `k`, both ends finite, over which `X` rises or falls strictly.
+    /// Returns the range of `k`, both ends finite, over which `X` rises or falls strictly.
     fn domain(&self) -> [T; 2];
 
-    /// The point at `k`, with both derivatives: one call, so that what they share is
-    /// computed once. At an end of the domain the derivatives are those from inside. A wrong one there
-    /// (`signum` at 0, say) costs hundreds of evaluations.
+    /// Returns the point at `k` with both derivatives, in one call, so that common terms are
+    /// computed once. At an end of the domain the derivatives are one-sided, from inside. A wrong
+    /// one there (`signum` at 0, say) costs hundreds of evaluations.
     fn at(&self, k: T) -> CurvePoint<T>;
 
-    /// The slope `dY/dX` at `x`, where it can be had without inverting `X(k) = x`: the body
-    /// is flat, or the graph of a function, or the inverse is known. `None` by default.
+    /// Returns the slope `dY/dX` at `x`, if it is known without inverting `X(k) = x`: the body is
+    /// flat, or the graph of a function, or the inverse is known. `None` by default.
     ///
-    /// Never asked outside the range of `X`.
+    /// Never called outside the range of `X`.
     fn slope_at(&self, _x: T) -> Option<T> {
         None
     }
 
-    /// The points at many parameters, for a curve that can be evaluated in a batch. By default
-    /// one after the other.
+    /// Evaluates the points at many parameters, for a curve that can be evaluated in a batch. By
+    /// default one after the other.
     ///
     /// Both slices have the same length.
     fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
@@ -162,45 +162,46 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
         }
     }
 
-    /// Which way the body bulges. A pair of bodies that bulge towards each other touches in one interval, and
-    /// the solver need not look for others. [`Convexity::Unknown`] by default.
+    /// Returns the direction in which the body bulges. Two bodies that bulge towards each other
+    /// touch in one interval, and the solver need not look for others. [`Convexity::Unknown`] by
+    /// default.
     fn convexity(&self) -> Convexity {
         Convexity::Unknown
     }
 
-    /// How many smooth pieces a compound profile has; 0 (the default) for a profile that is
-    /// smooth itself.
+    /// Returns the number of smooth pieces of a compound profile; 0 (the default) for a profile
+    /// that is smooth itself.
     fn pieces(&self) -> usize {
         0
     }
 
-    /// A smooth piece of a compound profile, counted from the left; `None` beyond the last.
+    /// Returns a smooth piece of a compound profile, counted from the left; `None` beyond the last.
     fn piece(&self, _index: usize) -> Option<Piece<'_, T>> {
         None
     }
 
-    /// `X(k)` alone.
+    /// Returns `X(k)` alone.
     fn x(&self, k: T) -> T {
         self.at(k).x
     }
 
-    /// `Y(k)` alone.
+    /// Returns `Y(k)` alone.
     fn y(&self, k: T) -> T {
         self.at(k).y
     }
 
-    /// `X'(k)` alone.
+    /// Returns `X'(k)` alone.
     fn dx(&self, k: T) -> T {
         self.at(k).dx
     }
 
-    /// `Y'(k)` alone.
+    /// Returns `Y'(k)` alone.
     fn dy(&self, k: T) -> T {
         self.at(k).dy
     }
 }
 
-/// A pointer to a profile is one.
+/// Implements the trait for pointers to profiles.
 macro_rules! forward {
     ($($name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
         forward!(&P: $($name($($argument: $type),*) $(-> $result)?;)*);
@@ -222,7 +223,7 @@ forward! {
     x(k: T) -> T; y(k: T) -> T; dx(k: T) -> T; dy(k: T) -> T;
 }
 
-/// Refuses a parameter of a shape that `holds` does not hold for, or that is not finite.
+/// Refuses a parameter of a shape that is not finite, or where `holds` is false.
 fn finite<T: Real>(
     name: &'static str,
     value: T,
@@ -241,7 +242,7 @@ fn finite_at<T: Real>(quantity: &'static str, k: T, value: T) -> Result<T, Profi
     if value.is_finite() { Ok(value) } else { Err(ProfileError::NotFinite { quantity, k, value }) }
 }
 
-/// A range of `k`, checked.
+/// Returns a range of `k`, checked.
 fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
     if from.is_finite() && to.is_finite() && (to - from).is_finite() && from < to {
         Ok([from, to])
@@ -250,26 +251,26 @@ fn interval<T: Real>([from, to]: [T; 2]) -> Result<[T; 2], ProfileError<T>> {
     }
 }
 
-/// What is wrong with a smooth curve.
+/// Fault of a smooth curve.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ProfileError<T: Real> {
-    /// A parameter has a value for which there is no such shape.
+    /// A parameter has a value for which the shape does not exist.
     #[error("{name} is {value}: it must be {must}", value = six(*value))]
     Parameter {
-        /// Which parameter.
+        /// Name of the parameter.
         name: &'static str,
-        /// Its value.
+        /// Value of the parameter.
         value: T,
-        /// What it must be.
+        /// Condition on the parameter.
         must: &'static str,
     },
-    /// A profile of several pieces where a smooth one is wanted.
+    /// A profile has several pieces where a smooth one is required.
     #[error(
         "the profile is joined from {pieces} pieces, which would be lost: use Piecewise::placed"
     )]
     Joined {
-        /// How many it has.
+        /// Number of pieces.
         pieces: usize,
     },
     /// The range of `k` is empty, reversed, or not finite.
@@ -289,26 +290,26 @@ pub enum ProfileError<T: Real> {
         value = six(*value), k = six(*k)
     )]
     NotFinite {
-        /// `X`, `Y`, `X'` or the slope `Y'/X'`.
+        /// Name of the quantity: `X`, `Y`, `X'`, `Y'`, the slope `Y'/X'` or `slope_at(x)`.
         quantity: &'static str,
-        /// Where.
+        /// Parameter of the point.
         k: T,
-        /// What it is there.
+        /// Value of the quantity there.
         value: T,
     },
-    /// A derivative is not that of its function.
+    /// A derivative does not match its function.
     #[error(
         "{quantity} is {given} at k = {k}, but differences give {difference}: check the \
          formula of the derivative", given = six(*given), k = six(*k), difference = six(*difference)
     )]
     Derivative {
-        /// `X'` or `Y'`.
+        /// Name of the derivative: `X'`, `Y'` or `slope_at(x)`.
         quantity: &'static str,
-        /// Where.
+        /// Parameter of the point.
         k: T,
-        /// What the profile says.
+        /// Derivative given by the profile.
         given: T,
-        /// The central difference.
+        /// Derivative by differences.
         difference: T,
     },
     /// `X` does not rise, or fall, all the way.
@@ -318,28 +319,28 @@ pub enum ProfileError<T: Real> {
         span(domain[0], domain[1]), in_degrees(*domain), k = six(*k), x = six(*x)
     )]
     TurnsBack {
-        /// Parameter of the turning point, as near as it was found.
+        /// Parameter of the turning point, as closely as it was found.
         k: T,
         /// `X` there.
         x: T,
-        /// The range of `k` of the curve.
+        /// Domain of the curve.
         domain: [T; 2],
     },
-    /// A compound profile does not have the pieces that it says it has.
+    /// A compound profile does not have the pieces that it declares.
     #[error(
         "pieces() is {count}, but piece({index}) {}: count them from 0, from left to right",
         if index < count { "is missing, or does not start where the one before ends" }
         else { "is there, too" }
     )]
     Pieces {
-        /// How many pieces it says it has.
+        /// Number of pieces declared.
         count: usize,
-        /// A piece at fault.
+        /// Index of a faulty piece.
         index: usize,
     },
 }
 
-/// What to ask of a parameter whose range may be an angle of so many degrees.
+/// Returns a question about degrees, for a parameter whose range has 90, 180 or 360 units.
 fn in_degrees<T: Real>([from, to]: [T; 2]) -> &'static str {
     let length = (to - from).abs();
     let is_angle = [90.0, 180.0, 360.0].into_iter().any(|degrees| length == T::of(degrees));

@@ -1,4 +1,4 @@
-//! Five scenes of bodies whose shape nobody has declared: smooth and round, folded, cornered, wavy.
+//! Five scenes of bodies of undeclared convexity: smooth and round, folded, cornered, wavy.
 
 use super::paper::{self, Example};
 use linecontact::{Curve, CurvePoint, Flat, ParametricProfile};
@@ -16,8 +16,8 @@ pub struct Scene {
 /// Names of the [scenes](scene).
 pub const SCENES: [&str; 5] = ["parabola", "circle", "example3", "example4", "wave"];
 
-/// Wave number of the wave, and the largest curvature that it adds to the parabola's, which is 1. Between its
-/// crests the gap is concave, and the load presses them flat.
+/// Wave number of the wave, and the largest curvature that it adds to the curvature 1 of the
+/// parabola. Between its crests the gap is concave, and the load presses them flat.
 const WAVE_NUMBER: f64 = 20.0;
 const WAVE_CURVATURE: f64 = 1.5;
 
@@ -37,7 +37,7 @@ fn printed(example: Example) -> Scene {
 /// Returns a scene by its name.
 ///
 /// # Panics
-/// With another name.
+/// If there is no scene with this name.
 pub fn scene(name: &str) -> Scene {
     match name {
         "parabola" => on_flat(0.02, 1.0, |k| CurvePoint { x: k, y: 0.5 * k * k, dx: 1.0, dy: k }),

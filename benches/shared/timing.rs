@@ -1,15 +1,15 @@
-//! How the benches take time.
+//! Measurement of time in the benches.
 
 use std::time::Instant;
 
-/// µs of a call: the least of three medians over five batches of about 20 ms each.
+/// Returns the µs of a call: the least of three medians over five batches of about 20 ms each.
 pub fn time(mut call: impl FnMut()) -> f64 {
     let mut batch = |calls: usize| {
         let start = Instant::now();
         (0..calls).for_each(|_| call());
         start.elapsed().as_secs_f64() * 1e6 / calls as f64
     };
-    // A call that takes long is its own warming up.
+    // A long call warms itself up.
     let first = batch(1);
     batch((1e3 / first) as usize);
     let calls = (20e3 / batch((1e3 / first).max(1.0) as usize)).max(1.0) as usize;

@@ -7,7 +7,7 @@ mod scene;
 
 use std::process::ExitCode;
 
-/// Xorshift: the same scenes everywhere.
+/// Xorshift generator: the same scenes everywhere.
 struct Rng(u64);
 
 impl Rng {
@@ -26,7 +26,7 @@ impl Rng {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    /// From 0 to 1.
+    /// Returns a number from 0 to 1, evenly distributed.
     fn share(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -35,7 +35,7 @@ impl Rng {
         from + (to - from) * self.share()
     }
 
-    /// Evenly by the logarithm.
+    /// Returns a number whose logarithm is evenly distributed.
     fn scale(&mut self, from: f64, to: f64) -> f64 {
         self.between(from.ln(), to.ln()).exp()
     }
@@ -49,7 +49,7 @@ impl Rng {
     }
 }
 
-/// Seeds that have failed, each run with all others: panels were halved until there was no memory left.
+/// Seeds that have failed, run with all others: panels were halved until the memory was exhausted.
 const FAILED: [u64; 1] = [102_129];
 
 pub(crate) fn main() -> ExitCode {

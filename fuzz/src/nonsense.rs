@@ -1,4 +1,5 @@
-//! Numbers without sense, wherever numbers are asked for: an error or an answer, in bounded time.
+//! Meaningless numbers wherever numbers are asked for: the result is an error or an answer, in
+//! bounded time.
 
 use super::Rng;
 use linecontact::{
@@ -49,7 +50,7 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
             let mut point =
                 CurvePoint { x, y: bend * x * x / 2.0, dx: 1.0 + 3.0 * third * k * k, dy: 0.0 };
             point.dy = bend * x * point.dx;
-            // One of the four is wrong in places.
+            // One of the four components is wrong in places.
             if k > from {
                 match wrong {
                     0 => point.x = value,
@@ -102,7 +103,7 @@ pub fn run(mut rng: Rng) -> Result<bool, String> {
     let load = [Control::Load(value), Control::HalfWidth(value), Control::PeakPressure(value)]
         [rng.below(3)];
     let solved = contact.solve(load);
-    // The budgets of the documentation, and what is not counted: looks at single places.
+    // Budgets of the documentation, plus uncounted evaluations at single places.
     let most = if matches!(quadrature, 1 | 2) { 40_000_000 } else { 1_100_000 };
     let took = evaluations.load(Ordering::Relaxed);
     if took > most {

@@ -1,8 +1,8 @@
-//! Slopes that are sums of terms, and what they do to a contact, by tanh-sinh quadrature.
+//! Slopes that are sums of terms, and their contact by tanh-sinh quadrature.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A share of the slope of a gap that does not fall.
+/// Term of the slope of a gap that does not fall.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
     Level(f64),
@@ -15,13 +15,13 @@ pub enum Term {
     RampLeft(f64, f64),
     Jump(f64, f64),
     Power(f64, f64, f64),
-    /// Neither: for both bodies at once.
+    /// Wave, whose slope falls in places: for a convex gap it is equal on both bodies.
     Wave(f64, f64),
 }
 use Term::*;
 
 impl Term {
-    /// Height, slope and curvature; at a breakpoint those of the side.
+    /// Returns height, slope and curvature; at a breakpoint those on the given side.
     pub fn at(&self, x: f64, right: bool) -> [f64; 3] {
         let none = [0.0; 3];
         match *self {
@@ -84,7 +84,8 @@ impl Term {
         }
     }
 
-    /// On a span of which `middle` is a point, so that a place rounded to a breakpoint is on its side.
+    /// Returns the values on a span of which `middle` is a point, so that a place rounded to a
+    /// breakpoint stays on its side.
     fn on(&self, x: f64, middle: f64) -> [f64; 3] {
         match self.breakpoint() {
             Some(breakpoint) if (x - breakpoint) * (middle - breakpoint) <= 0.0 => {
@@ -108,7 +109,7 @@ pub fn sum(terms: &[Term], x: f64, right: bool) -> [f64; 3] {
     })
 }
 
-/// A contact by its centre and half-width.
+/// Contact by its centre and half-width.
 #[derive(Clone, Copy, Debug)]
 pub struct On {
     pub centre: f64,
@@ -125,8 +126,8 @@ impl On {
         (z.abs() < 1.0).then(|| z.acos())
     }
 
-    /// Calls with θ, its weight, its distances from the two ends of the span that it is on, and
-    /// the middle of that.
+    /// Calls `f` with θ, its weight, its distances from the two ends of its span, and the middle of
+    /// this span.
     fn over(
         &self,
         terms: &[Term],
@@ -161,7 +162,7 @@ impl On {
         }
     }
 
-    /// `(1/π) ∫ g dθ`, `(1/π) ∫ g cos θ dθ`, `(1/π) ∫ |g| dθ`.
+    /// Returns `(1/π) ∫ g dθ`, `(1/π) ∫ g cos θ dθ`, `(1/π) ∫ |g| dθ`.
     pub fn moments(&self, terms: &[Term]) -> [f64; 3] {
         let mut sums = [0.0; 3];
         self.over(terms, None, |theta, weight, _, _, middle| {
@@ -173,7 +174,7 @@ impl On {
         sums.map(|sum| sum / PI)
     }
 
-    /// The pressure between free edges, for κ = 1, from the curvature.
+    /// Returns the pressure between free edges, for κ = 1, from the curvature.
     pub fn pressure(&self, terms: &[Term], x: f64) -> f64 {
         let Some(phi) = self.angle(x) else { return 0.0 };
         let kernel =

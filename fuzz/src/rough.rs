@@ -1,7 +1,7 @@
-//! Gaps that are not convex: contacts in any number of places, whatever they may be, that must not pull,
-//! nor overlap, and bear the load.
+//! Gaps that are not convex, with contacts in any number of places: the contacts must not pull nor
+//! overlap, and must carry the load.
 //!
-//! The gap of the loaded bodies is worked out here, from the pressures alone. Over one contact, with
+//! The gap of the loaded bodies is computed here, from the pressures alone. Over one contact, with
 //! `s = c + L cos θ`, the function `P L sin θ` is a cosine series, and
 //!
 //! ```text
@@ -16,11 +16,11 @@ use super::scene::body;
 use linecontact::{Contact, Control, Cost, Edge, Interval};
 use std::f64::consts::{LN_2, PI};
 
-/// Terms of a cosine series.
+/// Number of terms of a cosine series.
 const TERMS: usize = 192;
-/// Tension that rounding may leave, as a share of the peak.
+/// Largest tension ascribed to rounding, as a share of the peak.
 const TENSION: f64 = 1e-9;
-/// What the gap may be off by, as a share of the heights and displacements.
+/// Largest error of the gap, as a share of the heights and displacements.
 const GAP: f64 = 1e-7;
 
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl Scene {
         let bend = rng.scale(0.1, 10.0);
         let mut terms = vec![Term::Line(bend, rng.between(-0.5, 0.5))];
         for _ in 0..1 + rng.below(6) {
-            // Up to three times what leaves the gap convex.
+            // Up to three times the largest wave for which the gap stays convex.
             let k = rng.scale(2.0, 60.0);
             terms.push(Term::Wave(bend / k * rng.scale(0.1, 3.0), k));
         }
@@ -50,7 +50,7 @@ impl Scene {
         let corners = rng.chance(0.2);
         let width = if corners { rng.between(0.3, 1.0) } else { rng.between(4.0, 5.0) };
         let kappa = if rng.chance(0.5) { 1.0 } else { rng.scale(1e-6, 1e6) };
-        // A parabola of this bend has a half-width from 1e-3 to 1.
+        // A parabola of this curvature has a half-width from 1e-3 to 1.
         let load = 0.5 * kappa * bend * rng.scale(1e-6, 1.0);
         let (mut upper, mut lower) = (Vec::new(), Vec::new());
         for term in terms {
@@ -60,13 +60,13 @@ impl Scene {
         Self { upper, lower, ends: [-width, width], parameters, corners, kappa, load }
     }
 
-    /// κ times the height of the gap before it is loaded.
+    /// Returns κ times the height of the gap before it is loaded.
     fn height(&self, x: f64) -> f64 {
         self.kappa * (sum(&self.upper, x, true)[0] - sum(&self.lower, x, true)[0])
     }
 }
 
-/// The pressure over a contact as a cosine series of `P L sin θ`.
+/// Pressure over a contact as a cosine series of `P L sin θ`.
 struct Series {
     on: Interval<f64>,
     terms: Vec<f64>,
@@ -94,7 +94,7 @@ impl Series {
         PI * self.terms[0]
     }
 
-    /// `∫ P(s) ln|x - s| ds`.
+    /// Returns `∫ P(s) ln|x - s| ds`.
     fn logarithm(&self, x: f64) -> f64 {
         let z = (x - self.on.centre()) / self.on.half_width();
         let inside = z.abs() <= 1.0;
@@ -114,14 +114,14 @@ impl Series {
         sum
     }
 
-    /// What the terms left out may add up to.
+    /// Returns a bound on the sum of the terms left out.
     fn error(&self) -> f64 {
         let last = self.terms.iter().enumerate().skip(TERMS / 2);
         8.0 * last.map(|(k, term)| PI / k as f64 * term.abs()).sum::<f64>()
     }
 }
 
-/// Whether there was a contact, or what is wrong with it.
+/// Tells whether there was a contact; an error names the fault.
 pub fn run(mut rng: Rng) -> Result<bool, String> {
     let scene = Scene::new(&mut rng);
     check(&scene, &mut rng).map_err(|finding| format!("{finding} | {scene:?}"))
@@ -154,7 +154,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         return Err(format!("load: off by {off:.1e}, with {} contacts", contacts.len()));
     }
 
-    // At the nodes of the series, and next to what the pressure may break down at.
+    // At the nodes of the series, and next to breakpoints, where the pressure may be singular.
     let all: Vec<Term> = scene.upper.iter().chain(&scene.lower).copied().collect();
     let breakpoints: Vec<f64> = all.iter().filter_map(Term::breakpoint).collect();
     let (mut peak, mut least) = (0.0f64, [f64::INFINITY, f64::NAN]);
@@ -179,7 +179,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
         return Err(format!("tension: {:.1e} of the peak at {}", least[0] / peak, least[1]));
     }
 
-    // The gap: level in the contacts, and nowhere lower.
+    // The gap must be level in the contacts, and nowhere lower.
     let (mut outside, [from, to]) = (Vec::new(), scene.ends);
     outside.extend((0..200).map(|_| rng.between(from, to)));
     for two in contacts.windows(2) {

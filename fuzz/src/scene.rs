@@ -1,4 +1,4 @@
-//! A convex gap whose contact is known beforehand, solved in some way or other.
+//! A convex gap whose contact is known beforehand, solved in a random way.
 
 use super::Rng;
 use super::oracle::{On, Term, sum};
@@ -12,7 +12,7 @@ const EPSILON: f64 = f64::EPSILON;
 const QUADRATURE: Midpoint =
     Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfInteger };
 
-/// What is solved, and how.
+/// Scene, and the way in which it is solved.
 #[derive(Debug)]
 struct Scene {
     on: On,
@@ -104,12 +104,13 @@ impl Scene {
         })
     }
 
-    /// All terms of the gap.
+    /// Returns all terms of the gap.
     fn gap(&self) -> Vec<Term> {
         self.upper.iter().copied().chain(self.lower.iter().map(|term| term.negated())).collect()
     }
 
-    /// What rounding the slopes and the limits can do to the limits, as a share of the half-width.
+    /// Returns the error of the limits by the rounding of slopes and limits, as a share of the
+    /// half-width.
     fn noise(&self, first: f64, terms: &[Term]) -> f64 {
         let On { centre, half_width } = self.on;
         let all: Vec<Term> = self.upper.iter().chain(&self.lower).copied().collect();
@@ -164,7 +165,7 @@ fn breakpointed_term(rng: &mut Rng, on: On) -> Term {
     }
 }
 
-/// A body between two ends, its breakpoints declared or not.
+/// Builds a body between two ends, its breakpoints declared or not.
 pub fn body(
     terms: &[Term],
     ends: [f64; 2],
@@ -184,7 +185,7 @@ pub fn body(
     Box::new(Piecewise::new(pieces.collect()).expect("the pieces meet"))
 }
 
-/// By x itself, by asinh x, or by -x.
+/// Builds a piece with the parameter x, asinh x or -x.
 fn piece(
     terms: Vec<Term>,
     from: f64,
@@ -210,7 +211,7 @@ fn piece(
     }))
 }
 
-/// Whether there was a contact to be compared, or what is wrong with it.
+/// Tells whether there was a contact to compare; an error names the fault.
 pub fn run(mut rng: Rng) -> Result<bool, String> {
     let Some(scene) = Scene::new(&mut rng) else { return Ok(false) };
     check(&scene, &mut rng).map_err(|finding| format!("{finding} | {scene:?}"))
@@ -250,7 +251,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     } else {
         Control::Load(load)
     };
-    // At the corner of exactly no strength rounding decides whether the body lifts off.
+    // At a corner of exactly zero strength rounding decides whether the body lifts off.
     let contact = contact.single_interval(scene.way == Way::CornerAtEdge || rng.chance(0.5));
     let solution = contact.solve(pressed).map_err(|e| format!("refused: {e}"))?;
     if solution.intervals().len() != 1 {
@@ -270,7 +271,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     let noise = scene.noise(first, &terms);
     let estimate = solution.limits_error().unwrap_or(f64::NAN);
     let off = (solution.a() - right).abs().max((solution.b() + left).abs()) / half_width;
-    // A tolerance is one of the slope.
+    // The tolerance is one of the slope.
     let allowed = 3.0 * estimate + 10.0 * noise + scene.tolerance;
     if off.is_nan() || off > allowed {
         return Err(format!(
@@ -281,7 +282,7 @@ fn check(scene: &Scene, rng: &mut Rng) -> Result<bool, String> {
     if off.is_nan() || off > 20.0 * allowed {
         return Err(format!("load: off by {off:.2e}, estimated {estimate:.2e}, noise {noise:.1e}"));
     }
-    // At breakpoints the rule knows neither its order nor its error.
+    // At breakpoints the order and the error of the rule are unknown.
     if scene.way == Way::NoAdhesion || (scene.midpoint && !scene.breakpoints.is_empty()) {
         return Ok(true);
     }

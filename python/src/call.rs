@@ -1,5 +1,5 @@
-//! From Python to the library and back: the interpreter is released meanwhile, signals are looked at, and an
-//! exception of a user's own function comes out as it is.
+//! Calls from Python to the library and back: the interpreter is released meanwhile, signals are
+//! checked, and an exception of a user's own function comes out unchanged.
 
 use crate::errors;
 use linecontact::{ContactError, Cost, Interval};
@@ -11,19 +11,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long a solve goes on before signals are looked at again: unnoticed at a keyboard, and rarely waits for the
-/// interpreter.
+/// Time between two checks for signals in a solve: unnoticed at a keyboard, and long enough to wait
+/// rarely for the interpreter.
 pub const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
 thread_local! {
-    /// What a user's function has raised, or a signal, in the call that this thread is in.
+    /// Exception of a user's function, or of a signal, in the current call of this thread.
     static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
     static LOOKED: Cell<Option<Instant>> = const { Cell::new(None) };
-    /// Set in a thread of our own, which signals do not reach.
+    /// Signal to end, set in our own threads, which signals of the system do not reach.
     static STOP: RefCell<Option<Stop>> = const { RefCell::new(None) };
 }
 
-/// Tells threads of our own to end.
+/// Signal that ends our own threads.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
@@ -44,17 +44,17 @@ pub fn raise(error: PyErr) {
     });
 }
 
-/// That exception, which is forgotten then.
+/// Returns the exception that was kept, and forgets it.
 pub fn raised() -> Option<PyErr> {
     RAISED.take()
 }
 
-/// Whether there is one: then nothing that is computed is looked at any more.
+/// Tells whether an exception is kept: then results are ignored.
 pub fn has_raised() -> bool {
     RAISED.with_borrow(Option::is_some)
 }
 
-/// Looks at the signals, if it is time to. Ends what is going on where there is an exception.
+/// Checks for signals, if it is time. Ends the current work if there is an exception.
 pub fn look() -> ControlFlow<()> {
     if let Some(stopped) = STOP.with_borrow(|stop| stop.as_ref().map(Stop::is_set)) {
         let ended = stopped || has_raised();
@@ -63,7 +63,7 @@ pub fn look() -> ControlFlow<()> {
     let now = Instant::now();
     let due = LOOKED.get().is_none_or(|last| now.duration_since(last) >= BETWEEN_SIGNALS);
     if due && !has_raised() {
-        // The first look only starts the clock: most calls are over long before it is due.
+        // The first check only starts the clock: most calls end long before it is due.
         if LOOKED.replace(Some(now)).is_some()
             && let Err(error) = Python::attach(|py| py.check_signals())
         {
@@ -73,7 +73,7 @@ pub fn look() -> ControlFlow<()> {
     if has_raised() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-/// For [`Contact::watch`](linecontact::Contact::watch).
+/// Watches a solve, see [`Contact::watch`](linecontact::Contact::watch).
 pub fn watch<T>(_: Cost, _: Interval<T>) -> ControlFlow<()> {
     look()
 }
@@ -93,7 +93,7 @@ pub fn library<R: Send, E: errors::Describe + Send>(
     }
 }
 
-/// Work in a thread of our own, until it is done or told to stop.
+/// Does work in a thread of our own, until it is done or told to stop.
 pub fn elsewhere<R>(stop: &Stop, work: impl FnOnce() -> R) -> R {
     let before = STOP.replace(Some(stop.clone()));
     let found = work();
@@ -101,7 +101,7 @@ pub fn elsewhere<R>(stop: &Stop, work: impl FnOnce() -> R) -> R {
     found
 }
 
-/// One number in, one out, for each of an array.
+/// Computes a value for each number of an array.
 pub fn each(
     x: &[f64],
     mut value: impl FnMut(f64) -> Result<f64, ContactError<f64>>,
@@ -116,10 +116,10 @@ pub fn each(
     Ok(values)
 }
 
-/// An array of any numbers as one of `float`.
+/// Array of any numbers as one of `float`.
 pub type Numbers<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
 
-/// Numbers of our own as an array.
+/// Our own numbers as an array.
 pub type Array = Py<PyArray1<f64>>;
 
 pub fn array(py: Python<'_>, values: Vec<f64>) -> Array {

@@ -1,18 +1,18 @@
-//! Choices by name, what is prescribed of a contact among them.
+//! Choices by name, including the prescribed quantity of a contact.
 
 use crate::profile::{AsTheyAre, Lift};
 use linecontact::{Control, Reference, References};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// A name and its numbers.
+/// Name and its numbers.
 pub type Choice = (String, Vec<f64>);
 
 pub fn none_such<T>(what: &str, (name, numbers): &Choice) -> PyResult<T> {
     Err(PyValueError::new_err(format!("no {what} {name}{numbers:?}")))
 }
 
-/// x, and kind and length of both.
+/// Abscissa x, and kind and length of both references.
 pub type ReferenceRow = (f64, (String, f64), (String, f64));
 
 pub fn references(row: ReferenceRow) -> PyResult<References<f64>> {
@@ -41,7 +41,7 @@ pub fn references_of<L: Lift>(
     })
 }
 
-/// What is prescribed: its name, its numbers, and the references of an approach.
+/// Prescribed quantity: its name, its numbers, and the references of an approach.
 pub type Prescribed = (String, Vec<f64>, Option<ReferenceRow>);
 
 pub fn control(prescribed: Prescribed) -> PyResult<Control<f64>> {

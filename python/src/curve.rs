@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
-/// `k -> (x, y, dx, dy)`, with the points at both ends, which are asked for again and again.
+/// Function `k -> (x, y, dx, dy)`, with the points at both ends, which are needed again and again.
 pub struct Curve {
     domain: [f64; 2],
     function: Py<PyAny>,
@@ -97,7 +97,8 @@ fn evaluate(
     Ok(())
 }
 
-/// The exception of a function that was given an array: if it takes a single number, that is what is wrong.
+/// Makes the exception of a function called with an array: if it accepts a single number, this is
+/// the fault.
 fn said_to_take_arrays(
     py: Python<'_>,
     function: &Bound<'_, PyAny>,
@@ -120,7 +121,7 @@ fn said_to_take_arrays(
     better
 }
 
-/// What is wrong with a part of what a function has returned.
+/// Makes the exception for a part of the result of a function.
 fn of_no_length(py: Python<'_>, part: usize, found: &Bound<'_, PyAny>, count: usize) -> PyErr {
     let name = ["x", "y", "dx", "dy"][part];
     let shape = py.import("numpy").and_then(|numpy| numpy.call_method1("shape", (found,)));
@@ -134,7 +135,7 @@ fn of_no_length(py: Python<'_>, part: usize, found: &Bound<'_, PyAny>, count: us
     ))
 }
 
-/// A number for all points, or an array of other numbers, as one of `float`.
+/// Returns a number for all points, or an array of other numbers, as one of `float`.
 fn spread<'py>(part: &Bound<'py, PyAny>, count: usize) -> PyResult<PyReadonlyArray1<'py, f64>> {
     let py = part.py();
     let numpy = py.import("numpy")?;

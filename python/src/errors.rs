@@ -1,4 +1,4 @@
-//! Each error of the library as an exception of its own, with its numbers: the classes are in `errors.py`.
+//! Each error of the library as an exception with its numbers: the classes are in `errors.py`.
 
 use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::SplineError;
@@ -8,15 +8,15 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use std::fmt::Display;
 
-/// The name of a class, and its attributes.
+/// Name of a class, and its attributes.
 type Row = (&'static str, Vec<(&'static str, Py<PyAny>)>);
 
-/// An error that has a class.
+/// Error that has a class.
 pub trait Describe: Display {
     fn row(&self, py: Python<'_>) -> PyResult<Row>;
 }
 
-/// Something that an error names.
+/// Value that an error names.
 pub trait Named {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>>;
 }
@@ -91,7 +91,7 @@ impl<T: Named> Named for Root<T> {
     }
 }
 
-/// The classes of an enum, named by a prefix and the variant, and their attributes, named by the fields.
+/// Names the classes of an enum by a prefix and the variant, and their attributes by the fields.
 macro_rules! table {
     ($type:ident, $prefix:literal, $names:ident, transparent: [$($inner:ident),*];
      $($variant:ident { $($field:ident),* };)*) => {
@@ -224,12 +224,12 @@ table! {
     Tolerance { value };
 }
 
-/// The name in Python of a field, where it is a word of the language there.
+/// Returns the name in Python of a field that may be a keyword there.
 fn attribute(field: &'static str) -> &'static str {
     if field == "from" { "from_" } else { field }
 }
 
-/// The exception of an error.
+/// Makes the exception of an error.
 pub fn to_python<E: Describe + ?Sized>(py: Python<'_>, error: &E) -> PyErr {
     let made = || {
         let (name, numbers) = error.row(py)?;
@@ -246,7 +246,7 @@ pub fn to_python<E: Describe + ?Sized>(py: Python<'_>, error: &E) -> PyErr {
     made().unwrap_or_else(|failed| failed)
 }
 
-/// That of a function that returns something else than four arrays.
+/// Makes the exception for a function that does not return four arrays.
 pub fn missing_derivatives(py: Python<'_>, count: usize) -> PyErr {
     let made = || {
         let class = py.import("linecontact.errors")?.getattr("MissingDerivativesError")?;
@@ -255,7 +255,7 @@ pub fn missing_derivatives(py: Python<'_>, count: usize) -> PyErr {
     made().unwrap_or_else(|failed| failed)
 }
 
-/// All classes that there are rows for, with the names of their attributes.
+/// Returns all classes in the table, with the names of their attributes.
 #[pyfunction]
 pub fn variants() -> Vec<(&'static str, Vec<&'static str>)> {
     let tables = [CONTACT, PROFILE, PIECEWISE, SPLINE, SEARCH];

@@ -9,11 +9,11 @@ use linecontact::{ContactError, Control, Real, References, Solution, Solver};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Values, and for each parameter their derivatives by it.
+/// Values, and their derivatives by each parameter.
 type Found = (Vec<f64>, Vec<Vec<f64>>);
 
-/// The derivatives of what is `wanted` of a solution, by parameters with which numbers of the scene change at given
-/// rates.
+/// Returns the derivatives of the `wanted` numbers of a solution, by parameters with which numbers
+/// of the scene change at given rates.
 #[pyfunction]
 pub fn gradient(
     py: Python<'_>,
@@ -26,11 +26,11 @@ pub fn gradient(
     let scene = scene.get();
     let wanted: Vec<Quantity> =
         wanted.iter().map(|name| Quantity::differentiable(name)).collect::<PyResult<_>>()?;
-    // First without: what is wrong with the scene is said in plain numbers.
+    // First without derivatives: errors of the scene then name plain numbers.
     let (control, between) = given(&prescribed, to.as_ref(), &mut AsTheyAre)?;
     let values =
         call::library(py, || numbers(&scene.contact.solve(control)?, between.as_ref(), &wanted))?;
-    // From one parameter to the next the values are the same: so the contact is found at once.
+    // The values are the same for all parameters, so that the contact is found at once.
     let mut solver = Solver::new();
     let mut derivatives = Vec::with_capacity(by.len());
     for rates in &by {
@@ -47,7 +47,7 @@ pub fn gradient(
     Ok((values, derivatives))
 }
 
-/// All numbers by which there are derivatives, by their names.
+/// Returns all numbers that have derivatives, by name.
 #[pyfunction]
 #[pyo3(signature = (scene, prescribed, to))]
 pub fn parameters(
@@ -66,7 +66,7 @@ pub fn parameters(
 
 type Given<T> = (Control<T>, Option<References<T>>);
 
-/// What is prescribed, and between what an approach that is asked for is measured.
+/// Returns the prescribed quantity, and the references between which an approach is measured.
 fn given<L: Lift>(
     prescribed: &Prescribed,
     to: Option<&ReferenceRow>,

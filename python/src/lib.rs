@@ -1,5 +1,5 @@
-//! What `linecontact` for Python calls: plain numbers and arrays in, plain numbers and arrays out. Names, units
-//! and defaults are in `python/linecontact`.
+//! Core of `linecontact` for Python: plain numbers and arrays in, plain numbers and arrays out.
+//! Names, units and defaults are in `python/linecontact`.
 
 mod call;
 mod control;

@@ -23,10 +23,10 @@ use std::sync::Arc;
 
 pub type Shared<T> = Arc<dyn ParametricProfile<T>>;
 
-/// A name that Python knows, and its numbers.
+/// Name of a step in Python, and its numbers.
 type Step = (String, Vec<f64>);
 
-/// What a body is made of: everything that it is built from, in numbers of any kind.
+/// Recipe of a body: everything that it is built from, in numbers of any kind.
 pub enum Recipe {
     Flat,
     Line { slope: f64, domain: [f64; 2] },
@@ -42,7 +42,7 @@ pub enum Recipe {
     Placed { body: Py<Profile>, steps: Vec<Step> },
 }
 
-/// A body that can be put elsewhere: how depends on what it is joined from.
+/// Body that can be placed, in a way that depends on its pieces.
 #[derive(Clone)]
 pub enum Built<T: Real> {
     Smooth(Shared<T>),
@@ -69,7 +69,7 @@ fn smooth<T: Real + Named, E: Into<ContactError<T>>>(
 }
 
 impl Recipe {
-    /// The body, of numbers that `lift` makes of those here.
+    /// Builds the body from numbers that `lift` makes of the recipe's.
     pub fn build<L: Lift>(&self, py: Python<'_>, lift: &mut L) -> PyResult<Built<L::Of>> {
         match *self {
             Self::Flat => Ok(Built::Smooth(Arc::new(Flat))),
@@ -104,7 +104,7 @@ impl Recipe {
                 let reach = lift.number("reach", reach);
                 call::library(py, || rounded_punch(flat, radius, reach)).map(Built::RoundedPunch)
             }
-            // What has been measured is no parameter.
+            // Measured points are not parameters.
             Self::Spline { ref points, noise, outliers } => {
                 let of = <L::Of as Real>::of;
                 let points: Vec<_> = points.iter().map(|point| point.map(of)).collect();
@@ -132,7 +132,7 @@ impl Recipe {
             Self::Placed { ref body, ref steps } => {
                 let body = lift.body(py, body.get())?;
                 let placement = placement(steps, lift)?;
-                // What is put elsewhere is put there in one go: Python keeps the steps.
+                // A body is placed in one go: Python keeps the steps.
                 call::library(py, || body.placed(placement)).map(Built::Smooth)
             }
         }
@@ -143,7 +143,7 @@ fn placement<L: Lift>(steps: &[Step], lift: &mut L) -> PyResult<Placement<L::Of>
     let mut placement = Placement::default();
     for (i, (name, numbers)) in steps.iter().enumerate() {
         let alike = |steps: &[Step]| steps.iter().filter(|(other, _)| other == name).count();
-        // A number tells steps of the same name apart.
+        // A number distinguishes steps of the same name.
         let label = match alike(steps) {
             1 => Cow::from(name),
             _ => Cow::from(format!("{name}.{}", alike(&steps[..i]))),
@@ -250,7 +250,7 @@ impl Profile {
         Self::of(py, Recipe::RoundedPunch { flat, radius, reach })
     }
 
-    /// Rows of x and y.
+    /// Makes a spline from rows of x and y.
     #[staticmethod]
     #[pyo3(signature = (points, noise, outliers))]
     fn spline(
@@ -307,7 +307,7 @@ impl Profile {
         }
     }
 
-    /// X, Y, X' and Y'.
+    /// Returns X, Y, X' and Y'.
     fn at(&self, py: Python<'_>, k: Numbers<'_>) -> PyResult<[Array; 4]> {
         let k = k.as_array().to_vec();
         let points = call::library(py, || {

@@ -1,4 +1,4 @@
-//! Numbers of a solution by their names: the columns of a sweep, and what has a gradient.
+//! Numbers of a solution by name: the columns of a sweep, and the numbers that have a gradient.
 
 use linecontact::stress::StressPeak;
 use linecontact::{ContactError, Peak, Real, References, Solution};
@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::cell::OnceCell;
 
-/// A number that a solution has.
+/// Number of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     Load,
@@ -31,7 +31,7 @@ pub enum Quantity {
     Evaluations,
 }
 
-/// Names as they are in Python.
+/// Names in Python.
 pub const NAMES: &[(&str, Quantity)] = &[
     ("load", Quantity::Load),
     ("a", Quantity::A),
@@ -64,11 +64,12 @@ impl Quantity {
         })
     }
 
-    /// One that changes smoothly with the scene, and whose derivative the library knows.
+    /// Returns a quantity that changes smoothly with the scene, and whose derivative the library
+    /// knows.
     pub fn differentiable(name: &str) -> PyResult<Self> {
         let found = Self::named(name)?;
         let why = match found {
-            // They are found by searches for a largest value, which know no derivatives.
+            // Found by searches for a largest value, which have no derivatives.
             Self::PeakX | Self::MaxShearX | Self::MaxShearDepth => {
                 "is the place of a largest value"
             }
@@ -80,7 +81,7 @@ impl Quantity {
     }
 }
 
-/// What is asked of one solution: what two numbers have in common is computed once.
+/// Source of quantities of one solution: results that several quantities share are computed once.
 pub struct Asked<'s, T: Real> {
     solution: &'s Solution<'s, T>,
     references: Option<&'s References<T>>,
@@ -108,7 +109,8 @@ impl<'s, T: Real> Asked<'s, T> {
         once(&self.shear, || self.solution.subsurface()?.max_shear())
     }
 
-    /// Its value; NaN for an error of limits that were given, and for lengths between no references.
+    /// Returns the value of a quantity; NaN for an error of limits that were given, and for lengths
+    /// without references.
     pub fn value(&self, quantity: Quantity) -> Result<T, ContactError<T>> {
         let (solution, nan) = (self.solution, T::of(f64::NAN));
         Ok(match quantity {

@@ -1,4 +1,4 @@
-//! Scenes, and what solves them.
+//! Scenes and their solvers.
 
 use crate::call::{self, Array, Numbers};
 use crate::control::{Choice, Prescribed, ReferenceRow, control, none_such, references};
@@ -19,7 +19,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 type Kept = HashMap<String, &'static (dyn Any + Send + Sync)>;
 
-/// A setting that lasts: a contact that is kept has its settings lent. Each is made once, however many contacts have it.
+/// Makes a setting permanent, as a contact that is kept borrows its settings. Each is made once,
+/// for any number of contacts.
 fn kept<S: Debug + Send + Sync + 'static>(setting: S) -> &'static S {
     static ALL: LazyLock<Mutex<Kept>> = LazyLock::new(Mutex::default);
     let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
@@ -36,7 +37,7 @@ fn search<T: Real>(choice: &Choice) -> PyResult<&'static dyn LimitSearch<T>> {
     let &[absolute, relative, residual, evaluations] = choice.1.as_slice() else {
         return none_such("search", choice);
     };
-    // A float of Python's own, from an int.
+    // A float from an int of Python.
     let max_evaluations = evaluations as usize;
     let tolerance = StoppingCriteria { absolute, relative, residual, max_evaluations };
     Ok(match choice.0.as_str() {
@@ -71,7 +72,7 @@ fn edge<L: Lift>((name, value): &(String, f64), lift: &mut L) -> PyResult<Edge<L
     })
 }
 
-/// E and ν; of a rigid body nothing.
+/// Young's modulus E and Poisson's ratio ν; `None` for a rigid body.
 type Elastic = Option<(f64, f64)>;
 
 fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
@@ -93,7 +94,7 @@ fn shear((friction, force, tension): (f64, f64, f64)) -> Shear<f64> {
     Shear { friction, force, tension }
 }
 
-/// The contact modulus E* of two bodies.
+/// Returns the contact modulus E* of two bodies.
 #[pyfunction]
 pub fn contact_modulus(
     py: Python<'_>,
@@ -106,7 +107,7 @@ pub fn contact_modulus(
     call::library(py, || state.contact_modulus(lower, upper))
 }
 
-/// All that a contact is made of.
+/// Everything that a contact is made of.
 struct Settings {
     lower: Py<Profile>,
     upper: Py<Profile>,
@@ -125,7 +126,7 @@ struct Settings {
 }
 
 impl Settings {
-    /// The contact, of numbers that `lift` makes of those here.
+    /// Builds the contact from numbers that `lift` makes of the settings.
     fn build<L: Lift>(&self, py: Python<'_>, lift: &mut L) -> PyResult<Contact<'static, L::Of>> {
         let lower = lift.inside("lower", |lift| lift.body(py, self.lower.get()))?.shared();
         let upper = lift.inside("upper", |lift| lift.body(py, self.upper.get()))?.shared();
@@ -191,7 +192,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The contact in numbers of another kind.
+    /// Returns the contact in numbers of another kind.
     pub fn lifted<L: Lift>(
         &self,
         py: Python<'_>,
@@ -260,12 +261,13 @@ impl Scene {
     }
 }
 
-/// Starts from the contact found last.
+/// Solver that starts from the contact found last.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Solver(Mutex<linecontact::Solver<f64>>);
 
 impl Solver {
-    /// One thread at a time, and not from within a curve that is being solved: neither waits, or it might for ever.
+    /// Runs work with the solver, for one thread at a time and not from within a curve that is
+    /// being solved. Other calls fail instead of waiting, as they might wait for ever.
     fn with<R: Send>(
         &self,
         py: Python<'_>,
@@ -310,13 +312,13 @@ impl Solver {
     }
 }
 
-/// Load against approach.
+/// Load as a function of approach.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct SpringTable(linecontact::SpringTable<f64>);
 
 type Columns = (Array, Array, Array, Array, Array);
 
-/// Approach, load, stiffness, half-width and peak; a peak that is infinite is one here.
+/// Returns approach, load, stiffness, half-width and peak; a peak of `None` is infinite.
 fn columns(py: Python<'_>, points: impl Iterator<Item = linecontact::SpringPoint<f64>>) -> Columns {
     let points: Vec<_> = points.collect();
     let column = |of: fn(&linecontact::SpringPoint<f64>) -> f64| {

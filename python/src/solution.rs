@@ -1,4 +1,4 @@
-//! What comes back.
+//! Results of a solve.
 
 use crate::call::{self, Array, Numbers};
 use crate::control::{ReferenceRow, references};
@@ -54,20 +54,20 @@ pub struct Solution(pub linecontact::Solution<'static, f64>);
 /// Interval, load, strengths, peak, moment and centre of pressure.
 type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>);
 
-/// Intervals, load, loads, κ, tilt, mean pressure, peak, centre of pressure.
+/// Intervals, load, loads, κ, tilt, mean pressure, peak and centre of pressure.
 type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
 
 /// Least ratio of pressures, least gap, spacing and cost.
 type Proof = (Option<Pair>, Option<Pair>, f64, (usize, usize, usize));
 
-/// x, depth and value.
+/// Abscissa x, depth and value.
 type Largest = (f64, f64, f64);
 
 fn largest(StressPeak { x, depth, value }: StressPeak<f64>) -> Largest {
     (x, depth, value)
 }
 
-/// σ_x, σ_y and τ_xy at points.
+/// Returns σ_x, σ_y and τ_xy at points.
 fn stresses(
     (x, depth): (&[f64], &[f64]),
     at: impl Fn(f64, f64) -> Result<Stress<f64>, ContactError<f64>>,
@@ -94,7 +94,7 @@ fn body(name: &str) -> PyResult<Body> {
 }
 
 impl Solution {
-    /// Whether a place is in a contact, where no gap is.
+    /// Tells whether a place is in a contact, where there is no gap.
     fn touches(&self, x: f64) -> bool {
         self.0.intervals().iter().any(|on| x >= on.left && x <= on.right)
     }
@@ -199,7 +199,7 @@ impl Solution {
         Ok((call::array(py, values), call::array(py, errors)))
     }
 
-    /// Places and pressures that draw it.
+    /// Returns abscissae and pressures for drawing.
     fn sample(&self, py: Python<'_>, count: usize) -> PyResult<(Array, Array)> {
         let points = call::library(py, || self.0.pressure()?.sample(count))?;
         let (x, pressures) = points.into_iter().map(|[x, pressure]| (x, pressure)).unzip();
@@ -333,7 +333,7 @@ impl LoadRates {
     }
 }
 
-/// A contact that sticks in part.
+/// Contact that sticks in part.
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct PartialSlip(pub linecontact::PartialSlip<'static, f64>);
 

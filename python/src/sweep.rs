@@ -14,21 +14,21 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 
-/// Why a row has no numbers, or not all.
+/// Reason why a row lacks some or all numbers.
 enum Failure {
-    /// The solver refuses it.
+    /// Error of the solver.
     Refused(ContactError<f64>),
-    /// A function of the user's has raised it.
+    /// Exception raised by a user's function.
     Raised(PyErr),
 }
 
-/// The scene of a row, and what is prescribed.
+/// Scene of a row, and its prescribed quantity.
 struct Row<'s> {
     scene: &'s Scene,
     control: Control<f64>,
 }
 
-/// Numbers in the order in which they were asked for, and what has failed: rows without errors have all of them.
+/// Numbers in the order of the request, and the failure: rows without errors have all numbers.
 type Found = (Vec<f64>, Option<Failure>);
 
 fn row(
@@ -47,7 +47,7 @@ fn row(
             for (number, &quantity) in numbers.iter_mut().zip(wanted) {
                 match asked.value(quantity) {
                     Ok(value) => *number = value,
-                    // Beside a corner that is no failure, but how it is.
+                    // At a corner an infinite peak is a result, not a failure.
                     Err(ContactError::Singular { .. }) if quantity == Quantity::PeakPressure => {
                         *number = f64::INFINITY;
                     }
@@ -60,7 +60,7 @@ fn row(
     }
     let failed = match call::raised() {
         Some(raised) => {
-            // What is no mistake of a function, but means to end all: KeyboardInterrupt, SystemExit.
+            // KeyboardInterrupt and SystemExit are not errors of a function: they end everything.
             if !Python::attach(|py| raised.is_instance_of::<PyException>(py)) {
                 stop.set();
             }
@@ -71,16 +71,17 @@ fn row(
     (numbers, failed)
 }
 
-/// Names of all columns that there are.
+/// Returns the names of all columns.
 #[pyfunction]
 pub fn quantities() -> Vec<&'static str> {
     NAMES.iter().map(|&(name, _)| name).collect()
 }
 
-/// One column for each quantity, and the rows that have failed, with their exceptions.
+/// One column for each quantity, and the failed rows with their exceptions.
 type Columns = (Vec<Array>, Vec<(usize, Py<PyAny>)>);
 
-/// Solves row after row: of the scenes that `which` names, under what is prescribed, one array for each of its numbers.
+/// Solves row after row: of the scenes that `which` names, under prescribed numbers, given as one
+/// array for each number.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "each is named in Python")]
 pub fn sweep(
@@ -131,10 +132,10 @@ pub fn sweep(
     Ok((columns, failures))
 }
 
-/// Lets go of the interpreter, solves in threads of its own, and comes back now and then to look at signals and to
-/// tell how far it is.
+/// Releases the interpreter, solves in its own threads, and returns now and then to check for
+/// signals and to report progress.
 ///
-/// The threads end with the call: a process that is forked later finds none of them, and waits for none.
+/// The threads end with the call: a process forked later has none of them, and waits for none.
 fn in_parallel<R: Send>(
     py: Python<'_>,
     rows: &[Row<'_>],
@@ -158,10 +159,10 @@ fn in_parallel<R: Send>(
         thread::scope(|scope| {
             let (ended, end) = mpsc::channel();
             let work = scope.spawn(|| {
-                // Dropped at the end, whatever happens.
+                // Dropped at the end in any case.
                 let _ended: mpsc::Sender<()> = ended;
                 let one = |solver: &mut Solver<f64>, row: &Row<'_>| {
-                    // What is left when it is stopped is not looked at.
+                    // After a stop the remaining rows are skipped.
                     if stop.is_set() {
                         Err(())
                     } else {

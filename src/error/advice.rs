@@ -1,9 +1,9 @@
-//! What messages say of what helps.
+//! Remedies in the texts of errors.
 
 use crate::Real;
 use crate::rounded::{Rounded, apart, six, span};
 
-/// Whether a number is so small that it has fewer digits than others.
+/// Tells whether a number is so small that it has fewer digits than others.
 pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
     value.is_finite() && !value.is_zero() && !(T::one() / value).is_finite()
 }
@@ -16,13 +16,13 @@ pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
     }
 }
 
-/// Where a flat without ends has its ends there are none.
+/// Rounds an abscissa for a message; the ends of a flat without ends become infinite.
 pub(super) fn place<T: Real>(x: T) -> Rounded {
     let endless = !(x * T::of(8.0)).is_finite();
     six(if endless { x * T::of(f64::INFINITY) } else { x })
 }
 
-/// Tells which part of a load the bodies carry up to an end of them, and the first things to do about it.
+/// Tells which part of a load the bodies carry up to one of their ends, and the first remedies.
 pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, peak: T) -> String {
     let (x, asked) = (six(end), apart(load, &[carried]));
     if carried.is_zero() {
@@ -37,16 +37,16 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     )
 }
 
-/// Names the span between two places, or the place that they have in common.
+/// Names the span between two places, or their common place.
 pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
     if from < to { format!("from x = {}", span(from, to)) } else { format!("at x = {}", six(from)) }
 }
 
-/// What to do where the contact found is not all of it.
+/// Remedy where the contact found is not the whole contact.
 pub(super) const SEVERAL: &str = "where several may touch, give the load (for a half-width, a peak, adhesion or single_interval \
     only one is sought); or change it a little, declare kinks as breakpoints, smooth measured points (Fit::noise)";
 
-/// What to do about a pressure that is negative.
+/// Returns the remedy for a negative pressure.
 pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {
     if pressure.is_finite() {
         SEVERAL
@@ -55,7 +55,7 @@ pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {
     }
 }
 
-/// What to do about a peak pressure that is not found, by the one tried last.
+/// Returns the remedy for a peak pressure that is not found, given the one tried last.
 pub(super) fn how_to_peak<T: Real>(found: T) -> &'static str {
     if found.is_finite() {
         "give the load or the half-width, or a start nearer to the contact"
@@ -66,12 +66,13 @@ pub(super) fn how_to_peak<T: Real>(found: T) -> &'static str {
     }
 }
 
-/// What may be missing where a contact turns out too wide.
+/// Returns a hint at a missing stiffness, for a contact that is too wide.
 pub(super) fn hint(kappa_is_default: bool) -> &'static str {
     if kappa_is_default { " (κ is 1, the default: is contact_modulus missing?)" } else { "" }
 }
 
-/// What to do about slopes on the left and on the right that are not those of a gap that closes.
+/// Returns the remedy for slopes, on the left and on the right, that do not belong to a closing
+/// gap.
 pub(super) fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
     let zero = T::zero();
     if left.is_zero() && right.is_zero() {

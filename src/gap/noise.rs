@@ -5,8 +5,8 @@ use crate::profile::{Noise, Piece};
 use crate::{Body, Real};
 
 impl<T: Real> Gap<'_, T> {
-    /// Measures the noise of a body near a point of one of its pieces. That of heights is no less
-    /// than the rounding of the highest one, as a formula may have added terms of its size.
+    /// Measures the noise of a body near a point of one of its pieces. The noise of heights is at
+    /// least the rounding of the highest one, as a formula may have added terms of its size.
     pub(crate) fn noise(
         &self,
         body: Body,

@@ -1,25 +1,25 @@
-//! How narrow a feature of a body may be and still be seen.
+//! The width of the narrowest feature of a body that is seen.
 
 use super::Gap;
 use crate::real::is_finite;
 use crate::{ContactError, Real};
 use num_traits::ToPrimitive;
 
-/// The full width at half height of the narrowest feature that is seen by default, as a share of the contact that it
-/// lies in or next to.
+/// Full width at half height of the narrowest feature that is seen by default, as a share of the
+/// width of the contact in or next to which it lies.
 const NARROWEST: f64 = 0.02;
 
-/// The distance of places to look at, in lengths of the narrowest feature that a user asks for. Points that miss their
-/// places by a quarter of that are still less than half a length apart: if one is at the top of a feature, so that
-/// its slope is none, the next ones are not at its ends.
+/// Distance of the points, in lengths of the narrowest feature that a user asks for. Points that
+/// miss their places by a quarter of this distance are still less than half a length apart: if one
+/// is at the top of a feature, where its slope vanishes, the next ones are not at its ends.
 const WITHIN: f64 = 0.3;
 
-/// The least resolution, in units of rounding of x: the distance of points is then some ten of them.
+/// Least resolution, in units of rounding of x: the distance of points is then some ten of them.
 const ROUNDINGS: f64 = 32.0;
 
 impl<T: Real> Gap<'_, T> {
-    /// Returns the same gap, with the length of the narrowest feature to be seen. The shape of the bodies is looked
-    /// at whatever they declare.
+    /// Returns this gap with the length of the narrowest feature to be seen. The shape of the
+    /// bodies is then examined whatever they declare.
     pub(crate) fn with_resolution(self, resolution: T) -> Self {
         Self { resolution: Some(resolution), convex: false, ..self }
     }
@@ -28,17 +28,18 @@ impl<T: Real> Gap<'_, T> {
         self.resolution
     }
 
-    /// Returns the distance of points that show features in or next to a contact, given that distance by default in
-    /// widths of the narrowest one.
+    /// Returns the distance of points that show features in or next to a contact, given the default
+    /// distance in widths of the narrowest feature.
     pub(crate) fn spacing(&self, half_width: T, widths: f64) -> T {
         let by_default = T::of(2.0 * widths * NARROWEST) * half_width;
         self.resolution.map_or(by_default, |length| by_default.min(T::of(WITHIN) * length))
     }
 
-    /// Returns the number of parts of a length that are no longer than a distance: no more than `most` by default.
+    /// Returns the number of parts of a length that are no longer than a distance: at most `most`
+    /// by default.
     pub(crate) fn parts(&self, length: T, apart: T, most: usize) -> usize {
         let parts: f64 = (length / apart).to_subset_unchecked();
-        // What is beyond all numbers is beyond the budget.
+        // A number beyond `usize` is beyond the budget.
         let parts = parts.ceil().max(1.0).to_usize().unwrap_or(usize::MAX);
         if self.resolution.is_some() { parts } else { parts.min(most) }
     }

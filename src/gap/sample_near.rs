@@ -1,15 +1,15 @@
 //! Points of a curve *near* given abscissae.
 //!
-//! An interpolant does not need its nodes to be anywhere in particular: near the Chebyshev points
-//! is as good as at them. So nothing is inverted. The parameter of each target is read off the
-//! cubic `k(x)` through the two known points around it (`dk/dx = 1/X'` is known there too), and
-//! where the curve then turns out to be is where the node is. On a range that the curve crosses
-//! evenly this takes one evaluation a node, all of them in one batch. A target that is missed by
-//! more than a tenth of the distance to its neighbours is approached by a few steps of Newton's
-//! rule, as is the first where nothing is known but the far ends of a piece. Where they do not
-//! get there it is searched for with the user's strategy, which is stopped as soon as it is near:
-//! it meets a zero there. Where the [survey](super::survey) knows the piece its series say about where
-//! the first targets are: one batch, and no single point.
+//! An interpolant does not need its nodes at exact places: points near the Chebyshev points are as
+//! good. So nothing is inverted. The parameter of each target is read off the cubic `k(x)` through
+//! the two known points around it (`dk/dx = 1/X'` is known there too), and the point of the curve
+//! at this parameter is the node. On a range that the curve crosses evenly this takes one
+//! evaluation a node, all of them in one batch. A target that is missed by more than a tenth of the
+//! distance to its neighbours is approached by a few steps of Newton's rule, as is the first target
+//! where only the far ends of a piece are known. If they do not succeed, the user's strategy
+//! searches for the target and is stopped as soon as it is near, by the value zero there. Where the
+//! [survey](super::survey) knows the piece, its series give the approximate places of the first
+//! targets: one batch, and no single point.
 
 mod curve_samples;
 mod guided;
@@ -26,21 +26,22 @@ use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 
-/// The most targets at a time.
+/// Largest number of targets at a time.
 const MOST: usize = 32;
 
-/// Steps of Newton's rule to a target, before it is left to the user's strategy.
+/// Largest number of steps of Newton's rule to a target, before the user's strategy takes over.
 const STEPS: usize = 4;
 
-/// The points of one body that were sampled last, from left to right.
+/// Points of one body that were sampled last, from left to right.
 #[derive(Clone, Debug)]
 pub(crate) struct SampleCache<T> {
-    /// The piece they lie on.
+    /// Number of the piece they lie on.
     piece: Option<usize>,
     curve_samples: CurveSamples<T>,
-    /// Series of some pieces that are about right, each until its piece is sampled first.
+    /// Approximate series of some pieces, each until its piece is first sampled.
     pub guides: [Option<(usize, Series<T>)>; 2],
-    /// Where `X(k) = x` needs no solving there is no `Y`, and the curve_samples are at their targets.
+    /// True if `X(k) = x` needs no solving: then there is no `Y`, and the samples are exactly at
+    /// their targets.
     pub direct: bool,
 }
 
@@ -50,36 +51,36 @@ impl<T: Real> SampleCache<T> {
         Self { piece: None, curve_samples: CurveSamples::new(), guides, direct: false }
     }
 
-    /// Forgets what was sampled: the body is another.
+    /// Forgets the samples, for another body.
     pub fn clear(&mut self) {
         (self.piece, self.guides) = (None, [None, None]);
     }
 
-    /// The piece they lie on; `None` where it is given by x itself.
+    /// Returns the piece of the points; `None` where it is given by x itself.
     pub fn piece(&self) -> Option<usize> {
         self.piece
     }
 
-    /// The last points, one for each target.
+    /// Returns the last points, one for each target.
     pub fn curve_samples(&self) -> &[CurveSample<T>] {
         self.curve_samples.inner()
     }
 
-    /// The two ends of the piece.
+    /// Returns the two ends of the piece.
     pub fn ends(&self) -> [CurveSample<T>; 2] {
         self.curve_samples.ends()
     }
 
-    /// The larger `|Y|` at the ends of the piece.
+    /// Returns the larger `|Y|` at the ends of the piece.
     pub fn height(&self) -> T {
         let [left, right] = self.curve_samples.ends();
         left.y.abs().max(right.y.abs())
     }
 }
 
-/// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by so
-/// much. Afterwards the trace has one curve_sample for each, rising too.
-// Called, and not inlined, it costs a bare solve 2 % more instructions.
+/// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by
+/// its `room`. Afterwards the cache has one sample for each target, rising too.
+// As a call that is not inlined it costs a bare solve 2 % more instructions.
 #[inline(always)]
 pub(crate) fn sample_near<const N: usize, T: Real>(
     gap: &Gap<'_, T>,
@@ -128,25 +129,25 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     shot.take(&mut trace.curve_samples, cost).map_err(|error| turns(piece, error))
 }
 
-/// The targets: places near which samples are wanted.
+/// Places near which samples are wanted.
 struct TargetBatch<'s, const N: usize, T: Real> {
     gap: &'s Gap<'s, T>,
     body: Body,
     piece: Piece<'s, T>,
-    /// The ends of the piece, with slopes where the curve itself has none.
+    /// Ends of the piece, with slopes where the curve itself has none.
     ends: [CurveSample<T>; 2],
     rises: bool,
     targets: &'s [T; N],
-    /// By how much each may be missed.
+    /// Largest distance of each sample from its target.
     room: &'s [T; N],
 }
 
 impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
-    /// Puts curve_samples near the targets in place of those that are known.
+    /// Replaces the known samples by samples near the targets.
     fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let (targets, ends) = (self.targets, self.ends);
-        // A range much longer than that of the targets says little of where they are: with one found,
-        // the others are sought from there.
+        // On a range much longer than the span of the targets their places are uncertain: one is
+        // found, and the others are sought from there.
         let [first, last] = [targets[0], targets[N - 1]];
         let len = known.len();
         let [leftmost, rightmost] = [known.row[1], known.row[len]];
@@ -174,7 +175,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         (curve_sample.x - self.targets[i]).abs() <= self.room[i]
     }
 
-    /// Takes one shot at each target that no known point is near to. Returns whether all have hit.
+    /// Evaluates one point for each target without a known point near it. Tells whether all points
+    /// are near.
     fn batch(
         &self,
         known: &CurveSamples<T>,
@@ -200,7 +202,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
                 curve_samples[i] = *nearer;
                 continue;
             }
-            // Just outside what is known, its last two points say more than a far end.
+            // Just outside the known points, the last two of them predict better than a far end.
             let pair = if left == 0 && len >= 2 && to_right <= row[2].x - other.x {
                 1
             } else if left == len && len >= 2 && from_left <= one.x - row[len - 1].x {
@@ -253,8 +255,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
                 }
             }
             let found = self.find(i, [left, right], cost)?;
-            // A strategy that stops early leaves nodes that are good for nothing; but none comes closer than X
-            // is known.
+            // A strategy that stops early leaves useless nodes; but none comes closer than the
+            // rounding and the noise of X.
             let missed = found.x - target;
             let [from, to] = self.piece.x();
             let beyond = missed.abs() - T::of(5.0) * self.room[i];
@@ -269,8 +271,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         Ok(())
     }
 
-    /// Finds a point near one target between two known points, by Newton's rule; where a few steps are
-    /// not enough, with the user's strategy.
+    /// Finds a point near one target between two known points, by Newton's rule; if a few steps are
+    /// not enough, by the user's strategy.
     fn find(
         &self,
         i: usize,
@@ -312,7 +314,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         let (target, body) = (self.targets[i], self.body);
         let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
         if lo.k >= hi.k {
-            // The two known points are one and the same.
+            // The two known points are the same.
             return Ok(left);
         }
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
@@ -344,8 +346,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         curve_sample.x.is_finite() & curve_sample.slope.is_finite() & (onward >= T::zero())
     }
 
-    /// A point on the way to a target need have no slope: X may have saturated there, far from all that
-    /// counts.
+    /// Checks a point on the way to a target. It need not have a slope: X may have saturated there,
+    /// far from the target.
     fn check(&self, i: usize, curve_sample: &CurveSample<T>) -> Result<(), ContactError<T>> {
         let still = curve_sample.dx.is_zero()
             && curve_sample.x.is_finite()
@@ -366,7 +368,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     }
 }
 
-/// Says where a curve that runs the wrong way turns.
+/// Replaces the error of a curve that runs the wrong way by one with the place where it turns.
 fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
     let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
         return error;

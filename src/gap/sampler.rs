@@ -1,29 +1,29 @@
 //! The slope of the gap at any x, by inverting `X(k) = x`.
 //!
-//! Each value costs one inversion for each body that needs one. The inversion starts from
-//! the curve's own last point, moved on by Newton's rule, so that neighbouring abscissae cost
-//! two or three evaluations each.
+//! Each value costs one inversion for each body that needs one. The inversion starts from the last
+//! point of the curve, moved on by Newton's rule, so that neighbouring abscissae cost two or three
+//! evaluations each.
 
 use super::{Cost, Gap};
 use crate::profile::Piece;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
 use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
 
-/// Takes values of the gap's slope, and keeps count.
+/// Source of values of the slope of the gap, with their cost.
 ///
-/// It holds numbers only; the gap is handed to it with each abscissa, and must be the same.
+/// It holds numbers only; the gap is passed with each abscissa, and must be the same gap.
 #[derive(Clone, Debug)]
 pub struct Sampler<T: Real> {
     near: [Option<Near<T>>; 2],
-    /// What it has cost so far.
+    /// Cost so far.
     pub cost: Cost,
-    /// The largest `|X(k) - x|` that the inversions have left.
+    /// Largest `|X(k) - x|` after the inversions.
     pub(crate) missed: T,
-    /// The largest |Y| of either body among the heights taken.
+    /// Largest |Y| of either body among the heights taken.
     pub(crate) highest: T,
 }
 
-/// The last point of a curve, from which the next inversion starts.
+/// Last point of a curve, from which the next inversion starts.
 #[derive(Clone, Copy, Debug)]
 struct Near<T> {
     piece: usize,
@@ -38,13 +38,14 @@ impl<T: Real> Default for Sampler<T> {
 }
 
 impl<T: Real> Sampler<T> {
-    /// The largest `|X(k) - x|` that the inversions have left so far, a length: of an integrator that samples by this
-    /// it is [`Moments::inversion`](crate::quadrature::Moments::inversion).
+    /// Returns the largest `|X(k) - x|` after the inversions so far, a length: for an integrator
+    /// that uses this sampler, [`Moments::inversion`](crate::quadrature::Moments::inversion).
     pub fn missed(&self) -> T {
         self.missed
     }
 
-    /// The slope of the gap `f₂' - f₁'` at `x`. A breakpoint belongs to the piece on its left.
+    /// Returns the slope of the gap `f₂' - f₁'` at `x`. A breakpoint belongs to the piece on its
+    /// left.
     ///
     /// # Errors
     /// [`ContactError::OutsideBodies`], [`ContactError::Inversion`],
@@ -62,7 +63,7 @@ impl<T: Real> Sampler<T> {
         Ok(self.slope_untilted(gap, x, side)? + gap.tilt())
     }
 
-    /// The slope before the bodies are turned.
+    /// Returns the slope before the bodies are turned.
     pub(crate) fn slope_untilted(
         &mut self,
         gap: &Gap<'_, T>,
@@ -89,19 +90,18 @@ impl<T: Real> Sampler<T> {
         upper - lower + gap.tilt()
     }
 
-    /// The height of the gap `Y₂ - Y₁` between the bodies at `x`, on both of them, before they are
-    /// loaded.
+    /// Returns the height of the gap `Y₂ - Y₁` at `x`, on both bodies, before they are loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         Ok(gap.turned(x, self.height_untilted(gap, x)?))
     }
 
-    /// The height before the bodies are turned.
+    /// Returns the height before the bodies are turned.
     pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         let mut heights = [T::zero(); 2];
         for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
             let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
-            // What the inversion has left, and what it may have left at an end.
+            // Corrects for the residual of the inversion, which may be left at an end, too.
             let missed = x - point.x;
             *height =
                 point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
@@ -127,7 +127,7 @@ impl<T: Real> Sampler<T> {
         Ok(sum)
     }
 
-    /// The slope of one of the bodies.
+    /// Returns the slope of one of the bodies.
     pub(crate) fn body_slope(
         &mut self,
         gap: &Gap<'_, T>,
@@ -203,7 +203,8 @@ impl<T: Real> Sampler<T> {
             return Err(ContactError::Profile { body, source });
         }
         let missed = found.point.x - x;
-        // What a strategy leaves shows in the estimates, unless it leaves almost everything.
+        // The residual of a strategy shows in the estimates, unless it is nearly as large as the
+        // piece.
         if missed.abs() > T::of(0.1) * (ends[1] - ends[0]) {
             let source = SearchError::NotConverged { x: k, residual: missed };
             return Err(ContactError::Inversion { body, x, source });

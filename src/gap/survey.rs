@@ -1,20 +1,21 @@
-//! Heights of the gap, each as exact as a load asks for: branch and bound over both bodies.
+//! Heights of the gap, each as accurate as a load requires: branch and bound over both bodies.
 //!
-//! Each body is a row of [panels](panel) in its own parameter, where it is smooth, and no `X(k) = x` is
-//! solved for it. A panel tells how uncertain its heights are. Where the bodies may touch under a load F,
-//! that is where the lowest height that a panel leaves open is less than the lowest one known by
+//! Each body is a row of [panels](panel) in its own parameter, where it is smooth, and no
+//! `X(k) = x` is solved for it. Each panel has an uncertainty of its heights. The bodies may touch
+//! under a load F where the lowest height that a panel allows exceeds the lowest known one by less
+//! than
 //!
 //! ```text
-//! (F/κ) (1 + ln(2 W/L))        W the width of the bodies, L the half-width to expect
+//! (F/κ) (1 + ln(2 W/L))        W the width of the bodies, L the expected half-width
 //! ```
 //!
-//! panels are refined until they are uncertain by no more than a share of F/κ; all others are never looked
-//! at again. Of a panel that is far longer than what is asked for a window is cut out, others are halved, and
-//! [runs of pieces](pieces) are parted. A heavier load goes on where a lighter one has stopped, and a tilt adds a
-//! straight line.
+//! There panels are refined until their uncertainty is at most a share of F/κ; all others are left
+//! as they are. A panel far longer than the requested span gets a window cut out, others are
+//! halved, and [runs of pieces](pieces) are divided. A heavier load continues from the panels of a
+//! lighter one, and a tilt adds a straight line.
 //!
-//! A gap whose slope rises from point to point by far more than the slopes are uncertain, and at
-//! joints, is [convex](convex): where it is, as far as a load reaches, the bodies touch in one interval.
+//! A gap whose slope rises from point to point by far more than its uncertainty, and at joints, is
+//! [convex](convex): where it is convex as far as a load reaches, the bodies touch in one interval.
 
 mod body;
 mod check;
@@ -35,11 +36,11 @@ use panel::Panel;
 pub(crate) use probe::VAGUE;
 use series::Row;
 pub(super) use series::Series;
-/// Series of either body that say about where its parameters are, with the numbers of their pieces.
+/// Series of either body that give approximate parameters, with the numbers of their pieces.
 pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
 use std::cmp::Ordering;
 
-/// Halvings after which a panel is as fine as it gets, and evaluations for one load.
+/// Largest number of rounds of halving, and of evaluations, for one load.
 const MOST_ROUNDS: usize = 40;
 const MOST_HEIGHTS: usize = 1 << 14;
 
@@ -47,58 +48,59 @@ const MOST_HEIGHTS: usize = 1 << 14;
 #[derive(Clone, Debug)]
 pub(crate) struct Survey<T> {
     bodies: [Body<T>; 2],
-    /// The range of x that both bodies cover.
+    /// Range of x that both bodies cover.
     range: [T; 2],
-    /// The gap at all points of either body, by rising x.
+    /// Gap at all points of either body, by rising x.
     nodes: Vec<Node<T>>,
-    /// That before panels were refined last.
+    /// Nodes before panels were refined last.
     before: Vec<Node<T>>,
-    /// Room for the rates at which slopes rise between two points.
+    /// Buffer for the rates at which slopes rise between two points.
     rates: Vec<T>,
     lowest: T,
-    /// A load, as F/κ, and about how far from the lowest place it reaches.
+    /// Load, as F/κ, and the approximate half-width that it reaches around the lowest place.
     reach: Option<[T; 2]>,
-    /// Where the gap was last seen to be convex.
+    /// Stretch where the gap was last seen to be convex.
     stretch: Option<Stretch<T>>,
-    /// Whether that is as far as the load reaches that it was refined for last.
+    /// True if the bodies provably touch in one interval under the load of the last refinement.
     is_one: bool,
-    /// Evaluations since the first look began.
+    /// Number of evaluations since the first look began.
     spent: usize,
-    /// What it was refined for last, to which share of F/κ, and the tilt.
+    /// Quantity, share of F/κ and tilt of the last refinement.
     known: Option<(Asked<T>, T, T)>,
-    /// Spans that have been looked at more closely, beside contacts.
+    /// Spans outside contacts that have been sampled more closely.
     seen: Vec<probe::Stretch<T>>,
-    /// The heaviest load that they serve, as F/κ, and the tilt.
+    /// Heaviest load that these spans serve, as F/κ, and the tilt.
     resolved: Option<[T; 2]>,
-    /// Room for spans to be refined of either body, and for those that a load asks for.
+    /// Buffers for spans to be refined of either body, and for spans that a load requires.
     marked: [Vec<[T; 2]>; 2],
     stretches: Vec<probe::Stretch<T>>,
 }
 
-/// What a contact is asked to have, forces over κ.
+/// Quantity prescribed for a contact, forces over κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Asked<T> {
     Load(T),
-    /// A load under which the bodies turn.
+    /// Load under which the bodies turn.
     Turning(T),
     HalfWidth(T),
     Peak(T),
 }
 
-/// The gap at an abscissa, with its slope on the left and on the right.
+/// Gap at an abscissa, with its slope on the left and on the right.
 #[derive(Clone, Copy, Debug)]
 struct Node<T> {
     x: T,
     height: T,
-    /// The largest |Y|.
+    /// Largest |Y| of both bodies.
     size: T,
     slopes: [T; 2],
     /// Uncertainties of the slopes of either body beyond rounding.
     doubts: [T; 2],
-    /// Uncertainty of the heights up to the next node, and whether a piece is there of which only the ends are known.
+    /// Uncertainty of the heights up to the next node, and a flag: a piece in between is known only
+    /// by its ends.
     after: T,
     is_open: bool,
-    /// Whether points of the curve before the next node are missed.
+    /// True if points of the curve before the next node are missed.
     is_void: bool,
 }
 
@@ -108,7 +110,7 @@ impl<T: Real> Node<T> {
         self.doubts[0] + self.doubts[1]
     }
 
-    /// Returns what slopes and chords up to another node may be off by rounding.
+    /// Returns the rounding error of slopes, and of chords up to another node.
     fn rounding(&self, next: &Self) -> T {
         let slopes = self.slopes[1].abs() + next.slopes[0].abs();
         let width = next.x - self.x;
@@ -118,7 +120,7 @@ impl<T: Real> Node<T> {
 }
 
 impl<T: Real> Survey<T> {
-    /// A survey of nothing yet.
+    /// Creates an empty survey.
     pub fn new() -> Self {
         let zero = T::zero();
         Self {
@@ -179,7 +181,8 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Refines both bodies until no place that the load may touch is uncertain by more than a share of F/κ.
+    /// Refines both bodies until the uncertainty at all places that the load may touch is at most a
+    /// share of F/κ.
     ///
     /// # Errors
     /// As [`take`](Self::take).
@@ -248,8 +251,8 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Refines the panels of either body that are more uncertain than half a tolerance in any of its spans; whether there
-    /// were any.
+    /// Refines the panels of either body that are more uncertain than half a tolerance in any of
+    /// its spans; tells whether there were any.
     pub fn refine_at(
         &mut self,
         gap: &Gap<'_, T>,
@@ -264,7 +267,7 @@ impl<T: Real> Survey<T> {
         Ok(changes)
     }
 
-    /// Does the same for either body alone.
+    /// Refines both bodies as [`refine_at`](Self::refine_at) does, without joining their points.
     fn refine_bodies(
         &mut self,
         gap: &Gap<'_, T>,
@@ -295,8 +298,8 @@ impl<T: Real> Survey<T> {
         })
     }
 
-    /// Lists the gap at all points of either body, in the range of both and with its ends. Where no panel is new it
-    /// is as it was.
+    /// Lists the gap at all points of either body within their common range, and at the ends of
+    /// this range. Nodes where no panel is new are kept.
     fn join(&mut self) {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
@@ -344,7 +347,7 @@ impl<T: Real> Survey<T> {
                 for panel in &body.panels[*start..=*end.max(start)] {
                     node.is_open |= !panel.is_sampled;
                     node.is_void |= panel.is_void;
-                    // Not a number is more than any.
+                    // A NaN replaces the number before it.
                     most = if most > panel.doubt { most } else { panel.doubt };
                 }
                 node.after += most;
@@ -378,7 +381,7 @@ fn node<T: Real>([lower, upper]: [[Row<T>; 2]; 2], x: T) -> Node<T> {
     }
 }
 
-/// Returns the hull of the spans, in rising order, that a panel overlaps, as far as it lies on it.
+/// Returns the hull of the spans, in rising order, that a panel overlaps, limited to the panel.
 fn hull_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> Option<[T; 2]> {
     let [from, to] = panel.x();
     let first = spans.partition_point(|span| span[1] <= from);

@@ -1,19 +1,21 @@
-//! Which way a body bulges.
+//! Bending of a body.
 
 use crate::Real;
 
-/// How the height Y of a body bends as a function of X, as far as it is known.
+/// Bending of the height Y of a body over X, as far as it is known.
 ///
-/// Where the upper body is convex and the lower one concave (each may be straight) the gap between them is
-/// convex, and so they touch in one interval: the solver then takes no heights to look for others. Declare it of a body
-/// that is certainly convex and solved from scratch often: a first solve takes a tenth to two thirds of the time.
+/// Where the upper body is convex and the lower one concave (each may be straight) the gap between
+/// them is convex, so that they touch in one interval: the solver then samples no heights to look
+/// for others. Declare it for a body that is certainly convex and solved from scratch often: a
+/// first solve takes a tenth to two thirds of the time.
 ///
-/// The slopes of the gap at the nodes of [`Panels`](crate::Panels) are checked: where they fall by more than they are
-/// uncertain, and by more than `sqrt(ε)` of the largest, the solve ends with
-/// [`ContactError::NotConvex`](crate::ContactError::NotConvex). What lies between the nodes, or beyond the span sampled,
-/// is not looked at, nor is anything with another quadrature: there a wrong word is found out by
-/// [`Solution::certify`](crate::Solution::certify), and with
-/// [`Contact::resolution`](crate::Contact::resolution) the solver looks whatever was declared.
+/// The slopes of the gap at the nodes of [`Panels`](crate::Panels) are checked: where they fall by
+/// more than their uncertainty, and by more than `sqrt(ε)` of the largest, the solve ends with
+/// [`ContactError::NotConvex`](crate::ContactError::NotConvex). The gap between the nodes or beyond
+/// the sampled span is not checked, nor is anything with another quadrature: there
+/// [`Solution::certify`](crate::Solution::certify) finds a wrong declaration. With
+/// [`Contact::resolution`](crate::Contact::resolution) the solver samples heights whatever was
+/// declared.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -28,19 +30,20 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Convexity {
-    /// Nothing is known: the solver looks.
+    /// Unknown bending: the solver samples heights.
     #[default]
     Unknown,
-    /// The slope dY/dX is the same everywhere.
+    /// Constant slope dY/dX.
     Straight,
-    /// The slope never falls with X, at breakpoints either: an upper body that bulges towards the contact.
+    /// Slope that never falls with X, at breakpoints either: an upper body that bulges towards the
+    /// contact.
     Convex,
-    /// The slope never rises with X: a lower body that bulges towards the contact.
+    /// Slope that never rises with X: a lower body that bulges towards the contact.
     Concave,
 }
 
 impl Convexity {
-    /// That of a body whose slope rises with a quantity of this sign.
+    /// Returns the convexity of a body whose slope rises with a quantity of this sign.
     pub(super) fn of_sign<T: Real>(sign: T) -> Self {
         match sign {
             _ if sign > T::zero() => Self::Convex,
@@ -49,7 +52,7 @@ impl Convexity {
         }
     }
 
-    /// With Y turned upside down.
+    /// Returns the convexity of the body turned upside down.
     pub(super) fn flipped(self) -> Self {
         match self {
             Self::Convex => Self::Concave,
@@ -58,7 +61,8 @@ impl Convexity {
         }
     }
 
-    /// Of a body in two parts, given how the slope changes from one to the other.
+    /// Returns the convexity of a body in two parts, given the change of slope from one to the
+    /// other.
     pub(super) fn joined(self, other: Self, change: Self) -> Self {
         let both = |one: Self, other: Self| match (one, other) {
             (Self::Straight, known) | (known, Self::Straight) => known,
@@ -68,7 +72,7 @@ impl Convexity {
         both(both(self, other), change)
     }
 
-    /// Whether the gap between two bodies is convex.
+    /// Tells whether the gap between two bodies is convex.
     pub(crate) fn gap_is_convex(lower: Self, upper: Self) -> bool {
         matches!(lower, Self::Straight | Self::Concave)
             && matches!(upper, Self::Straight | Self::Convex)

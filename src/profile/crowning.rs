@@ -3,15 +3,16 @@
 use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
-/// Logarithmic (Lundberg) crowning: `Y = -C ln(1 - (X/l)²)`, with `X = k`, the relief that keeps the
-/// pressure of a roller from piling up at its ends (Lundberg, *Forschung auf dem Gebiete des
+/// Logarithmic (Lundberg) crowning: `Y = -C ln(1 - (X/l)²)`, with `X = k`. This relief keeps the
+/// pressure of a roller from rising at its ends (Lundberg, *Forschung auf dem Gebiete des
 /// Ingenieurwesens* 10, 1939, 201).
 ///
-/// In this plane it is a body that is long across, as a slide shoe with crowned ends. The relief along the axis of
-/// a roller is a contact in space, for which a plane solution is a guide only.
+/// In the plane it describes a body that is long across, such as a slide shoe with crowned ends.
+/// The relief along the axis of a roller is a contact in space, for which a plane solution is only
+/// a guide.
 ///
-/// The slope `2 C X/((l - X)(l + X))` is infinite at ±l. It is taken from the distances to the two
-/// ends, so that it keeps its digits next to them, and the height likewise.
+/// The slope `2 C X/((l - X)(l + X))` is infinite at ±l. Slope and height are computed from the
+/// distances to the two ends, so that they keep their digits next to them.
 ///
 /// ```
 /// use linecontact::profile::Crowning;
@@ -34,12 +35,12 @@ pub struct Crowning<T> {
 }
 
 impl<T: Real> Crowning<T> {
-    /// With the depth C and the half-length l, from one abscissa to another, at most from -l to l. C
-    /// is positive for an upper body and negative for a lower one.
+    /// Creates a crowning with depth C and half-length l between two abscissae, at most from -l to
+    /// l. C is positive for an upper body and negative for a lower one.
     ///
     /// # Errors
-    /// [`ProfileError::Parameter`] unless C is not zero, l is positive, both finite, and both ends are
-    /// within ±l; [`ProfileError::Domain`].
+    /// [`ProfileError::Parameter`] unless C is not zero, l is positive, both finite, and both ends
+    /// are within ±l; [`ProfileError::Domain`].
     pub fn new(depth: T, half_length: T, domain: [T; 2]) -> Result<Self, ProfileError<T>> {
         finite("the depth", depth, !depth.is_zero(), "finite and not zero")?;
         finite("the half-length", half_length, half_length > T::zero(), "positive and finite")?;
@@ -69,7 +70,7 @@ impl<T: Real> ParametricProfile<T> for Crowning<T> {
     }
 }
 
-/// Height and slope at x, which the closed form has, too.
+/// Height and slope at x, shared with the closed form.
 pub(crate) mod relief {
     use crate::Real;
 

@@ -1,9 +1,9 @@
-//! A profile made of a closure.
+//! A profile made from a closure.
 
 use super::{Convexity, CurvePoint, ParametricProfile};
 use crate::Real;
 
-/// A profile made of a closure and the range of its parameter.
+/// Profile made from a closure and the range of its parameter.
 ///
 /// ```
 /// use linecontact::{Curve, CurvePoint};
@@ -22,12 +22,12 @@ pub struct Curve<T, F> {
 }
 
 impl<T: Real, F: Fn(T) -> CurvePoint<T> + Send + Sync> Curve<T, F> {
-    /// The curve `point(k)` for `k` in `domain`.
+    /// Creates the curve `point(k)` for `k` in `domain`.
     pub fn new(domain: [T; 2], point: F) -> Self {
         Self { domain, point, convexity: Convexity::Unknown }
     }
 
-    /// The same, given which way it bulges: see [`Convexity`].
+    /// Declares the convexity of the curve: see [`Convexity`].
     #[must_use]
     pub fn with_convexity(self, convexity: Convexity) -> Self {
         Self { convexity, ..self }

@@ -1,37 +1,38 @@
-//! Whether derivatives written by hand are those of their functions.
+//! Check of derivatives written by hand against their functions.
 //!
-//! Differences at single points would need a step, and its choice would depend on how steep and how
-//! noisy the curve is. So the change of X over a short range of k is compared with the integral of X'
-//! over it (GaussLegendre, eight nodes), and likewise for Y. The domain is looked at in 64 ranges; one that
-//! does not agree is divided into sixteen:
+//! Differences at single points would need a step, and its choice would depend on the slope and the
+//! noise of the curve. Therefore the change of X over a short range of k is compared with the
+//! integral of X' over it (Gauss-Legendre, eight nodes), and likewise for Y. The domain is divided
+//! into 64 ranges; a range that disagrees is divided into sixteen parts:
 //!
-//! - a wrong derivative disagrees in nearly all of the sixteen, with one sign, and goes on to do so in
-//!   the sixteenths of a typical one;
-//! - what the nodes have not resolved (waves, steep places) vanishes;
+//! - a wrong derivative disagrees in nearly all sixteen parts, with one sign, and again in the
+//!   sixteen parts of a typical one;
+//! - details that the nodes do not resolve (waves, steep places) vanish;
 //! - an undeclared kink, or an end like a square root, stays in one or two of the sixteen;
-//! - what rounding makes of a formula changes its sign, and its sum does not grow with their number.
+//! - rounding of a formula changes its sign, and its sum does not grow with the number of parts.
 
 use super::{ParametricProfile, Piece, ProfileError, finite_at, interval};
 use crate::Real;
 use crate::numerics::gauss_legendre::GaussLegendre;
 
-/// Ranges into which the domain is divided at first.
+/// Number of ranges into which the domain is divided at first.
 const RANGES: usize = 64;
-/// Parts into which a range that does not agree is divided.
+/// Number of parts into which a range that disagrees is divided.
 const COMPONENTS: usize = 16;
-/// How many of them have to disagree with the same sign.
+/// Number of parts that have to disagree with the same sign.
 const MOST_PARTS: usize = 12;
-/// How often a range is divided.
+/// Largest number of times that a range is divided.
 const LEVELS: usize = 4;
 
 /// Compares `X'` and `Y'` with `X` and `Y` all over the domain, and
-/// [`slope_at`](ParametricProfile::slope_at) with both: for profiles whose derivatives are written by hand. A compound profile is looked at piece by piece.
+/// [`slope_at`](ParametricProfile::slope_at) with both: for profiles whose derivatives are written
+/// by hand. A compound profile is checked piece by piece.
 ///
 /// The derivatives may be off by the square root of the rounding unit (1.5e-8 in `f64`, 3.5e-4 in
-/// `f32`), as a share of their mean size over about a thousandth of the domain, or by what the rounding
-/// of the formulas hides. Kinks, jumps and infinite ends are no fault. It takes about 600 evaluations
-/// for each smooth piece, more where something does not agree at once. A fault in less than
-/// 1/500 of the domain can pass.
+/// `f32`), as a share of their mean size over about a thousandth of the domain, or by the rounding
+/// of the formulas. Kinks, jumps and infinite ends are not faults. It takes about 600 evaluations
+/// for each smooth piece, and more where something disagrees at first. A fault in less than 1/500
+/// of the domain can pass.
 ///
 /// ```
 /// use linecontact::{Curve, CurvePoint, ProfileError, check_derivatives};
@@ -50,9 +51,9 @@ const LEVELS: usize = 4;
 /// ```
 ///
 /// # Errors
-/// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none, and
-/// `slope_at` only if neither has),
-/// [`ProfileError::Domain`], [`ProfileError::NotFinite`], [`ProfileError::Pieces`].
+/// [`ProfileError::Derivative`] at the place with the largest fault (`Y'` only if `X'` has none,
+/// and `slope_at` only if neither has), [`ProfileError::Domain`], [`ProfileError::NotFinite`],
+/// [`ProfileError::Pieces`].
 pub fn check_derivatives<T: Real>(
     profile: &dyn ParametricProfile<T>,
 ) -> Result<(), ProfileError<T>> {
@@ -82,7 +83,7 @@ fn check<T: Real>(curve: &dyn ParametricProfile<T>) -> Result<(), ProfileError<T
     check_slope_at(curve, &ranges)
 }
 
-/// Compares the slope that is given by x, if it is, with `Y'/X'` in the middle of each range.
+/// Compares `slope_at`, where it is given, with `Y'/X'` in the middle of each range.
 fn check_slope_at<T: Real>(
     curve: &dyn ParametricProfile<T>,
     ranges: &[Range<T>],
@@ -110,29 +111,29 @@ fn check_slope_at<T: Real>(
     }
 }
 
-/// A short range of k, with what holds for X and for Y.
+/// Short range of k, with values for X and for Y.
 #[derive(Clone, Copy)]
 struct Range<T> {
     k: [T; 2],
-    /// By how much the integral of the derivative exceeds the change.
+    /// Excess of the integral of the derivative over the change.
     missed: [T; 2],
-    /// The integral of the absolute value of the derivative.
+    /// Integral of the absolute value of the derivative.
     size: [T; 2],
-    /// What rounding leaves open of the change.
+    /// Uncertainty of the change by rounding.
     rounding: [T; 2],
 }
 
-/// A derivative that is wrong.
+/// Fault of a derivative.
 #[derive(Clone, Copy)]
 struct Fault<T> {
     k: T,
-    /// By how much the derivative is too large.
+    /// Excess of the derivative.
     missed: T,
-    /// The same as a share of its size.
+    /// Excess as a share of the size of the derivative.
     share: T,
 }
 
-/// The ranges, all of the same length, that make up another.
+/// Divides a range into others of equal length.
 fn ranges<T: Real>(
     curve: &dyn ParametricProfile<T>,
     [from, to]: [T; 2],
@@ -177,7 +178,7 @@ impl<T: Real> Range<T> {
             }
         }
         let missed = std::array::from_fn(|i| sum[i] - (ends[1][i] - ends[0][i]));
-        // Of both ends, and of k where the curve is steep.
+        // From both ends, and from k where the curve is steep.
         let rounding = std::array::from_fn(|i| {
             let by_k = size[i] * (centre / reach).abs();
             T::of(4.0) * T::epsilon() * (ends[0][i].abs().max(ends[1][i].abs()) + by_k + size[i])
@@ -185,12 +186,12 @@ impl<T: Real> Range<T> {
         Ok(Self { k, missed, size, rounding })
     }
 
-    /// Whether the derivative seems to be off here.
+    /// Tells whether the derivative seems to be off in this range.
     fn is_off(&self, i: usize) -> bool {
         self.missed[i].abs() > T::epsilon().sqrt() * self.size[i] + self.rounding[i]
     }
 
-    /// The fault of the derivative within this range, if it has one.
+    /// Returns the fault of the derivative within this range, if there is one.
     fn fault(
         &self,
         curve: &dyn ParametricProfile<T>,
@@ -203,7 +204,7 @@ impl<T: Real> Range<T> {
         }
         let parts = ranges(curve, self.k, COMPONENTS)?;
         if is_wrong(&parts, i) {
-            // A typical one: that at the end of a body may have troubles of its own.
+            // A typical part: the one at the end of a body may have troubles of its own.
             let typical = typical(&parts, i);
             if is_wrong(&ranges(curve, typical.k, COMPONENTS)?, i) {
                 return Ok(Some(typical.as_fault(i)));
@@ -215,7 +216,7 @@ impl<T: Real> Range<T> {
         parts.iter().copied().fold(parts[0], worse).fault(curve, i, levels - 1)
     }
 
-    /// By how much the derivative is off, as a share of its size.
+    /// Returns the excess of the derivative as a share of its size.
     fn share(&self, i: usize) -> T {
         self.missed[i].abs() / self.size[i]
     }
@@ -230,7 +231,7 @@ impl<T: Real> Range<T> {
     }
 }
 
-/// The part that is off by the median share.
+/// Returns the part whose share of error is the median.
 fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
     let mut parts = parts.to_vec();
     let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
@@ -238,7 +239,7 @@ fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
     parts[parts.len() / 2]
 }
 
-/// Whether the parts of a range disagree as they do where the derivative is wrong.
+/// Tells whether the parts of a range disagree as for a wrong derivative.
 fn is_wrong<T: Real>(parts: &[Range<T>], i: usize) -> bool {
     let sum = parts.iter().fold(T::zero(), |sum, part| sum + part.missed[i]);
     let total = parts.iter().fold(T::zero(), |sum, part| sum + part.missed[i].abs());

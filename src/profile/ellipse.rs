@@ -3,12 +3,12 @@
 use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
-/// An arc of an ellipse or a circle, `X = A sin k`, `Y = B (1 - cos k)`, by the angle k from its
+/// Arc of an ellipse or a circle, `X = A sin k`, `Y = B (1 - cos k)`, by the angle k from its
 /// lowest point, which lies at the origin.
 ///
 /// B is positive for an upper body that bulges, or a lower one that is hollow, and negative for the
-/// reverse. The height is taken as `sin² k/(1 + cos k)`, so that it keeps its digits next to the
-/// origin, and the slope as it is up to the end at ±π/2, where it is infinite.
+/// reverse. The height is computed as `sin² k/(1 + cos k)`, so that it keeps its digits next to the
+/// origin. The slope is exact up to the ends at ±π/2, where it is infinite.
 ///
 /// ```
 /// use linecontact::profile::Ellipse;
@@ -32,12 +32,12 @@ pub struct Ellipse<T> {
 }
 
 impl<T: Real> Ellipse<T> {
-    /// With the semi-axes A, along the contact, and B, across it, from one angle to another, in
-    /// radians.
+    /// Creates an arc with the semi-axes A, along the contact, and B, across it, between two angles
+    /// in radians.
     ///
     /// # Errors
-    /// [`ProfileError::Parameter`] unless A is positive and B is not zero, both finite, and the angles
-    /// are within ±π/2; [`ProfileError::Domain`].
+    /// [`ProfileError::Parameter`] unless A is positive and B is not zero, both finite, and the
+    /// angles are within ±π/2; [`ProfileError::Domain`].
     pub fn new(along: T, across: T, angles: [T; 2]) -> Result<Self, ProfileError<T>> {
         finite("the semi-axis along the contact", along, along > T::zero(), "positive and finite")?;
         finite("the semi-axis across it", across, !across.is_zero(), "finite and not zero")?;
@@ -48,7 +48,8 @@ impl<T: Real> Ellipse<T> {
         Ok(Self { along, across, angles })
     }
 
-    /// A circle with the radius R, negative where it bulges upwards, from one angle to another.
+    /// Creates an arc of a circle with the radius R, negative where it bulges upwards, between two
+    /// angles.
     ///
     /// # Errors
     /// As [`new`](Self::new).

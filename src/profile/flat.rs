@@ -3,8 +3,8 @@
 use super::{Convexity, CurvePoint, ParametricProfile};
 use crate::Real;
 
-/// A flat surface, `Y = 0`, as long as the number type allows. Costs nothing: its slope is
-/// known everywhere, so nothing is inverted or evaluated for it.
+/// Flat surface, `Y = 0`, as long as the number type allows. It costs nothing: its slope is known
+/// everywhere, so that nothing is inverted or evaluated for it.
 ///
 /// ```
 /// use linecontact::profile::Parabola;

@@ -4,22 +4,21 @@ use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, inte
 use crate::Real;
 use crate::numerics::special_functions::sin_minus_cos;
 
-/// The involute of a circle, seen from one of its points.
+/// Involute of a circle, with the origin of coordinates at one of its points.
 ///
 /// A taut string that unrolls from the base circle, of radius r, draws it. The angle t rolled off
-/// says where on it a point is: the string is r t long there, which is the radius of curvature, and
-/// the string is normal to the curve. The origin is put at a point t₀ of the flank, `X` along the
+/// gives the point on the curve: there the string has the length r t, which is the radius of
+/// curvature, and is normal to the curve. The origin is at a point t₀ of the flank, `X` along the
 /// tangent there, and the centre of the base circle at `[-r, r t₀]`. With `k = t - t₀`
-///
 /// ```text
 /// X = r (cos k + t sin k - 1),   Y = r (sin k - t cos k + t₀)
 /// ```
 ///
-/// Two flanks that mesh touch in a point of the line tangent to both base circles. At each instant
-/// they are two involutes with one origin, the roll angles of which make up the length of that
-/// line, `r₁ t₁ + r₂ t₂`. The lower one is turned by half a turn:
-/// [`Placement::mirrored`](super::Placement::mirrored) and
-/// [`flipped`](super::Placement::flipped). (Example `gear_mesh`.)
+/// Two flanks that mesh touch at a point of the line tangent to both base circles. At each instant
+/// they are two involutes with one origin, whose roll angles add up to the length of that line,
+/// `r₁ t₁ + r₂ t₂`. The lower one is turned by half a turn:
+/// [`Placement::mirrored`](super::Placement::mirrored) and [`flipped`](super::Placement::flipped).
+/// (Example `gear_mesh`.)
 ///
 /// ```
 /// use linecontact::profile::Involute;
@@ -42,8 +41,8 @@ pub struct Involute<T> {
 }
 
 impl<T: Real> Involute<T> {
-    /// With the radius r of the base circle and the angle t₀ rolled off at the origin, from one angle
-    /// t to another, in radians.
+    /// Creates an involute with the radius r of the base circle and the angle t₀ rolled off at the
+    /// origin, between two angles t in radians.
     ///
     /// # Errors
     /// [`ProfileError::Parameter`] unless r is positive, t₀ and the angles are not negative, all
@@ -73,7 +72,7 @@ impl<T: Real> ParametricProfile<T> for Involute<T> {
     fn at(&self, k: T) -> CurvePoint<T> {
         let (sin, cos) = k.sin_cos();
         let rolled = self.origin + k;
-        // 1 - cos k and sin k - k cos k, the leading terms of which cancel.
+        // 1 - cos k and sin k - k cos k, whose leading terms cancel.
         let versine = sin * (sin / (T::one() + cos));
         let bulge = if k < T::zero() { -sin_minus_cos(-k) } else { sin_minus_cos(k) };
         let [r, arm] = [self.base_radius, self.base_radius * rolled];

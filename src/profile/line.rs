@@ -4,8 +4,8 @@ use super::{Convexity, CurvePoint, ParametricProfile, Piecewise, PiecewiseError,
 use super::{finite, interval};
 use crate::Real;
 
-/// The straight line `Y = m X` through the origin, with `X = k`. For one that is level and has no
-/// ends there is [`Flat`](crate::Flat).
+/// Straight line `Y = m X` through the origin, with `X = k`. For a level line without ends use
+/// [`Flat`](crate::Flat).
 ///
 /// ```
 /// use linecontact::ParametricProfile;
@@ -23,7 +23,7 @@ pub struct Line<T> {
 }
 
 impl<T: Real> Line<T> {
-    /// With the slope m, from one abscissa to another.
+    /// Creates a line with the slope m between two abscissae.
     ///
     /// # Errors
     /// [`ProfileError::Parameter`] for a slope that is not finite, [`ProfileError::Domain`].
@@ -51,7 +51,8 @@ impl<T: Real> ParametricProfile<T> for Line<T> {
     }
 }
 
-/// Two straight flanks that meet at the origin, with a slope each, from `-reach` to `reach`.
+/// Builds a wedge of two straight flanks that meet at the origin, each with its slope, from
+/// `-reach` to `reach`.
 ///
 /// A wedge that points down has a negative slope on the left and a positive one on the right.
 ///

@@ -3,13 +3,14 @@
 use super::{CurvePoint, Piece};
 use crate::Real;
 
-/// The ways over which it is measured, as shares of a piece by powers of the rounding unit. Over
-/// the shortest all values may be rounded alike, as those of a cosine at 0.
+/// Lengths over which the noise is measured, as shares of a piece: powers of the rounding unit.
+/// Over the shortest all values may be rounded alike, as those of a cosine at 0.
 const SHORTEST: f64 = 1.0 / 2.0;
 const LONGER: [f64; 3] = [5.0 / 12.0, 1.0 / 3.0, 1.0 / 4.0];
 
-/// The order of divided differences, and what makes about three standard deviations of their
-/// median, as a share of what they add up: of even steps third ones have the weights 1, 3, 3 and 1.
+/// Order of divided differences, and the factor from their median, each divided by the sum of its
+/// weights, to about three standard deviations. (With even steps third differences have the weights
+/// 1, 3, 3 and 1.)
 const THIRD: (usize, f64) = (3, 8.0);
 const FIFTH: (usize, f64) = (5, 9.0);
 
@@ -21,7 +22,7 @@ pub(crate) struct Noise<T> {
 }
 
 impl<T: Real> Noise<T> {
-    /// Returns no noise.
+    /// Returns zero noise.
     pub fn nothing() -> Self {
         Self { x: T::zero(), y: T::zero() }
     }
@@ -31,9 +32,9 @@ impl<T: Real> Noise<T> {
         Self::over::<12>(piece, k, SHORTEST, THIRD, evaluations)
     }
 
-    /// Measures the noise more thoroughly, as the largest over several ways. Returns `None` for a
-    /// curve with other values at a second call, or with noise too large for rounding: both are
-    /// faults.
+    /// Measures the noise more thoroughly, as the largest over several lengths. Returns `None` for
+    /// a curve that gives other values at a second call, or whose noise is too large for rounding:
+    /// both are faults.
     pub fn of_rounding(piece: &Piece<'_, T>, k: T, evaluations: &mut usize) -> Option<Self> {
         let mut over = |power| Self::over::<16>(piece, k, power, FIFTH, evaluations);
         let [noise, again] = [over(SHORTEST), over(SHORTEST)];
@@ -51,13 +52,13 @@ impl<T: Real> Noise<T> {
         if slope.is_finite() { self.y + self.x * slope.abs() } else { self.y }
     }
 
-    /// Returns the larger of both errors each.
+    /// Returns the larger errors of two, in each coordinate.
     pub fn max(self, other: Self) -> Self {
         Self { x: self.x.max(other.x), y: self.y.max(other.y) }
     }
 
-    /// Measures the noise over a share of a piece, as the median of divided differences. Of what is
-    /// smooth they are nothing over so short a way, and an undeclared kink, or a step, is in fewer
+    /// Measures the noise over a share of a piece, as the median of divided differences. Over such
+    /// a short length they vanish for a smooth curve, and an undeclared kink or step affects fewer
     /// than half of them.
     fn over<const POINTS: usize>(
         piece: &Piece<'_, T>,
@@ -69,7 +70,7 @@ impl<T: Real> Noise<T> {
         let [from, to] = [piece.k[0].min(piece.k[1]), piece.k[0].max(piece.k[1])];
         let width = T::epsilon().powf(T::of(power)) * (to - from);
         let start = (k - T::of(0.5) * width).min(to - width).max(from);
-        // Unevenly, as multiples of one step may all be rounded alike.
+        // The steps are uneven, as the multiples of one step may all be rounded alike.
         let share = |i: usize| T::count(i) * T::count(i).sqrt();
         let places: [T; POINTS] =
             std::array::from_fn(|i| start + width * (share(i) / share(POINTS)));
@@ -103,7 +104,7 @@ mod tests {
     use crate::Curve;
     use std::sync::atomic::{AtomicU32, Ordering};
 
-    /// A change between calls is no rounding, however small.
+    /// A change between calls is not rounding, however small.
     #[test]
     fn a_curve_that_changes_between_calls_has_no_noise_of_rounding() {
         let calls = AtomicU32::new(0);

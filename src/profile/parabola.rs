@@ -3,10 +3,10 @@
 use super::{Convexity, CurvePoint, ParametricProfile, ProfileError, finite, interval};
 use crate::Real;
 
-/// The parabola `Y = X²/(2R)`, with `X = k`: the body of Hertz's theory.
+/// Parabola `Y = X²/(2R)`, with `X = k`: the body of Hertz's theory.
 ///
-/// R is the radius of curvature at the vertex, which lies at the origin. It is positive for an upper
-/// body that bulges, or a lower one that is hollow, and negative for the reverse.
+/// R is the radius of curvature at the vertex, which lies at the origin. It is positive for an
+/// upper body that bulges, or a lower one that is hollow, and negative for the reverse.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -21,16 +21,16 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Parabola<T> {
-    /// R; `None` where the curvature is zero.
+    /// Radius R; `None` where the curvature is zero.
     radius: Option<T>,
-    /// 1/R.
+    /// Curvature 1/R.
     #[cfg_attr(feature = "serde", serde(skip_serializing))]
     curvature: T,
     domain: [T; 2],
 }
 
 impl<T: Real> Parabola<T> {
-    /// With the radius R, from one abscissa to another.
+    /// Creates a parabola with the radius R between two abscissae.
     ///
     /// # Errors
     /// [`ProfileError::Parameter`] unless R and 1/R are finite, [`ProfileError::Domain`].
@@ -40,7 +40,7 @@ impl<T: Real> Parabola<T> {
         Ok(Self { radius: Some(radius), curvature: radius.recip(), domain: interval(domain)? })
     }
 
-    /// The limit of a large radius: a straight line.
+    /// Creates the limit of a large radius: a straight line.
     pub(super) fn straight(domain: [T; 2]) -> Result<Self, ProfileError<T>> {
         Ok(Self { radius: None, curvature: T::zero(), domain: interval(domain)? })
     }

@@ -4,20 +4,20 @@ use super::{CurvePoint, Noise, ParametricProfile, ProfileError, finite_at, inter
 use crate::Real;
 use std::fmt;
 
-/// Steps in `k` at which the check looks at `X` and `X'`.
+/// Number of steps in `k` at which the check evaluates `X` and `X'`.
 const STEPS: usize = 32;
 
-/// A piece, and the points all along it at which it was looked at.
+/// Piece with the points along it at which it was evaluated.
 pub(super) type Scanned<'a, T> = (Piece<'a, T>, [CurvePoint<T>; STEPS + 1]);
 
-/// A smooth curve and its two ends, from left to right.
+/// Smooth curve and its two ends, from left to right.
 #[derive(Clone, Copy)]
 pub struct Piece<'a, T> {
     /// The curve.
     pub curve: &'a dyn ParametricProfile<T>,
-    /// `k` at the left and at the right end; falling where `X` falls with `k`.
+    /// Parameters at the left and at the right end; falling where `X` falls with `k`.
     pub k: [T; 2],
-    /// The curve there; `X` is finite and rises from one to the other.
+    /// Points at both ends; `X` is finite and rises from the first to the second.
     pub ends: [CurvePoint<T>; 2],
 }
 
@@ -29,20 +29,21 @@ impl<T: fmt::Debug> fmt::Debug for Piece<'_, T> {
 }
 
 impl<'a, T: Real> Piece<'a, T> {
-    /// `x` at the left and at the right end, rising.
+    /// Returns `x` at the left and at the right end, rising.
     pub fn x(&self) -> [T; 2] {
         [self.ends[0].x, self.ends[1].x]
     }
 
-    /// `Y'/X'` at an end. Where both are zero, as with `X = k²` from `k = 0`, it is the limit, by a
-    /// parabola in `k` through three points inside, which are added to the evaluations.
+    /// Returns `Y'/X'` at an end. Where both are zero, as with `X = k²` from `k = 0`, it is the
+    /// limit, by a parabola in `k` through three points inside, which are added to the evaluations.
     pub(crate) fn end_slope(&self, end: usize, evaluations: &mut usize) -> T {
         let CurvePoint { dx, dy, .. } = self.ends[end];
         if !(dx.is_zero() && dy.is_zero()) {
             return dy / dx;
         }
         *evaluations += 3;
-        // Its third power is nothing, even where the curve is a thousand times as long as what it shows.
+        // Its third power is negligible, even where the curve is a thousand times longer than its
+        // features.
         let step = (self.k[1 - end] - self.k[end]) * T::of(16.0) * T::epsilon().sqrt();
         let slope = |steps: f64| {
             let CurvePoint { dx, dy, .. } = self.curve.at(self.k[end] + step * T::of(steps));
@@ -51,11 +52,11 @@ impl<'a, T: Real> Piece<'a, T> {
         (T::of(8.0) * slope(1.0) - T::of(6.0) * slope(2.0) + slope(4.0)) / T::of(3.0)
     }
 
-    /// A smooth curve, looked at only at the two ends of its domain.
+    /// Creates the piece of a smooth curve, evaluated only at the two ends of its domain.
     ///
     /// # Errors
     /// [`ProfileError::Domain`], [`ProfileError::NotFinite`] where `X` is not finite,
-    /// [`ProfileError::TurnsBack`] where it is the same at both ends, or runs the wrong way at both.
+    /// [`ProfileError::TurnsBack`] where `X` is equal at both ends, or runs the wrong way at both.
     pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
         let k = interval(curve.domain())?;
         let ends = k.map(|k| curve.at(k));
@@ -65,12 +66,12 @@ impl<'a, T: Real> Piece<'a, T> {
         Self::between(curve, k, ends)
     }
 
-    /// How many pieces a compound profile has, and the first of them; `None` for a profile that is
-    /// smooth itself.
+    /// Returns the number of pieces of a compound profile and the first piece; `None` for a profile
+    /// that is smooth itself.
     ///
     /// # Errors
-    /// [`ProfileError::Pieces`] where `pieces()` and `piece()` disagree. The pieces between are looked at
-    /// where they are used: there may be very many.
+    /// [`ProfileError::Pieces`] where `pieces()` and `piece()` disagree. The inner pieces are
+    /// checked where they are used: there may be very many.
     pub(crate) fn first_of(
         profile: &'a dyn ParametricProfile<T>,
     ) -> Result<Option<(usize, Self)>, ProfileError<T>> {
@@ -92,8 +93,8 @@ impl<'a, T: Real> Piece<'a, T> {
         k: [T; 2],
         ends: [CurvePoint<T>; 2],
     ) -> Result<Self, ProfileError<T>> {
-        // Between two ends at which X runs the other way it turns, as that of a closed curve does. At
-        // those where it stands still X' may be rounded.
+        // If X runs backwards at both ends it turns between them, as on a closed curve. Where X
+        // stands still at an end, X' may be rounded.
         let slope = (ends[1].x - ends[0].x) / (k[1] - k[0]);
         let back = |end: &CurvePoint<T>| end.dx / slope < -T::epsilon().sqrt();
         if ends.iter().all(back) {
@@ -109,7 +110,7 @@ impl<'a, T: Real> Piece<'a, T> {
         }
     }
 
-    /// The same, after a look at the whole of the domain: 39 evaluations. For profiles just
+    /// Creates the piece after a check of the whole domain: 39 evaluations. For profiles just
     /// written, and for the pieces that [`Piecewise`](super::Piecewise) joins.
     ///
     /// A fold narrower than a thirty-second of the domain can pass; it is reported when the
@@ -123,7 +124,7 @@ impl<'a, T: Real> Piece<'a, T> {
         Self::checked_points(curve).map(|(piece, _)| piece)
     }
 
-    /// Checks a curve as [`checked`](Self::checked) does, and keeps the points.
+    /// Checks a curve as [`checked`](Self::checked) does, and returns the points too.
     pub(super) fn checked_points(
         curve: &'a dyn ParametricProfile<T>,
     ) -> Result<Scanned<'a, T>, ProfileError<T>> {
@@ -135,8 +136,8 @@ impl<'a, T: Real> Piece<'a, T> {
         Ok((piece, points))
     }
 
-    /// Checks all but the derivatives: of a curve made from one that has been checked, the heights of
-    /// which may be next to nothing but rounding now.
+    /// Checks everything but the derivatives, for a curve made from a checked one: its heights may
+    /// now be little but rounding.
     pub(super) fn scanned(
         curve: &'a dyn ParametricProfile<T>,
     ) -> Result<Scanned<'a, T>, ProfileError<T>> {
@@ -157,8 +158,8 @@ impl<'a, T: Real> Piece<'a, T> {
         for i in 0..STEPS {
             let turned = i > 0 && forward(points[i].dx) < T::zero();
             if turned || forward(points[i + 1].x - points[i].x) <= T::zero() {
-                // X turns where X' changes its sign, which may be far from where it first runs
-                // the wrong way.
+                // X turns where X' changes its sign, which may be far from the first step in the
+                // wrong direction.
                 let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
                 let j = (0..STEPS).find(turns).unwrap_or(i);
                 return Err(first_turn(curve, [from, to], [k(j), k(j + 1)]));
@@ -186,7 +187,8 @@ fn check_derivatives<T: Real>(
         let changes = [("X'", at.dx, after.x - before.x), ("Y'", at.dy, after.y - before.y)];
         for ((quantity, given, change), noise) in changes.into_iter().zip(noise) {
             let difference = change / (T::of(2.0) * h);
-            // A tenth: a wrong sign or factor, not a formula that is merely hard to evaluate.
+            // A tenth detects a wrong sign or factor, not a formula that is merely hard to
+            // evaluate.
             let allowed = T::of(0.1) * given.abs().max(difference.abs()) + noise / h;
             if (given - difference).abs() > allowed {
                 return Err(ProfileError::Derivative { quantity, k, given, difference });
@@ -196,17 +198,18 @@ fn check_derivatives<T: Real>(
     };
     let rounding = scales.map(|scale| T::of(1e3) * T::epsilon() * scale);
     // The cube root of the rounding unit balances truncation and rounding of the difference. Where
-    // a wave or a kink is finer than that, a shorter one settles it.
+    // a wave or a kink is finer than this step, a shorter one decides.
     compared(rounding, 1.0).or_else(|_| compared(rounding, 1.0 / 32.0)).or_else(|_| {
-        // Heights may be the rounding of larger terms.
+        // The heights may be rounded as differences of larger terms.
         let noise = Noise::of_rounding(piece, k, &mut 0);
         let Noise { x, y } = noise.unwrap_or(Noise::nothing());
         compared([rounding[0].max(x), rounding[1].max(y)], 1.0)
     })
 }
 
-/// The first place, outward from the middle of the domain, where `X'` changes its sign: what lies
-/// between it and the middle is of use. One that is too narrow for this lies where it was `met`.
+/// Finds the first place, outward from the middle of the domain, where `X'` changes its sign: the
+/// curve between this place and the middle can be used. A fold too narrow for these steps is
+/// reported where it was `met`.
 pub(crate) fn first_turn<T: Real>(
     curve: &dyn ParametricProfile<T>,
     domain: [T; 2],
@@ -233,7 +236,8 @@ pub(crate) fn first_turn<T: Real>(
     turns_back(curve, [from, to], rising(met))
 }
 
-/// Names the place where `X'` changes its sign between two others; the middle where it does not.
+/// Names the place where `X'` changes its sign between two others; the middle where it does not
+/// change.
 fn turns_back<T: Real>(
     curve: &dyn ParametricProfile<T>,
     domain: [T; 2],

@@ -1,4 +1,4 @@
-//! The combinator that joins smooth pieces.
+//! Smooth pieces joined to one profile.
 
 use super::piece::Scanned;
 use super::{
@@ -10,13 +10,13 @@ use thiserror::Error;
 
 /// Smooth profiles joined end to end, from left to right.
 ///
-/// Each piece has a parameter and a range of its own, over which `X` may rise or fall: a
-/// formula that holds "for x ≤ 0" usually has several branches in `k`, and the range says
-/// which is meant. Where two pieces meet the slope may jump; `X` and `Y` may not. The solver
-/// sees the pieces, inverts each on its own range, and splits its integrals at the breakpoints.
+/// Each piece has a parameter and a range of its own, over which `X` may rise or fall: a formula
+/// that holds "for x ≤ 0" usually has several branches in `k`, and the range selects one. Where two
+/// pieces meet the slope may jump; `X` and `Y` may not. The solver inverts each piece on its own
+/// range and splits its integrals at the breakpoints.
 ///
-/// As a profile in its own right it has the parameter `i + s` on piece `i`, `s` running
-/// from 0 at its left end to 1 at its right, which serves to draw it.
+/// As a profile of its own it has the parameter `i + s` on piece `i`, with `s` from 0 at its left
+/// end to 1 at its right, for drawing.
 ///
 /// Pieces of different types go in as `Box<dyn ParametricProfile<T>>`.
 ///
@@ -42,36 +42,36 @@ pub struct Piecewise<T, P> {
     parts: Vec<P>,
     tolerance: T,
     #[cfg_attr(feature = "serde", serde(skip))]
-    /// `k` and the curve at the left and right end of each part.
+    /// Parameters and points at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
     #[cfg_attr(feature = "serde", serde(skip))]
-    /// The smooth pieces: part, and piece of that part where it has several.
+    /// Smooth pieces: the part, and the piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
     #[cfg_attr(feature = "serde", serde(skip))]
     convexity: Convexity,
 }
 
-/// A look at a part.
+/// Check of a part.
 type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Scanned<'a, T>, ProfileError<T>>;
 
-/// The rounding of `X`, and of a joint that is not given more: a share of the extent or of the
-/// distance from 0. A few sums and products, each off by half a unit in the last place.
+/// Rounding of `X`, and default tolerance of a joint, in units in the last place of the extent or
+/// of the distance from 0: a few sums and products, each off by half a unit.
 const UNITS: f64 = 64.0;
 
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place of the
     /// larger of their extent and their distance from 0, in `X` and in `Y`. Where the pieces are
-    /// steep, `Y` may jump by the rise over such a rounding of `X` besides.
+    /// steep, `Y` may also jump by the rise over such a rounding of `X`.
     ///
     /// # Errors
-    /// What [`Piece::new`] says of a piece, as [`PiecewiseError::InPiece`];
-    /// [`PiecewiseError::Gap`], [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a breakpoint;
+    /// Errors of [`Piece::new`], as [`PiecewiseError::InPiece`]; [`PiecewiseError::Gap`],
+    /// [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a breakpoint;
     /// [`PiecewiseError::NoPieces`].
     pub fn new(parts: Vec<P>) -> Result<Self, PiecewiseError<T>> {
         Self::with_tolerance(parts, T::of(UNITS) * T::epsilon())
     }
 
-    /// As [`new`](Self::new), for pieces that meet only to within `tolerance` times the
+    /// Joins pieces as [`new`](Self::new) does, if they meet only to within `tolerance` times the
     /// larger of their extent and their distance from 0, such as measured ones.
     ///
     /// # Errors
@@ -102,7 +102,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         let mut convexity = parts[0].convexity();
         for (breakpoint, pair) in ends.windows(2).enumerate() {
             let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
-            // Slopes that are the same but for rounding make no corner; 0/0 says nothing.
+            // Slopes that are equal to rounding make no corner; 0/0 is unknown.
             let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
             let change = match after - before {
                 change if change.abs() <= size => Convexity::Straight,
@@ -114,13 +114,13 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         Ok(Self { parts, tolerance, ends, smooth, convexity })
     }
 
-    /// The whole, put in another place. Its pieces are joined again, to within the same tolerance,
-    /// and in the reverse order where that is what the placement makes of them.
+    /// Places the whole body. Its pieces are joined again, to within the same tolerance, and in
+    /// reverse order where the placement requires it.
     ///
     /// # Errors
-    /// What [`Placed::new`] says of a piece, as [`PiecewiseError::InPiece`], with
+    /// Errors of [`Placed::new`], as [`PiecewiseError::InPiece`], with
     /// [`ProfileError::Joined`](super::ProfileError) for a piece that is joined itself. As
-    /// [`new`](Self::new) where a piece turns back in `X` now.
+    /// [`new`](Self::new) where a placed piece turns back in `X`.
     pub fn placed(
         self,
         placement: Placement<T>,
@@ -140,13 +140,13 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     }
 }
 
-/// A part that has been looked at all along.
+/// Part with its checked points.
 struct Scan<'p, T> {
     piece: Piece<'p, T>,
-    /// Of `X` and of `Y`: the range of their values and 0.
+    /// Extents of `X` and of `Y`: the range of their values and 0.
     extents: [T; 2],
-    /// How steep it is at its left and its right end: by the chord to the next point, so that an upright
-    /// end hides no step.
+    /// Steepness at the left and at the right end: of the chord to the next point, so that an
+    /// upright end hides no step.
     steepness: [T; 2],
 }
 
@@ -243,16 +243,16 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
     }
 }
 
-/// Why pieces cannot be joined.
+/// Reason why pieces cannot be joined.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PiecewiseError<T: Real> {
-    /// A piece is at fault by itself.
+    /// A piece is faulty by itself.
     #[error("piece {piece} (from 0, left to right): {source}")]
     InPiece {
         /// Index of the piece.
         piece: usize,
-        /// What is wrong with it.
+        /// Fault of the piece.
         source: ProfileError<T>,
     },
     /// The tolerance is negative, NaN or infinite.
@@ -273,13 +273,13 @@ pub enum PiecewiseError<T: Real> {
     Gap {
         /// Index of the breakpoint, 0 between the first two pieces.
         breakpoint: usize,
-        /// Where the left piece ends.
+        /// Right end of the left piece.
         left: T,
-        /// Where the right piece starts.
+        /// Left end of the right piece.
         right: T,
     },
-    /// Two neighbours overlap: `x` between them belongs to both. Also what pieces in the
-    /// wrong order look like.
+    /// Two neighbours overlap: `x` between them belongs to both. Pieces in the wrong order overlap
+    /// too.
     #[error(
         "overlap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at \
          {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance",
@@ -288,9 +288,9 @@ pub enum PiecewiseError<T: Real> {
     Overlap {
         /// Index of the breakpoint, 0 between the first two pieces.
         breakpoint: usize,
-        /// Where the left piece ends.
+        /// Right end of the left piece.
         left: T,
-        /// Where the right piece starts.
+        /// Left end of the right piece.
         right: T,
     },
     /// Two neighbours meet at different heights.
@@ -303,7 +303,7 @@ pub enum PiecewiseError<T: Real> {
     Jump {
         /// Index of the breakpoint, 0 between the first two pieces.
         breakpoint: usize,
-        /// Where.
+        /// Abscissa of the breakpoint.
         x: T,
         /// `Y` at the end of the left piece.
         left: T,

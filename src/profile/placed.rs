@@ -7,12 +7,12 @@ use crate::Real;
 const SHIFT: &str = "a shift of a placement";
 const FACTORS: &str = "the product of all factors of a placement";
 
-/// Where a body is put: a map of the plane that keeps angles, made step by step.
+/// Placement of a body: a map of the plane that keeps angles, built step by step.
 ///
-/// Each step is done after those before it, and about the origin:
-/// `Placement::default().rotated(0.1).shifted(2.0, 0.0)` turns a body and then moves it. A body to
-/// the other side of a contact is brought by [`flipped`](Self::flipped): with both bodies flipped and
-/// exchanged the contact is the same.
+/// Each step follows the earlier ones and acts about the origin:
+/// `Placement::default().rotated(0.1).shifted(2.0, 0.0)` turns a body and then moves it.
+/// [`flipped`](Self::flipped) brings a body to the other side of a contact: flipping both bodies
+/// and exchanging them leaves the contact unchanged.
 ///
 /// ```
 /// use linecontact::profile::{Ellipse, Placed, Placement};
@@ -30,10 +30,10 @@ const FACTORS: &str = "the product of all factors of a placement";
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Placement<T> {
-    /// `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
+    /// Matrix `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
     matrix: [[T; 2]; 2],
     shift: [T; 2],
-    /// The first step that cannot be done, and its value.
+    /// First step that cannot be done, and its value.
     #[cfg_attr(feature = "serde", serde(skip))]
     fault: Option<(&'static str, T)>,
 }
@@ -46,7 +46,8 @@ impl<T: Real> Default for Placement<T> {
 }
 
 impl<T: Real> Placement<T> {
-    /// Builds a placement of a matrix that turns, mirrors and scales, but does not bend out of shape, and a shift.
+    /// Builds a placement from a shift and a matrix that turns, mirrors and scales without
+    /// distortion.
     #[cfg(feature = "serde")]
     pub(super) fn read(matrix: [[T; 2]; 2], shift: [T; 2]) -> Result<Self, ProfileError<T>> {
         let [[a, b], [c, d]] = matrix;
@@ -72,7 +73,7 @@ impl<T: Real> Placement<T> {
         self
     }
 
-    /// Moved by `along` in the direction of `X` and by `across` in that of `Y`.
+    /// Moves the body by `along` in the direction of `X` and by `across` in the direction of `Y`.
     #[must_use]
     pub fn shifted(mut self, along: T, across: T) -> Self {
         for (shift, by) in [along, across].into_iter().enumerate() {
@@ -82,7 +83,7 @@ impl<T: Real> Placement<T> {
         self
     }
 
-    /// Left and right exchanged: `X` becomes `-X`, without any rounding.
+    /// Exchanges left and right: `X` becomes `-X`, without any rounding.
     #[must_use]
     pub fn mirrored(mut self) -> Self {
         self.matrix[0] = self.matrix[0].map(|entry| -entry);
@@ -90,7 +91,8 @@ impl<T: Real> Placement<T> {
         self
     }
 
-    /// Turned upside down: `Y` becomes `-Y`, without any rounding. Mirrored and flipped is half a turn.
+    /// Turns the body upside down: `Y` becomes `-Y`, without any rounding. Mirrored and flipped is
+    /// half a turn.
     #[must_use]
     pub fn flipped(mut self) -> Self {
         self.matrix[1] = self.matrix[1].map(|entry| -entry);
@@ -98,7 +100,7 @@ impl<T: Real> Placement<T> {
         self
     }
 
-    /// Turned by an angle in radians, from the X axis towards the Y axis.
+    /// Turns the body by an angle in radians, from the X axis towards the Y axis.
     #[must_use]
     pub fn rotated(self, angle: T) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -109,7 +111,7 @@ impl<T: Real> Placement<T> {
         turned.asked("an angle of a placement", angle, true)
     }
 
-    /// All lengths multiplied by a factor; a negative one adds half a turn.
+    /// Multiplies all lengths by a factor; a negative one adds half a turn.
     #[must_use]
     pub fn scaled(self, factor: T) -> Self {
         let times = |row: [T; 2]| row.map(|entry| entry * factor);
@@ -117,14 +119,14 @@ impl<T: Real> Placement<T> {
         scaled.asked("a factor of a placement", factor, !factor.is_zero())
     }
 
-    /// Whether `X` depends on `X` alone, and `Y` on `Y`.
+    /// Tells whether `X` depends on `X` alone, and `Y` on `Y`.
     fn is_upright(&self) -> bool {
         self.matrix[0][1].is_zero() && self.matrix[1][0].is_zero()
     }
 
     fn direction(&self, [x, y]: [T; 2]) -> [T; 2] {
         let [[a, b], [c, d]] = self.matrix;
-        // An infinite slope stays what it is.
+        // Keeps an infinite slope infinite.
         if self.is_upright() { [a * x, d * y] } else { [a * x + b * y, c * x + d * y] }
     }
 
@@ -135,10 +137,10 @@ impl<T: Real> Placement<T> {
     }
 }
 
-/// A smooth body put in another place. One that is joined from pieces is put there by
-/// [`Piecewise::placed`](super::Piecewise::placed).
+/// Smooth body in another place. [`Piecewise::placed`](super::Piecewise::placed) places a body
+/// joined from pieces.
 ///
-/// A body that is rotated too far turns back in `X`, which is reported like any other that does
+/// A body that is rotated too far turns back in `X`, which is reported like any other such body
 /// ([`ProfileError::TurnsBack`]).
 ///
 /// ```
@@ -158,7 +160,7 @@ pub struct Placed<T, P> {
 }
 
 impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
-    /// The body `curve`, put where the placement says.
+    /// Creates the body `curve` at its placement.
     ///
     /// # Errors
     /// [`ProfileError::Parameter`] if a step of the placement was not finite, or a factor was zero;

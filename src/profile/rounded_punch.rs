@@ -3,19 +3,19 @@
 use super::{Parabola, Piecewise, PiecewiseError, Placed, Placement};
 use crate::Real;
 
-/// Half a parabola, a flat, and the other half.
+/// Half a parabola, a flat and the other half of the parabola.
 type Parts<T> = Piecewise<T, Placed<T, Parabola<T>>>;
 
-/// A punch that is flat from `-flat` to `flat` and goes on as the parabola `(abs(X) - flat)²/(2R)`,
-/// up to `abs(X) = reach`: the body of
+/// Builds a punch that is flat from `-flat` to `flat` and goes on as the parabola
+/// `(abs(X) - flat)²/(2R)`, up to `abs(X) = reach`: the body of
 /// [`reference::RoundedPunch`](crate::reference::RoundedPunch).
 ///
-/// Edges that are circular arcs are joined in the same way from [`Ellipse::circle`](super::Ellipse)
-/// and a [`Line`](super::Line).
+/// Edges that are circular arcs can be joined in the same way from
+/// [`Ellipse::circle`](super::Ellipse) and a [`Line`](super::Line).
 ///
 /// # Errors
-/// [`PiecewiseError::InPiece`] with [`ProfileError::Parameter`](super::ProfileError) unless R and 1/R
-/// are finite and `flat` is finite, or [`ProfileError::Domain`](super::ProfileError) unless
+/// [`PiecewiseError::InPiece`] with [`ProfileError::Parameter`](super::ProfileError) unless R and
+/// 1/R are finite and `flat` is finite, or [`ProfileError::Domain`](super::ProfileError) unless
 /// `0 < flat < reach`.
 ///
 /// ```

@@ -1,8 +1,8 @@
 //! A profile through measured points.
 //!
-//! Written here and not taken from a crate: none was found that takes any [`Real`] and smooths to a
-//! given noise. `csaps` smooths by a weight between 0 and 1, through the normal equations, which lose
-//! all digits where the smoothing reaches over some ten thousand points.
+//! Written here because no crate was found that takes any [`Real`] and smooths to a given noise.
+//! `csaps` smooths by a weight between 0 and 1, through the normal equations, which lose all digits
+//! where the smoothing reaches over some ten thousand points.
 
 mod points;
 mod slopes;
@@ -15,7 +15,7 @@ pub use points::SplineError;
 use super::{CurvePoint, ParametricProfile, Piece, Piecewise, PiecewiseError, Placed, Placement};
 use crate::Real;
 
-/// How points become a [`Spline`].
+/// Settings of the fit of a [`Spline`] to points.
 ///
 /// ```
 /// use linecontact::profile::{Fit, Spline};
@@ -35,22 +35,24 @@ use crate::Real;
     serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
 pub struct Fit<T> {
-    /// Standard deviation of the heights, in their own unit: what the measuring machine adds to
-    /// them. Of all curves that are off the points by this much the smoothest is taken, the one with
-    /// the least `∫ Y''² dX`; the sum of the squares may be up to `N + sqrt(2 N)` in units of the noise
-    /// (Reinsch, *Numer. Math.* 10, 1967, 177). A curve that is smoother still is taken where it is
-    /// expected to be nearer to the surface. With 0, the default, the curve goes through the points.
+    /// Standard deviation of the heights, in their own unit: the noise of the measuring machine. Of
+    /// all curves at this distance from the points the smoothest is taken, with the least
+    /// `∫ Y''² dX`; the sum of the squared distances may be up to `N + sqrt(2 N)` in units of the
+    /// noise (Reinsch, *Numer. Math.* 10, 1967, 177). An even smoother curve is taken where it is
+    /// expected to be nearer to the surface. With 0, the default, the curve goes through the
+    /// points.
     ///
-    /// Rather a tenth too much than too little. A tenth either way changes the pressure little; much less
-    /// than half of the true noise, and the curve follows the noise: it is then a rough surface, with
-    /// many contacts and several times the pressure. Estimates and checks are those of that surface.
+    /// A tenth too much is better than a tenth too little; either changes the pressure little. With
+    /// much less than half of the true noise the curve follows the noise: it is then a rough
+    /// surface, with many contacts and several times the pressure. Estimates and checks are then
+    /// for this surface.
     pub noise: T,
-    /// How far off a point may be before it is taken for a slip of the measurement: its distance
-    /// from the cubic through its four neighbours, in standard deviations. These are estimated from
-    /// the median of all such distances, or of those of the 21 points around it if that is larger.
-    /// Default 10; `None` lets everything pass. It takes twelve points, and at the two outermost ones,
-    /// which have neighbours on one side only, a slip several times as large. A corner between two
-    /// points, or an end that is all but upright, looks the same as a slip.
+    /// Distance at which a point is taken for an error of the measurement: its distance from the
+    /// cubic through its four neighbours, in standard deviations. These are estimated from the
+    /// median of all such distances, or from the 21 points around it if their median is larger.
+    /// Default 10; `None` disables the check. It needs twelve points. The two outermost points have
+    /// neighbours on one side only: there it detects only errors several times as large. A corner
+    /// between two points, or an end that is nearly upright, looks like such an error.
     pub outliers: Option<T>,
 }
 
@@ -60,15 +62,16 @@ impl<T: Real> Default for Fit<T> {
     }
 }
 
-/// A profile through points `[x, y]`, or near them: a cubic spline with two continuous derivatives,
+/// Profile through points `[x, y]`, or near them: a cubic spline with two continuous derivatives,
 /// `X = k`.
 ///
-/// The points are in order of rising x, at any distances. At either end the first two and the last
-/// two cubics are one (de Boor's "not a knot"), so that four points of a cubic give that cubic; a
-/// smoothed spline ends straight.
+/// The points are in order of rising x, at any distances. At either end the outermost two cubics
+/// are one (de Boor's "not a knot"), so that four points of a cubic give that cubic; a smoothed
+/// spline ends straight.
 ///
-/// The third derivative jumps at the knots, which are the breakpoints of the profile. A contact costs some
-/// ten samples for each knot in it; no curve is evaluated for them, as the slope is known.
+/// The third derivative jumps at the knots, which are the breakpoints of the profile. A contact
+/// costs some ten samples for each knot in it; no curve is evaluated for them, as the slope is
+/// known.
 ///
 /// ```
 /// use linecontact::profile::Spline;
@@ -88,27 +91,27 @@ pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
 }
 
-/// The spline between two knots.
+/// Part of the spline between two knots.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Cubic<T> {
     x: [T; 2],
-    /// Of `Y` by the distance from the left knot, the constant first.
+    /// Coefficients of `Y` by the distance from the left knot, the constant first.
     coefficients: [T; 4],
 }
 
 impl<T: Real> Spline<T> {
-    /// The spline through the points. One that stands out from its neighbours is refused, as in any
-    /// [`Fit`] by default; exact points beside a corner or an upright end may, too, and are passed by
-    /// `Fit { outliers: None, ..Fit::default() }`.
+    /// Builds the spline through the points. A point that stands out from its neighbours is
+    /// refused, as in any [`Fit`] by default. Exact points next to a corner or an upright end may
+    /// stand out, too: `Fit { outliers: None, ..Fit::default() }` accepts them.
     ///
     /// # Errors
-    /// [`SplineError`], with the row of the point at fault.
+    /// [`SplineError`], with the row of the faulty point.
     pub fn through(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {
         Self::fitted(points, Fit::default())
     }
 
-    /// The spline through the points, or near them.
+    /// Builds the spline through the points, or near them.
     ///
     /// ```
     /// use linecontact::profile::{Fit, Spline};
@@ -123,7 +126,7 @@ impl<T: Real> Spline<T> {
     /// ```
     ///
     /// # Errors
-    /// [`SplineError`], with the row of the point at fault.
+    /// [`SplineError`], with the row of the faulty point.
     pub fn fitted(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
         if !(fit.noise.is_finite() && fit.noise >= T::zero()) {
             return Err(SplineError::Noise { noise: fit.noise });
@@ -142,7 +145,7 @@ impl<T: Real> Spline<T> {
         }
     }
 
-    /// From height and slope at each knot.
+    /// Builds the spline from height and slope at each knot.
     fn of(points: &[[T; 2]], knots: &[[T; 2]]) -> Result<Self, SplineError<T>> {
         let cubic = |(x, y): (&[[T; 2]], &[[T; 2]])| {
             let (x, [from, to]) = ([x[0][0], x[1][0]], [y[0], y[1]]);
@@ -164,8 +167,8 @@ impl<T: Real> Spline<T> {
         }
     }
 
-    /// Finds the first cubic that does not end with the height and the slope of the next knot, and whether the numbers
-    /// are finite there.
+    /// Finds the first cubic that does not end with the height and the slope of the next knot, and
+    /// tells whether the numbers are finite there.
     fn first_gap(&self, knots: &[[T; 2]]) -> Option<(usize, bool)> {
         let size = |i: usize| knots.iter().fold(T::zero(), |size, knot| size.max(knot[i].abs()));
         let allowed = [0, 1].map(|i| T::epsilon().sqrt() * size(i));
@@ -177,7 +180,7 @@ impl<T: Real> Spline<T> {
         })
     }
 
-    /// The body, put in another place: moved, mirrored, flipped, turned or scaled.
+    /// Places the body: moved, mirrored, flipped, turned or scaled.
     ///
     /// ```
     /// use linecontact::profile::{Parabola, Placement, Spline};

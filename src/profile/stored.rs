@@ -1,4 +1,4 @@
-//! What a body is in a file. Each is made by its constructor, and refused as by that.
+//! Bodies in files. Each is made by its constructor, with the same errors.
 
 use super::spline::Cubic;
 use super::{ParametricProfile, Placement};
@@ -6,7 +6,7 @@ use crate::Real;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-/// Reads bodies: the parameters of each under the names that they have in a file, and its constructor.
+/// Reads bodies: for each the names of its parameters in a file, and its constructor.
 macro_rules! stored {
     ($($body:ident<T $(, $curve:ident)?> { $($(#[$attribute:meta])* $field:ident: $type:ty),* } => $make:expr;)*) => {$(
         impl<'de, T: Real + Deserialize<'de> $(, $curve: ParametricProfile<T> + Deserialize<'de>)?> Deserialize<'de>
@@ -30,7 +30,7 @@ stored! {
     Involute<T> { base_radius: T, origin: T, angles: [T; 2] } => Self::new(base_radius, origin, angles);
     Crowning<T> { depth: T, half_length: T, domain: [T; 2] } => Self::new(depth, half_length, domain);
     Parabola<T> {
-        // So that none is not the same as null.
+        // A missing radius is an error; null stands for a straight line.
         #[serde(deserialize_with = "Deserialize::deserialize")]
         radius: Option<T>,
         domain: [T; 2]

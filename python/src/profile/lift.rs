@@ -1,4 +1,4 @@
-//! The numbers of a scene by their names: as they are, or with a derivative.
+//! The numbers of a scene by name: plain, or with a derivative.
 
 use super::{Built, Profile};
 use crate::curve::Curve;
@@ -10,27 +10,27 @@ use pyo3::prelude::*;
 use std::fmt::{Display, Write};
 use std::sync::Arc;
 
-/// What the numbers of a scene become in the kind of numbers that it is solved in.
+/// Conversion of the numbers of a scene to the kind of numbers in which it is solved.
 pub trait Lift: Sized {
     type Of: Real + Named;
 
-    /// The number that is called this in Python.
+    /// Returns the number with this name in Python.
     fn number(&mut self, name: impl Display, value: f64) -> Self::Of;
 
-    /// What belongs to this name: it is put before the names of all numbers in it.
+    /// Does work inside this name: it is put before the names of all numbers in the work.
     fn inside<R>(&mut self, name: impl Display, work: impl FnOnce(&mut Self) -> R) -> R;
 
     fn body(&mut self, py: Python<'_>, body: &Profile) -> PyResult<Built<Self::Of>>;
 
     fn curve(&self, curve: &Arc<Curve>) -> PyResult<Built<Self::Of>>;
 
-    /// Two numbers with one name.
+    /// Returns two numbers with one name.
     fn pair(&mut self, name: &str, [first, last]: [f64; 2]) -> [Self::Of; 2] {
         self.inside(name, |lift| [lift.number(0, first), lift.number(1, last)])
     }
 }
 
-/// Numbers as they are. What has been built in them is not built again.
+/// Plain numbers. Bodies that are already built are not built again.
 pub struct AsTheyAre;
 
 impl Lift for AsTheyAre {
@@ -53,7 +53,7 @@ impl Lift for AsTheyAre {
     }
 }
 
-/// A name, and how fast its number changes with a parameter.
+/// Name of a number, and its rate of change with a parameter.
 pub type Rate = (String, f64);
 
 /// Numbers with their derivative by one parameter.
@@ -61,7 +61,7 @@ pub type Rate = (String, f64);
 pub struct Varied<'r> {
     rates: &'r [Rate],
     path: String,
-    /// All that have been asked for.
+    /// All numbers that have been asked for.
     pub named: Vec<(String, f64)>,
 }
 

@@ -3,14 +3,14 @@
 use super::MOST;
 use crate::{CurvePoint, Real};
 
-/// A known point of a curve.
+/// Known point of a curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CurveSample<T> {
     pub k: T,
     pub x: T,
     pub y: T,
     pub dx: T,
-    /// `Y'/X'`
+    /// Slope `Y'/X'`.
     pub slope: T,
 }
 
@@ -20,8 +20,8 @@ impl<T: Real> CurveSample<T> {
     }
 }
 
-/// The two ends of a piece and the known points between them, from left to right; none at all before
-/// the first.
+/// The two ends of a piece and the known points between them, from left to right; empty before the
+/// first sample.
 #[derive(Clone, Debug)]
 pub(super) struct CurveSamples<T> {
     pub row: Vec<CurveSample<T>>,
@@ -32,7 +32,7 @@ impl<T: Real> CurveSamples<T> {
         Self { row: Vec::new() }
     }
 
-    /// How many there are between the ends.
+    /// Returns the number of points between the ends.
     pub fn len(&self) -> usize {
         self.row.len().saturating_sub(2)
     }
@@ -41,7 +41,7 @@ impl<T: Real> CurveSamples<T> {
         [self.row[0], self.row[self.row.len() - 1]]
     }
 
-    /// Takes other curve_samples in place of these.
+    /// Replaces all points.
     pub fn set(&mut self, [left, right]: [CurveSample<T>; 2], inner: &[CurveSample<T>]) {
         self.row.clear();
         self.row.reserve(MOST + 2);

@@ -1,4 +1,4 @@
-//! First points of a piece, where a series says about where they are.
+//! First points of a piece, near the targets by an approximate series.
 
 use super::TargetBatch;
 use super::curve_samples::{CurveSample, CurveSamples};
@@ -8,7 +8,8 @@ use crate::gap::survey::Series;
 use crate::real::is_finite;
 
 impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
-    /// Asks for points where a guide has the targets, all in one batch, and keeps them if they rise.
+    /// Evaluates points where a guide has the targets, all in one batch, and keeps them if they
+    /// rise.
     pub fn follow(&self, guide: &Series<T>, known: &mut CurveSamples<T>, cost: &mut Cost) {
         let mut k = [T::zero(); N];
         for (k, &target) in k.iter_mut().zip(self.targets) {

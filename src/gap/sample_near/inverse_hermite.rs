@@ -3,14 +3,14 @@
 use super::CurveSample;
 use crate::Real;
 
-/// The parameter as a function of x by two curve_samples: the cubic `k(x)` through both with their slopes, or
-/// where that is not monotone, the slope at the nearer one.
+/// Parameter as a function of x from two samples: the cubic `k(x)` through both with their slopes,
+/// or, where it is not monotone, the slope at the nearer one.
 pub(super) struct InverseHermite<'k, T> {
     left: &'k CurveSample<T>,
     right: &'k CurveSample<T>,
-    /// The reciprocal of the distance.
+    /// Reciprocal of the distance.
     share: T,
-    /// The coefficients of the cubic in the share of the way, without the constant.
+    /// Coefficients of the cubic in the share of the way, without the constant.
     cubic: Option<[T; 3]>,
 }
 
@@ -28,7 +28,7 @@ impl<'k, T: Real> InverseHermite<'k, T> {
         Self { left, right, share: T::one() / width, cubic }
     }
 
-    /// The parameter at x, which is between two other curve_samples, or the same.
+    /// Returns the parameter at x, which is between two other samples, or the same.
     #[inline(always)]
     pub fn parameter(&self, x: T, one: &CurveSample<T>, other: &CurveSample<T>) -> T {
         let along = (x - self.left.x) * self.share;
@@ -49,7 +49,7 @@ impl<'k, T: Real> InverseHermite<'k, T> {
     }
 }
 
-/// A step of Newton's rule from the nearer of two points, kept between them.
+/// Takes a step of Newton's rule from the nearer of two points, kept between them.
 pub(super) fn newton<T: Real>(left: CurveSample<T>, right: CurveSample<T>, target: T) -> T {
     let nearer = if target - left.x < right.x - target { left } else { right };
     let k = nearer.k + (target - nearer.x) / nearer.dx;

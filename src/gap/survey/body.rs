@@ -1,4 +1,4 @@
-//! One body of a survey: a row of panels, each as fine as it has been asked for.
+//! One body of a survey: a row of panels, each as fine as required so far.
 
 use super::check::check;
 use super::hull_in;
@@ -9,36 +9,37 @@ use crate::gap::Surface;
 use crate::numerics::chebyshev::Table;
 use crate::{CurvePoint, ProfileError, Real, Side};
 
-/// The most pieces of a joined body that are sampled at once; of more, where bodies may touch.
+/// Largest number of pieces of a joined body that are all sampled at once; of more pieces, only
+/// those where bodies may touch.
 const FEW_PIECES: usize = 16;
 
-/// The most runs that the pieces of a body are taken together in at first.
+/// Largest number of runs into which the pieces of a body are grouped at first.
 const MOST_RUNS: usize = 256;
 
-/// Parts of a piece that there is room for before more of it is taken.
+/// Number of parts of a piece for which room is reserved.
 const MOST_PARTS: usize = 16;
 
-/// The most windows by which a long body is narrowed to the other one.
+/// Largest number of windows by which a long body is narrowed to the other one.
 const MOST_WINDOWS: usize = 8;
 
-/// Series of a body after which no panel of it is refined: tens of megabytes.
+/// Number of series of a body after which no panel of it is refined: tens of megabytes.
 const MOST_SERIES: usize = 1 << 15;
 
-/// The share of a panel up to which what is asked for of it is cut out of it as a window; for more it is halved.
+/// Largest share of a panel that is cut out of it as a window; for a larger share it is halved.
 const WINDOW: f64 = 0.25;
 
-/// The margins of a window, as shares of it and of the panel: where X(k) = x is known no better.
+/// Margins of a window, as shares of it and of the panel: the error of X(k) = x by a series.
 const MARGIN: f64 = 0.25;
 const LEAST_MARGIN: f64 = 5e-4;
 
-/// A body, as it is known by now.
+/// Body as far as it is known.
 #[derive(Clone, Debug)]
 pub(super) struct Body<T> {
     pub panels: Vec<Panel<T>>,
     pub series: Vec<Series<T>>,
-    /// All points inside the common range and the ends of pieces, by rising x.
+    /// Points inside the common range and the ends of pieces, by rising x.
     pub rows: Vec<Row<T>>,
-    /// The spans of x of the panels that are new since the points were last joined with those of the other body.
+    /// Spans of x of the panels that are new since the points of both bodies were last joined.
     pub fresh: Vec<[T; 2]>,
     /// Points of the curve that a series has missed.
     pub missed: Vec<Missed<T>>,
@@ -95,7 +96,7 @@ impl<T: Real> Body<T> {
         self.fresh.clear();
         self.fresh.push(range);
         self.rows.clear();
-        // Room for each to be halved once.
+        // Room to halve each panel once.
         self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         if is_again {
             self.make_room();
@@ -131,7 +132,7 @@ impl<T: Real> Body<T> {
         points.reserve(POINTS * few);
     }
 
-    /// Returns the evaluations that it may take to refine the panels on some spans that are marked.
+    /// Returns the largest number of evaluations for refining the marked panels on some spans.
     pub fn cost(
         &self,
         surface: &Surface<'_, T>,
@@ -150,8 +151,8 @@ impl<T: Real> Body<T> {
         self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(POINTS * batches(panel)))
     }
 
-    /// Refines the panels on some spans that are marked: looks into those that are not sampled, cuts out of those that are
-    /// far longer what is on the spans, and halves others.
+    /// Refines the marked panels on some spans: samples those that are not sampled, cuts windows
+    /// around the spans out of far longer panels, and halves the others.
     pub fn refine(
         &mut self,
         surface: &Surface<'_, T>,
@@ -192,7 +193,7 @@ impl<T: Real> Body<T> {
         Ok(changes)
     }
 
-    /// Returns the ends, as t, of a window that is cut out of a panel around a span of x, if that is far shorter.
+    /// Returns the ends, as t, of a window around a span of x, if it is far shorter than the panel.
     fn window(&self, panel: &Panel<T>, series: &Series<T>, hull: [T; 2]) -> Option<[T; 2]> {
         let [start, end] = panel.k.map(|k| series.t(k));
         let [left, right] = hull.map(|x| series.parameter(x));
@@ -202,8 +203,8 @@ impl<T: Real> Body<T> {
         (series.doubt.is_finite() && is_short).then_some(cuts)
     }
 
-    /// Puts the parts of a panel in its place: a window around a span of x and what is left on either side of it, where
-    /// the series is as good as it was; or two halves.
+    /// Replaces a panel by its parts: a window around a span of x and the rest on either side of
+    /// it, where the old series is kept; or two halves.
     fn split(&mut self, panel: &Panel<T>, number: usize, hull: [T; 2]) {
         let (series, half) = (&self.series[number], T::of(0.5));
         let [start, end] = panel.k.map(|k| series.t(k));
@@ -225,13 +226,13 @@ impl<T: Real> Body<T> {
         self.push_part(rest, number, is_wanted);
     }
 
-    /// Adds a part of a panel, to be sampled or as its series has it.
+    /// Adds a part of a panel, to be sampled or with the old series.
     fn push_part(&mut self, part: Panel<T>, number: usize, is_wanted: bool) {
         if is_wanted {
             self.scratch.wanted.push(self.panels.len());
             self.panels.push(part);
         } else {
-            // Only points of its own can show that it is noise.
+            // Only points of its own can show that its uncertainty is noise.
             let since =
                 if part.since.is_finite() { (part.k[1] - part.k[0]).abs() } else { part.since };
             let doubt = self.series[number].doubt;
@@ -239,7 +240,7 @@ impl<T: Real> Body<T> {
         }
     }
 
-    /// Samples the panels that are wanted, those of a piece in one batch.
+    /// Samples the wanted panels, those of a piece in one batch.
     fn sample(
         &mut self,
         surface: &Surface<'_, T>,
@@ -269,7 +270,7 @@ impl<T: Real> Body<T> {
                     series.doubt = T::one() / T::zero();
                 }
                 let is_vain = panel.series.is_some_and(|number| {
-                    // The uncertainty of noise does not go with the length, nor that of waves too fine for the points.
+                    // Noise does not shrink with the length, nor do waves too fine for the points.
                     let share = series.share_of(&self.series[number]);
                     !is_void && series.doubt > share * panel.doubt
                 });
@@ -297,7 +298,8 @@ impl<T: Real> Body<T> {
         Ok(())
     }
 
-    /// Sets the place where a panel and the one before it meet, inside a piece, by the better known of both.
+    /// Sets the common end of a panel and the one before it, inside a piece, by the less uncertain
+    /// of both.
     fn meet(&mut self, i: usize) {
         let Some(before) = i.checked_sub(1).filter(|_| i < self.panels.len()) else { return };
         let [left, right] = [self.panels[before], self.panels[i]];
@@ -316,14 +318,14 @@ impl<T: Real> Body<T> {
         (self.panels[before].ends[1], self.panels[i].ends[0]) = (end, end);
     }
 
-    /// Lists all points.
+    /// Lists all points by rising x.
     fn list(&mut self, [first, last]: [T; 2]) {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
         self.rows.clear();
         for panel in &self.panels {
             let inner = inner(&self.series, panel);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
-            // X may stand still for its rounding, where a body is all but upright.
+            // X may stand still within its rounding, where a body is nearly upright.
             let mut reached = None;
             for &row in start.iter().chain(inner).chain(&end) {
                 if row.x.is_finite() && row.y.is_finite() && reached.is_none_or(|x| row.x > x) {
@@ -334,7 +336,7 @@ impl<T: Real> Body<T> {
         }
     }
 
-    /// Returns the numbers of the panels around x: two at a place where two meet.
+    /// Returns the numbers of the panels around x: two at a common end.
     pub fn panels_at(&self, x: T) -> [usize; 2] {
         let last = self.panels.len().saturating_sub(1);
         let after = self.panels.partition_point(|panel| panel.ends[1].x < x).min(last);
@@ -342,7 +344,8 @@ impl<T: Real> Body<T> {
         [after, after + usize::from(meets)]
     }
 
-    /// Returns height and slope at x, as a panel has it; where its series is of no use, by the points around.
+    /// Returns height and slope at x by the series of a panel; where the series is useless, by the
+    /// points around.
     pub fn at(&self, number: usize, x: T) -> Row<T> {
         let panel = &self.panels[number];
         let [mut start, mut end] = panel.ends;
@@ -394,7 +397,7 @@ fn check_joints<T: Real>(
     let (count, mut before) = (surface.len(), None);
     for index in first..=last {
         let [from, to] = surface.piece(index).x();
-        // As where it is sampled.
+        // Tolerance as in `Gap::piece_with`.
         let allowed = T::of(0.5) * (to - from).max(from.abs()).max(to.abs());
         let is_apart = before.is_some_and(|end: T| (from - end).abs() >= allowed);
         if surface.joined.is_some() && (from >= to || is_apart) {

@@ -1,12 +1,12 @@
-//! What a survey refuses at the points that it takes.
+//! Checks of the points that a survey takes.
 
 use super::panel::Panel;
 use super::series::{NODES, POINTS, Series};
 use crate::profile::{Piece, first_turn};
 use crate::{CurvePoint, ProfileError, Real};
 
-/// Refuses points where X or Y is not finite inside the common range, where X turns, and slopes by x that are not
-/// those of the points.
+/// Refuses points where X or Y is not finite inside the common range, or where X turns, and slopes
+/// by x that differ from the slopes of the points.
 pub(super) fn check<T: Real>(
     piece: &Piece<'_, T>,
     panel: &Panel<T>,
@@ -15,7 +15,7 @@ pub(super) fn check<T: Real>(
 ) -> Result<(), ProfileError<T>> {
     let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
     let [first, last] = piece.x();
-    // That of the largest terms which X may be made of.
+    // Rounding of the largest terms in the formula of X.
     let rounding = T::of(32.0) * T::epsilon() * first.abs().max(last.abs());
     let mut reached = from;
     for (i, point) in points[..NODES].iter().enumerate() {
@@ -28,7 +28,7 @@ pub(super) fn check<T: Real>(
             }
             continue;
         }
-        // An end inside a piece is only about where the series has it.
+        // An end inside a piece is known only approximately, by the series.
         let turns = i > 0 && x < reached - rounding;
         if turns || x < first - rounding || x > last + rounding {
             let back = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
@@ -44,7 +44,7 @@ pub(super) fn check<T: Real>(
     check_slopes(piece, &k, points)
 }
 
-/// Compares the slopes that a curve gives by x, if it does, with those of its points.
+/// Compares the slopes that a curve gives by x, if it does, with the slopes of its points.
 fn check_slopes<T: Real>(
     piece: &Piece<'_, T>,
     k: &[T; POINTS],

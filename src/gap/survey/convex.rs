@@ -1,16 +1,18 @@
-//! Where the gap is seen to be convex, and whether a load reaches beyond.
+//! Stretches where the gap is seen to be convex, and the reach of a load beyond them.
 //!
-//! In a contact Γ from -b to a the gap h differs from the potential `V = (1/κ) ∫ P(s) ln|x - s| ds` by a constant.
-//! Its mean, weighted by `1/(π sqrt((x + b)(a - x)))`, is that of h less `(F/κ) ln(L/2)`, as the mean of
-//! `ln|x - s|` is `ln(L/2)` wherever in Γ s is; and of a convex h it is at most `(h(-b) + h(a))/2`. No place is
-//! further than W from any of Γ, so that nothing is touched where
+//! In a contact Γ from -b to a the gap h differs from the potential `V = (1/κ) ∫ P(s) ln|x - s| ds`
+//! by a constant. The constant is the mean of h, weighted by `1/(π sqrt((x + b)(a - x)))`, less
+//! `(F/κ) ln(L/2)`, as the mean of `ln|x - s|` is `ln(L/2)` for every s in Γ. The mean of a convex
+//! h is at most `(h(-b) + h(a))/2`. No place is further than W from any point of Γ, so that nothing
+//! is touched where
 //!
 //! ```text
 //! h(x) > (h(-b) + h(a))/2 + (F/κ) ln(2 W/L)
 //! ```
 //!
-//! Between places that a load touches in a convex gap it leaves nothing open: h - V would be convex there, and zero
-//! at both ends. So one interval in a convex stretch, beyond which the gap is higher than that, is the contact.
+//! Between two places that a load touches, a convex gap is closed everywhere: otherwise h - V would
+//! be convex there, and zero at both ends. So one interval in a convex stretch is the contact, if
+//! the gap beyond the stretch is higher than this bound.
 
 use super::panel::Panel;
 use super::{Node, Survey, hull_in};
@@ -18,27 +20,28 @@ use crate::gap::{Cost, Gap};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
 
-/// Evaluations beyond which no more of them are taken for a proof alone.
+/// Number of evaluations beyond which no more are taken for a proof alone.
 const MOST_FOR_PROOF: usize = 81;
 
-/// The share of the rise of a slope from one point to the next by which both may be uncertain in a proof. A wave
-/// that hides in it has a length of about this share of the distance of the points.
+/// Largest uncertainty of two neighbouring slopes in a proof, as a share of the rise between them.
+/// A wave that hides in it has a length of about this share of the distance of the points.
 const PROOF: f64 = 1e-3;
 
-/// Spans on either side of one that must bulge like it.
+/// Number of spans on either side of a span that must bulge like it.
 const IN_A_ROW: usize = 2;
 
-/// A stretch between two points on which the gap is convex.
+/// Stretch between two points on which the gap is convex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<T> {
-    /// The numbers of its first and its last point.
+    /// Numbers of its first and its last point.
     nodes: [usize; 2],
-    /// The tilt of the bodies, and about how low the gap may be elsewhere; infinite if there is no elsewhere.
+    /// Tilt of the bodies, and the approximate lowest gap elsewhere; infinite if there is no
+    /// elsewhere.
     tilt: T,
     beyond: T,
 }
 
-/// The gap between two points, as far as it is known.
+/// Shape of the gap between two points, as far as it is known.
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
     Convex,
@@ -47,13 +50,15 @@ enum Shape {
 }
 
 impl<T: Real> Survey<T> {
-    /// Tells whether the bodies touch in one interval whatever the load: the gap is seen to be convex all over.
+    /// Tells whether the bodies touch in one interval under any load: the gap is seen to be convex
+    /// everywhere.
     pub fn is_convex(&self) -> bool {
         self.stretch.is_some_and(|stretch| stretch.nodes == [0, self.nodes.len() - 1])
     }
 
-    /// Tells whether a load F/κ that presses the bodies together on an interval touches nothing else, as they are
-    /// convex around it; halves panels as long as more points may show that.
+    /// Tells whether a load F/κ that presses the bodies together on an interval touches nothing
+    /// else, because the gap is convex around it. Halves panels as long as more points may prove
+    /// it.
     ///
     /// # Errors
     /// As [`take`](Self::take).
@@ -81,7 +86,8 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Refines the panels of either body on some spans, if that is not too dear; whether there were any.
+    /// Refines the panels of either body on some spans, if the cost is small; tells whether there
+    /// were any.
     fn refine_for_proof(
         &mut self,
         gap: &Gap<'_, T>,
@@ -98,7 +104,7 @@ impl<T: Real> Survey<T> {
         Ok(!is_dear && self.refine_at(gap, open, T::zero(), cost)?)
     }
 
-    /// Returns the height up to which a load may reach that touches an interval in a convex gap.
+    /// Returns the height up to which a load on an interval of a convex gap may reach.
     fn level_reached(&self, gap: &Gap<'_, T>, on: Interval<T>, load: T) -> T {
         let [from, to] = self.range;
         let farthest = (on.right - from).max(to - on.left);
@@ -151,7 +157,8 @@ impl<T: Real> Survey<T> {
         Stretch { nodes: [first, last], tilt: gap.tilt(), beyond }
     }
 
-    /// Returns about how low the gap may be between a point and the next; minus infinity where nothing is known.
+    /// Returns the approximate lowest gap between a point and the next; minus infinity where it is
+    /// unknown.
     fn floor(&self, gap: &Gap<'_, T>, i: usize) -> T {
         let least = |low: T, x: T, height: T| low.min(gap.turned(x, height));
         let [from, to] = [&self.nodes[i], &self.nodes[i + 1]];
@@ -160,8 +167,8 @@ impl<T: Real> Survey<T> {
         floor.filter(|floor| floor.is_finite()).unwrap_or(-T::one() / T::zero())
     }
 
-    /// Lists the spans below a level, and those of an interval, that more points may show to be convex, each for the body
-    /// that is less certain; tells whether all of them may be.
+    /// Lists the spans, below a level or on an interval, that more points may prove to be convex,
+    /// each for the body of larger uncertainty; tells whether all of them may be convex.
     fn open_below(
         &self,
         gap: &Gap<'_, T>,
@@ -193,7 +200,7 @@ impl<T: Real> Survey<T> {
         true
     }
 
-    /// Tells whether the slope rises from a point to the next, as far as is known.
+    /// Returns the shape of the gap between a point and the next, as far as it is known.
     fn shape_after(&self, i: usize) -> Shape {
         let [node, next] = [&self.nodes[i], &self.nodes[i + 1]];
         let width = next.x - node.x;
@@ -216,11 +223,11 @@ impl<T: Real> Node<T> {
     }
 }
 
-/// Lowers the uncertainty of heights where the gap is seen to bulge at several points in a row.
+/// Lowers the uncertainty of heights where the gap bulges at several points in a row.
 ///
-/// Slopes that rise at a rate c leave room for waves of a height c d²/2 over a distance d and no more, as the slopes of
-/// a higher one would fall somewhere. What a series in the parameter may miss is often far more: far up a steep
-/// flank, or where X is no polynomial.
+/// Slopes that rise at a rate c leave room for waves up to a height c d²/2 over a distance d, as
+/// the slopes of a higher wave would fall somewhere. The uncertainty of a series in the parameter
+/// is often far larger: far up a steep flank, or where X is not a polynomial.
 pub(super) fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Vec<T>) {
     let room = nodes.capacity();
     let rate = |from: &Node<T>, to: &Node<T>| {

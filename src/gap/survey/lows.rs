@@ -1,12 +1,12 @@
-//! Where the gap is low, from the points that a survey knows.
+//! Places where the gap is low, from the points of a survey.
 
 use super::segment::Segment;
 use super::{Asked, Node, Survey};
 use crate::gap::Gap;
 use crate::{Interval, Real};
 
-/// Cosines of the angles `(i + 1/2) π/8` up to a right angle, at which slopes are looked at for what a contact would
-/// bear.
+/// Cosines of the angles `(i + 1/2) π/8` up to a right angle: the places of the slopes from which
+/// the load of a contact is estimated.
 const COSINES: [f64; 4] = [
     0.980_785_280_403_230_4,
     0.831_469_612_302_545_2,
@@ -14,19 +14,21 @@ const COSINES: [f64; 4] = [
     0.195_090_322_016_128_3,
 ];
 
-/// The share of the steepest slope by which others may seem to fall.
+/// Largest apparent fall of a slope, as a share of the steepest slope.
 const SHARE_OF_SLOPES: f64 = 1e-3;
 
-/// The share of the rise of the slope between two points that is left of it where the gap is lowest; at a kink more is.
+/// Largest slope at the lowest gap, as a share of the rise of the slope between two points; at a
+/// kink it is larger.
 const SHARE_OF_RISE: f64 = 0.01;
 
-/// Steps to the place of the lowest gap from where a cubic has it.
+/// Largest number of steps from the lowest place of a cubic to the lowest gap.
 const MOST_POLISHES: usize = 6;
 
-/// How often an interval is halved in search of a width or of a place.
+/// Largest number of halvings of an interval in search of a width or a place.
 const MOST_HALVES: usize = 200;
 
-/// A height of the gap, or between two places, `[x, h, h']`, about how low it may be, and its uncertainty.
+/// Height of the gap at x, or the approximate lowest one between two places, `[x, h, h']`, and its
+/// uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LowPoint<T> {
     pub x: T,
@@ -35,9 +37,10 @@ pub(crate) struct LowPoint<T> {
     pub doubt: T,
 }
 
-/// Returns about where in a span, as a share of it, a function is lowest, and how far below the chord at most, per unit of
-/// the span: where the tangents at its ends cross, given the slopes by which they leave the chord. No convex function is
-/// lower. A cubic that turns may be: it is no lower than its tangents at a third and at two thirds of the way.
+/// Returns the approximate lowest place of a function in a span, as a share of the span, and its
+/// largest depth below the chord, per unit of the span: the crossing of the tangents at its ends,
+/// given the slopes by which they leave the chord. No convex function is lower. A cubic that turns
+/// may be lower, but not lower than its tangents at a third and at two thirds of the way.
 pub(crate) fn crossing<T: Real>([first, second]: [T; 2]) -> Option<[T; 2]> {
     let (zero, third) = (T::zero(), T::of(1.0 / 3.0));
     if !(first > zero || second > zero) {
@@ -59,7 +62,7 @@ impl<T: Real> Survey<T> {
         upper - lower
     }
 
-    /// Returns the uncertainty of the height at x, that of x itself with it.
+    /// Returns the uncertainty of the height at x, including the rounding of x.
     pub fn doubt_at(&self, x: T) -> T {
         let doubt = |body: &super::Body<T>| {
             let panel = body.panels_at(x)[1];
@@ -70,20 +73,21 @@ impl<T: Real> Survey<T> {
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }
 
-    /// Returns the slope of the gap at x, as far as it is known; at a breakpoint that on its right.
+    /// Returns the slope of the gap at x, as far as it is known; at a breakpoint the slope on its
+    /// right.
     pub fn slope(&self, x: T) -> T {
         let slope = |body: &super::Body<T>| body.at(body.panels_at(x)[1], x).slope;
         let [lower, upper] = self.bodies.each_ref().map(slope);
         upper - lower
     }
 
-    /// The height of the gap wherever either body was sampled, `[x, h]` by rising x.
+    /// Returns the gap wherever either body was sampled, `[x, h]` by rising x.
     pub fn heights(&self, gap: &Gap<'_, T>) -> Vec<[T; 2]> {
         self.nodes.iter().map(|node| [node.x, gap.turned(node.x, node.height)]).collect()
     }
 
-    /// Returns where the gap may be low between a node and the next: where their tangents [cross](crossing), or else in the
-    /// middle.
+    /// Returns the place of the lowest gap between a node and the next: where their tangents
+    /// [cross](crossing), or else the middle.
     pub(super) fn low_between(&self, i: usize) -> Option<LowPoint<T>> {
         let chord = |i: usize| {
             let [from, to] = [self.nodes.get(i)?, self.nodes.get(i + 1)?];
@@ -92,7 +96,7 @@ impl<T: Real> Survey<T> {
         let (from, to, over) = (self.nodes[i], self.nodes.get(i + 1)?, chord(i)?);
         let width = to.x - from.x;
         let [first, second] = [over - from.slopes[1], to.slopes[0] - over];
-        // An end that is all but upright, or a kink, says nothing of what is between.
+        // An end that is nearly upright, or a kink, tells nothing about the span.
         let leap = |beside: Option<T>| beside.map_or(T::zero(), |beside| (over - beside).abs());
         let [before, behind] = [i.checked_sub(1).and_then(chord), chord(i + 1)].map(leap);
         let within = |bend: T, other: T, leap: T| bend.min(leap.max(other + other));
@@ -108,7 +112,7 @@ impl<T: Real> Survey<T> {
         Some(LowPoint { x, height, between: Some(ends), doubt: from.after })
     }
 
-    /// Returns all places where the gap may be low: the nodes, and one between each two.
+    /// Returns all places where the gap may be low: the nodes, and one place between each two.
     pub fn low_points(&self) -> impl Iterator<Item = LowPoint<T>> {
         let both = move |(i, &Node { x, height, .. }): (usize, &Node<T>)| {
             [Some(LowPoint { x, height, between: None, doubt: T::zero() }), self.low_between(i)]
@@ -116,14 +120,14 @@ impl<T: Real> Survey<T> {
         self.nodes.iter().enumerate().flat_map(both).flatten()
     }
 
-    /// Returns the place of the lowest gap; the middle of it where that is a span.
+    /// Returns the place of the lowest gap; its middle where it is a span.
     pub fn lowest(&self) -> T {
         self.lowest
     }
 
-    /// Tells whether the slope rises from point to point, and no chord between two is steeper or less steep than both.
-    /// What the panels are uncertain by, and formulas that cancel, is allowed for up to a share of all slopes: more
-    /// would hide waves.
+    /// Tells whether the slope rises from point to point, and the slope of every chord lies between
+    /// the slopes at its ends. The uncertainty of the panels and cancellation in formulas are
+    /// allowed for up to a share of all slopes: a larger allowance would hide waves.
     pub fn bulges(&self) -> bool {
         let slopes = self.nodes.iter().flat_map(|node| node.slopes);
         let steepest = slopes.filter(|slope| slope.is_finite());
@@ -140,13 +144,13 @@ impl<T: Real> Survey<T> {
                 let doubt =
                     from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
                 let allowed = from.rounding(to) + doubt.min(most);
-                // A slope at an end may be no number.
+                // A slope at an end may be NaN.
                 chord < from.slopes[1] - allowed || chord > to.slopes[0] + allowed
             })
     }
 
-    /// Whether the gap falls all the way to its lowest place and rises from there, as it looks, as far as the load reaches
-    /// that was asked for.
+    /// Tells whether the gap seems to fall all the way to its lowest place and to rise from there,
+    /// as far as the load of the last refinement reaches.
     pub fn is_one_valley(&self) -> bool {
         self.is_one
             || self.nodes.windows(2).all(|pair| {
@@ -161,7 +165,7 @@ impl<T: Real> Survey<T> {
             })
     }
 
-    /// Returns about the load that a contact of a half-width around the lowest gap bears, as F/κ:
+    /// Returns the approximate load, as F/κ, of a contact of a half-width around the lowest gap:
     /// `F = (L/π) ∫ g cos θ dθ`.
     fn borne(&self, half_width: T) -> T {
         let sum = COSINES.iter().fold(T::zero(), |sum, &cosine| {
@@ -173,13 +177,13 @@ impl<T: Real> Survey<T> {
         half_width * sum / T::count(2 * COSINES.len())
     }
 
-    /// Returns about the slope of the gap at x, by the points around it.
+    /// Returns the approximate slope of the gap at x, from the points around it.
     fn slope_near(&self, x: T) -> T {
         let [_, slope] = self.near(x);
         slope
     }
 
-    /// Returns about the height of the gap at x, by the points around it.
+    /// Returns the approximate height of the gap at x, from the points around it.
     pub(super) fn height_near(&self, x: T) -> T {
         let [height, _] = self.near(x);
         height
@@ -192,7 +196,7 @@ impl<T: Real> Survey<T> {
         segment.at(t.max(T::zero()).min(T::one()))
     }
 
-    /// Returns about the load that is asked for, as F/κ.
+    /// Returns the approximate load for a prescribed quantity, as F/κ.
     pub fn load_of(&self, asked: Asked<T>) -> T {
         match asked {
             Asked::Load(load) | Asked::Turning(load) => load,
@@ -213,14 +217,12 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Returns an interval about the lowest gap, somewhat wider than one that bears a load F/κ.
-    ///
-    /// At the limits of a round body the gap is higher by F/κ, and by less where it rises late and steeply: of the
-    /// intervals up to a level, each half as high as the one before, it is the last that bears the load.
+    /// Returns an interval around the lowest gap, somewhat wider than one that carries a load F/κ:
+    /// the last that carries it, of intervals each half as wide as the one before.
     pub fn around_lowest(&self, load: Option<T>) -> Interval<T> {
         let (half, quarter, [from, to]) = (T::of(0.5), T::of(0.25), self.range);
         let around = |reach: T| {
-            // No further than half the way to an end, where the slope may be infinite.
+            // At most half the way to an end, where the slope may be infinite.
             let x = self.lowest;
             let room = [half * (x - from), half * (to - x)].map(|room| reach.min(room));
             let least = T::of(64.0) * T::epsilon() * (from.abs() + to.abs());
@@ -238,13 +240,13 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Returns the half-width of the narrowest interval about the lowest gap, of some each half as wide as the one
-    /// before, that bears a load.
+    /// Returns the half-width of the narrowest interval around the lowest gap that carries a load,
+    /// of intervals each half as wide as the one before.
     pub(super) fn reach_of(&self, load: T) -> T {
         let half = T::of(0.5);
         let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
         for _ in 0..MOST_HALVES {
-            // Not a number where nothing is known of the slope.
+            // NaN where the slope is unknown.
             let bears = self.borne(half * reach) >= load;
             if !bears {
                 break;
@@ -254,8 +256,9 @@ impl<T: Real> Survey<T> {
         reach
     }
 
-    /// The interval about the lowest gap in which it rises by less than so much, as it looks; to an end of the bodies,
-    /// where the slope may be infinite, half the way.
+    /// Returns the interval around the lowest gap in which the gap seems to rise by less than
+    /// `rise`. Towards an end of the bodies, where the slope may be infinite, it reaches half the
+    /// way from the last node.
     pub fn below(&self, rise: T) -> Interval<T> {
         let (x, [from, to]) = (self.lowest, self.range);
         let heights = self.bodies.each_ref().map(|body| body.at(body.panels_at(x)[1], x).y.abs());
@@ -268,7 +271,7 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Where the gap rises to a level, over samples from the lowest gap outward.
+    /// Finds the place where the gap rises to a level, over nodes from the lowest gap outward.
     fn rises_to<'n>(&self, level: T, outward: impl Iterator<Item = &'n Node<T>>, end: T) -> T
     where
         T: 'n,
@@ -295,8 +298,8 @@ impl<T: Real> Survey<T> {
         high
     }
 
-    /// The interval of a half-width about the lowest gap at whose two ends that is as high, as it looks, if there is
-    /// room for it.
+    /// Returns the interval of a half-width around the lowest gap with apparently equal heights at
+    /// both ends, if there is room for it.
     pub fn level(&self, half_width: T) -> Interval<T> {
         let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
         let mut left = (x - half_width).max(from + half_width);
@@ -314,11 +317,11 @@ impl<T: Real> Survey<T> {
     }
 
     pub(super) fn find_lowest(&self, nodes: &[Node<T>]) -> T {
-        // Heights far off may be so large that all of the others are nothing beside their rounding.
+        // Heights far away may be so large that all others vanish in their rounding.
         let rounding = |one: T, other: T| T::of(8.0) * T::epsilon() * (one.abs() + other.abs());
         let mut lowest: Option<(T, [T; 2])> = None;
         let mut consider = |x: T, height: T| match &mut lowest {
-            // Next to the last that was as low.
+            // As low as the lowest so far: extends the span.
             Some((least, on)) if (height - *least).abs() <= rounding(height, *least) => {
                 on[1] = x;
             }
@@ -338,12 +341,13 @@ impl<T: Real> Survey<T> {
         if from == to {
             return from;
         }
-        // As low at two places apart: the first of them.
+        // Two separate places are equally low: takes the first.
         let [least, height] = [self.height(from), self.height(middle)];
         if height <= least + rounding(height, least) { middle } else { from }
     }
 
-    /// Returns the place between two nodes where the slope passes through zero, near one where a cubic has it.
+    /// Returns the place between two nodes where the slope passes through zero, near the zero of a
+    /// cubic.
     pub(super) fn polished(&self, x: T) -> T {
         let nodes = &self.nodes;
         let after = nodes.partition_point(|node| node.x < x);
@@ -364,7 +368,8 @@ impl<T: Real> Survey<T> {
             if slope.abs() <= T::of(64.0) * T::epsilon() * rise {
                 return at;
             }
-            // Of two slopes on one side in a row the other one counts half (Illinois).
+            // The slope at the other end counts half (as in the Illinois method, but at every
+            // step).
             if slope > T::zero() {
                 (high, rises, falls) = (at, slope, T::of(0.5) * falls);
             } else {

@@ -1,8 +1,9 @@
-//! Pieces of a body, of which only the ends are looked at.
+//! Pieces of a body that are known only by their ends.
 //!
-//! The spline of measured points is a cubic between two of them, and there may be 100 000. What counts where the bodies
-//! cannot touch is how far a run of pieces is from the one cubic between its ends: with heights that differ by d at the
-//! ends of a piece, and slopes by e, two cubics of a width w differ by no more than `|d| + (4/27) w (|e₀| + |e₁|)`.
+//! The spline of measured points is a cubic between two of them, and there may be 100 000. Where
+//! the bodies cannot touch, only the distance of a run of pieces from the one cubic between its
+//! ends counts: with heights that differ by d at the ends of a piece, and slopes by e, two cubics
+//! of a width w differ by no more than `|d| + (4/27) w (|e₀| + |e₁|)`.
 
 use super::panel::{Panel, row};
 use super::segment::Segment;
@@ -11,20 +12,21 @@ use crate::Real;
 use crate::gap::Surface;
 use crate::profile::{Convexity, Piece};
 
-/// The most that a cubic which is 0 at both ends of a unit span rises in it for a unit of its slope at one end.
+/// Largest height of a cubic that is 0 at both ends of a unit span, for a unit of its slope at one
+/// end.
 const RISE: f64 = 4.0 / 27.0;
 
-/// Units in the last place by which slopes of a cubic may be off.
+/// Rounding error of slopes of a cubic, in units in the last place.
 const ROUNDING: f64 = 64.0;
 
-/// Where a piece is looked at to tell whether it is a cubic, in shares of the way.
+/// Places at which a piece is compared with a cubic, in shares of the way.
 const PLACES: [f64; 2] = [0.3, 0.7];
 
-/// The most runs that a run is cut into.
+/// Largest number of runs into which a run is divided.
 const PARTS: usize = 16;
 
 impl<T: Real> Panel<T> {
-    /// Makes the panel of some pieces of a body, of which nothing is known but their ends.
+    /// Makes the panel of some pieces of a body, known only by their ends.
     pub fn of_pieces(surface: &Surface<'_, T>, [first, last]: [usize; 2]) -> Self {
         let (start, end) = (surface.piece(first), surface.piece(last));
         let ends = [row(start.ends[0]), row(end.ends[1])];
@@ -51,8 +53,8 @@ impl<T: Real> Panel<T> {
         panel
     }
 
-    /// Returns the panel with the cubic between its ends, if the slopes inside its pieces bear out that they are
-    /// cubics, where the curve gives them by x.
+    /// Returns the panel with the cubic between its ends, if the slopes that the curve gives by x
+    /// show that its pieces are cubics.
     pub fn settled(&self, surface: &Surface<'_, T>) -> Option<Self> {
         let mut pieces = (self.piece..=self.last).map(|index| surface.piece(index));
         if !pieces.all(|piece| is_cubic(&piece)) {
@@ -77,9 +79,10 @@ impl<T: Real> Panel<T> {
         })
     }
 
-    /// Sets the uncertainties of the heights and of the slopes of the cubic between both ends, given whether the pieces
-    /// are cubics. A slope that is off by e at the end of a piece may bend by `e/w` in it: uncertain by `e W/w` it tells
-    /// as much of the bend over all of the run, of a width W.
+    /// Sets the uncertainties of the heights and of the slopes of the cubic between both ends,
+    /// given whether the pieces are cubics. A slope that is off by e at the end of a piece may
+    /// stand for a curvature `e/w` in the piece; over the whole run, of a width W, the same
+    /// curvature makes a slope uncertain by `e W/w`.
     fn set_doubts(&mut self, surface: &Surface<'_, T>, are_cubics: bool) {
         let zero = T::zero();
         let [start, end] = self.ends;
@@ -112,20 +115,21 @@ fn larger<T: Real>(most: T, value: T) -> T {
     if value.is_finite() { most.max(value) } else { T::one() / T::zero() }
 }
 
-/// Tells whether a piece is known by its ends: it is straight, or has none.
+/// Tells whether a piece is known by its ends: it is straight, or endless.
 fn is_known<T: Real>(piece: &Piece<'_, T>) -> bool {
     let [from, to] = piece.x();
     let is_endless = T::max_value().is_some_and(|most| to - from > T::of(0.125) * most);
     is_endless || piece.curve.convexity() == Convexity::Straight
 }
 
-/// Returns how far the cubic between two ends bulges from the line through both.
+/// Returns the approximate distance of the cubic between two ends from the line through both.
 fn bulge<T: Real>([start, end]: &[Row<T>; 2]) -> T {
     let size = (end.slope - start.slope).abs() * (end.x - start.x);
     if size.is_finite() { size } else { (end.y - start.y).abs() }
 }
 
-/// Tells whether the slopes of a piece, where the curve gives them by x, are those of the cubic between its ends.
+/// Tells whether the slopes of a piece, where the curve gives them by x, agree with the cubic
+/// between its ends.
 fn is_cubic<T: Real>(piece: &Piece<'_, T>) -> bool {
     let [start, end] = piece.ends.map(row);
     let segment = Segment::exact([start.x, start.y], [end.x, end.y], [start.slope, end.slope]);

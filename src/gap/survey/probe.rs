@@ -1,7 +1,8 @@
-//! Features narrower than the distance of the points of a panel.
+//! Features narrower than the distance between the points of a panel.
 //!
-//! A bump of a full width w at half its height is a share `exp(-2.77 (d/w)²)` of its height at a distance d from its
-//! top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, as long as the series between them is as exact.
+//! A bump of a full width w at half its height has the share `exp(-2.77 (d/w)²)` of its height at a
+//! distance d from its top: 3e-8 at d = 2.5 w. Points no further apart than 5 w see it, if the
+//! series between them is as accurate.
 
 use super::body::{Body, Scratch};
 use super::lows::segment;
@@ -11,41 +12,46 @@ use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
 
-/// The distance of points by default, in widths of the narrowest feature to be seen.
+/// Default distance of points, in widths of the narrowest feature to be seen.
 const APART: f64 = 4.5;
 
-/// Times the load that is looked ahead for: one that is larger by a few per cent asks for no more points.
+/// Factor of the load for which features are sought: a load larger by a few per cent needs no more
+/// points.
 const AHEAD: f64 = 1.05;
 
-/// The share of F/κ by which panels may be uncertain that the foot of a bump is to be seen beside.
+/// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
 const EXACT: f64 = 1e-3;
 
-/// The share of F/κ by which panels beside a contact may be uncertain: crests of that height may hide.
+/// Largest uncertainty of panels next to a contact, as a share of F/κ: crests of this height may
+/// hide.
 pub(crate) const VAGUE: f64 = 0.1;
 
-/// Times the uncertainty of a panel by which a point may miss it.
+/// Largest distance of a point from a panel that does not count as missed, as a multiple of its
+/// uncertainty.
 const MISSED: f64 = 8.0;
 
-/// Looks at stretches, each at the panels that the one before has refined.
+/// Largest number of searches of stretches, each on the panels that the one before has refined.
 const MOST_ROUNDS: usize = 40;
 
-/// Points for one load by default. Where a load reaches further than so many are close, as between steps of narrow
-/// flanks, they are further apart.
+/// Largest number of points for one load by default. Where a load reaches too far for this number,
+/// as between steps of narrow flanks, the points are further apart.
 const MOST_POINTS: usize = 1 << 10;
 
-/// Halvings in search of the place where the gap leaves the reach of a load.
+/// Largest number of halvings in search of the place where the gap leaves the reach of a load.
 const MOST_HALVES: usize = 60;
 
-/// A span of x outside the contacts between two points of the survey, and the distance of points to have there.
+/// Span of x outside the contacts between two points of the survey, and the distance of points
+/// required there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<T> {
     x: [T; 2],
     apart: T,
-    /// Whether a point there is missed.
+    /// True if a point there is missed.
     is_missed: bool,
 }
 
-/// Adds a stretch to those on its left. One that borders on the last and is looked at alike continues it.
+/// Adds a stretch to those on its left. It continues the last one if it borders on it and is
+/// sampled alike.
 fn add<T: Real>(stretches: &mut Vec<Stretch<T>>, next: Stretch<T>) {
     match stretches.last_mut() {
         Some(last)
@@ -59,7 +65,7 @@ fn add<T: Real>(stretches: &mut Vec<Stretch<T>>, next: Stretch<T>) {
     }
 }
 
-/// A point to be asked for: the numbers of its stretch and its panel, its place there and its parameter.
+/// Point to be evaluated: the numbers of its stretch and its panel, its place t and its parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Probe<T> {
     stretch: usize,
@@ -69,7 +75,7 @@ pub(super) struct Probe<T> {
 }
 
 impl<T: Real> Stretch<T> {
-    /// Tells whether another one has points about as close all over this one.
+    /// Tells whether another stretch covers this one with points at least as close.
     fn is_seen_by(&self, other: &Self) -> bool {
         let [from, to] = other.x;
         from <= self.x[0] && to >= self.x[1] && other.apart <= self.apart
@@ -77,18 +83,19 @@ impl<T: Real> Stretch<T> {
 }
 
 impl<T: Real> Survey<T> {
-    /// Tells whether narrow features were looked for under a heavier load: beside its contacts a lighter one touches
-    /// nothing.
+    /// Tells whether narrow features were sought under a load that is no lighter: next to its
+    /// contacts a lighter load touches nothing.
     pub fn is_resolved(&self, gap: &Gap<'_, T>, load: T) -> bool {
         self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()))
     }
 
-    /// Forgets under which load narrow features were looked for, as others are asked for.
+    /// Forgets the load under which narrow features were sought, as other features are required.
     pub fn look_again(&mut self) {
         self.resolved = None;
     }
 
-    /// Looks for narrow features that the load F/κ may press on beside the contacts, and refines panels that miss one.
+    /// Looks for narrow features that the load F/κ may press on outside the contacts, and refines
+    /// panels that miss one.
     ///
     /// # Errors
     /// As [`take`](Self::take).
@@ -145,7 +152,7 @@ impl<T: Real> Survey<T> {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             marked[0].extend(stretches.iter().map(|stretch| stretch.x));
-            // Those that are void.
+            // Refines void panels only.
             let most = T::max_value().unwrap_or(T::one() / T::epsilon());
             let refined = self.refine_at(gap, [&marked[0]; 2], most, cost);
             self.marked = marked;
@@ -156,8 +163,8 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Refines panels on some stretches until they are as exact as the load F/κ asks for, or noise; tells whether there
-    /// were any.
+    /// Refines panels on some stretches until they are as accurate as the load F/κ requires, or
+    /// noise; tells whether there were any.
     fn refine_stretches(
         &mut self,
         gap: &Gap<'_, T>,
@@ -171,7 +178,7 @@ impl<T: Real> Survey<T> {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
-            // What a halving leaves as uncertain takes many of them.
+            // Uncertainty that does not fall by halving would take many halvings.
             let is_worth_it =
                 |x: &[T; 2]| self.is_vague_in(x, vague) || self.converges_in(x, tolerance);
             marked[0].extend(spans.filter(is_worth_it));
@@ -188,7 +195,8 @@ impl<T: Real> Survey<T> {
         Ok(is_finer)
     }
 
-    /// Tells whether more points may help in a span with a panel that is more uncertain than `most`.
+    /// Tells whether a span has a panel that is more uncertain than `most` and to which more points
+    /// may help.
     fn is_vague_in(&self, span: &[T; 2], most: T) -> bool {
         let mut panels = self.bodies.iter().flat_map(|body| &body.panels);
         let spans = std::slice::from_ref(span);
@@ -202,8 +210,8 @@ impl<T: Real> Survey<T> {
         inside.all(|panel| panel.doubt <= tolerance || panel.converges())
     }
 
-    /// Lists the spans between points and contacts where the gap may be within reach of a load, and its points are
-    /// further apart than the distance to have.
+    /// Lists the spans between points and contacts where the gap may be within reach of a load, and
+    /// where points are further apart than required.
     fn list_stretches(
         &self,
         gap: &Gap<'_, T>,
@@ -221,7 +229,7 @@ impl<T: Real> Survey<T> {
         let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
         let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
-        // Points of one body are none of the other.
+        // A point of one body need not be a point of the other.
         let is_asked = gap.resolution().is_some();
         let mut next = 0;
         for pair in self.nodes.windows(2) {
@@ -235,7 +243,7 @@ impl<T: Real> Survey<T> {
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
                 let apart = gap.spacing(narrow, APART);
-                // A limit of a contact is no point.
+                // A limit of a contact is not a point.
                 let is_beside = from > pair[0].x || end < to;
                 let least = if is_beside { T::of(0.5) * apart } else { apart };
                 let is_wide = |x: [T; 2]| x[1] - x[0] > least;
@@ -243,10 +251,10 @@ impl<T: Real> Survey<T> {
                     && let Some(x) = within(gap, pair, [from, end], level + pair[0].after)
                     && (is_wide(x) || is_asked)
                 {
-                    // Where a panel is void it takes more of them first.
+                    // A void panel must be refined first.
                     let is_missed = !pair[0].after.is_finite();
                     let next = Stretch { x, apart, is_missed };
-                    // Points in a longer one are placed in each by itself.
+                    // A long stretch gets points of its own; short ones are merged.
                     if is_wide(x) { found.push(next) } else { add(found, next) }
                 }
                 from = on.map_or(to, |on| end.max(on.right));
@@ -264,7 +272,7 @@ impl<T: Real> Survey<T> {
         }
     }
 
-    /// Checks whether the budget allows the points that some stretches ask for.
+    /// Checks that the budget allows the points on some stretches.
     fn check_points(
         &self,
         gap: &Gap<'_, T>,
@@ -284,7 +292,8 @@ impl<T: Real> Survey<T> {
     }
 }
 
-/// Cuts a span between two points off about where the gap rises to a level, at the end that is not below it.
+/// Cuts a span between two points at about the place where the gap rises to a level, if an end is
+/// above it.
 fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> Option<[T; 2]> {
     let curve = segment(&pair[0], &pair[1]);
     let is_below = |x: T| gap.turned(x, curve.at((x - pair[0].x) / curve.width)[0]) < level;
@@ -305,7 +314,8 @@ fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> O
 }
 
 impl<T: Real> Body<T> {
-    /// Asks the curve for points on some stretches, those of a piece in one batch, and voids panels that they miss.
+    /// Evaluates points on some stretches, those of a piece in one batch, and voids panels that
+    /// miss them.
     fn probe(
         &mut self,
         gap: &Gap<'_, T>,
@@ -373,7 +383,7 @@ impl<T: Real> Body<T> {
             let ends = [from, to].map(|x| series.parameter(x));
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);
-                // Evenly in t is about evenly in x.
+                // Even spacing in t is nearly even in x.
                 let t = match gap.resolution() {
                     Some(_) => series.parameter(from + share * (to - from)),
                     None => ends[0] + share * (ends[1] - ends[0]),

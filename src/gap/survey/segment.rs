@@ -2,13 +2,14 @@
 
 use crate::Real;
 
-/// Hermite's cubic, by the share t of the way from one point to the next.
+/// Hermite's cubic, over the share t of the way from one point to the next.
 pub(super) struct Segment<T> {
     pub width: T,
     height: T,
-    /// The slope from end to end.
+    /// Slope from end to end.
     pub chord: T,
-    /// The chord's slope less that at the start, and the slope at the end less the chord's.
+    /// Slope of the chord less the slope at the start, and slope at the end less the slope of the
+    /// chord.
     bends: [T; 2],
 }
 
@@ -18,11 +19,11 @@ impl<T: Real> Segment<T> {
         let width = to - from;
         let chord = (other - height) / width;
         let [first, second] = [chord - slopes[0], slopes[1] - chord];
-        // Beyond twice the other one the cubic would leave the triangle of the tangents, and an end that
-        // is all but upright, or a kink, would make it swing.
+        // With a bend of more than twice the other one the cubic would leave the triangle of the
+        // tangents, and an end that is nearly upright, or a kink, would make it swing.
         let within = |bend: T, other: T| {
             let most = T::of(2.0) * other.abs();
-            // Not a number where the slope is not known: as on a parabola.
+            // NaN where the slope is not known: then as on a parabola.
             if bend.partial_cmp(&bend).is_some() { bend.max(-most).min(most) } else { other }
         };
         let bends = [within(first, second), within(second, first)];
@@ -30,7 +31,7 @@ impl<T: Real> Segment<T> {
         Self { width, height, chord, bends: bends.map(usable) }
     }
 
-    /// Makes the same cubic whatever its bends: of a body that is known to be one.
+    /// Makes the cubic whatever its bends, for a body that is known to be a cubic.
     pub fn exact([from, height]: [T; 2], [to, other]: [T; 2], slopes: [T; 2]) -> Self {
         let width = to - from;
         let chord = (other - height) / width;
@@ -47,7 +48,7 @@ impl<T: Real> Segment<T> {
         [self.height + self.width * (t * self.chord - bulge), self.chord - slope]
     }
 
-    /// Returns the share of the way to the lowest place, if that is between the ends.
+    /// Returns the share of the way to the lowest place, if it is between the ends.
     pub fn minimum(&self) -> Option<T> {
         let ([first, second], two, three) = (self.bends, T::of(2.0), T::of(3.0));
         // The slope is a + b t + c t².
@@ -55,7 +56,7 @@ impl<T: Real> Segment<T> {
         let b = two * (two * first - second);
         let c = three * (second - first);
         let root = (b * b - T::of(4.0) * a * c).sqrt();
-        // Of the two zeros that where the slope rises.
+        // Zero at which the slope rises.
         let t = if b > T::zero() { -two * a / (b + root) } else { (root - b) / (two * c) };
         (t > T::zero() && t < T::one()).then_some(t)
     }

@@ -1,66 +1,67 @@
-//! A stretch of a smooth curve as two series in its parameter, made from few points of it.
+//! A stretch of a smooth curve as two series in its parameter, made from few of its points.
 //!
-//! A call of a curve gives a place and its rate. The rates X'(k), Y'(k) at Chebyshev's nodes make two
-//! series; their integrals are compared with X and Y there, which are independent data. The mismatch
-//! and the last coefficients say how far the series can be trusted: a wave too fine for them shows in
-//! the mismatch.
+//! A call of a curve gives a point and its rates. The rates X'(k), Y'(k) at Chebyshev's nodes make
+//! two series; their integrals are compared with X and Y there, which are independent data. The
+//! mismatch and the last coefficients measure the error of the series: a wave too fine for them
+//! shows in the mismatch.
 
 use crate::numerics::chebyshev::{Table, evaluate, values};
 use crate::profile::{Noise, Piece};
 use crate::{CurvePoint, Real};
 use std::array::from_fn;
 
-/// Chebyshev nodes of a stretch.
+/// Number of Chebyshev nodes of a stretch.
 pub(super) const NODES: usize = 8;
 
-/// All points of a stretch: one more, which the series must meet. Nothing that vanishes at all nodes, as a Chebyshev
-/// polynomial does, vanishes there.
+/// Number of points of a stretch: one more than the nodes, which the series must meet. A Chebyshev
+/// polynomial that vanishes at all nodes does not vanish there.
 pub(super) const POINTS: usize = NODES + 1;
 
-/// The place of that one.
+/// Place of the additional point, as t.
 const PROBE: f64 = 0.086;
 
-/// Steps to the root of `X(t) = x`, each by Newton's rule or a bisection.
+/// Largest number of steps to the root of `X(t) = x`, each by Newton's rule or a bisection.
 const MOST_STEPS: usize = 60;
 
-/// Units in the last place by which a sum of a series may be off.
+/// Rounding error of a sum of a series, in units in the last place.
 const ROUNDING: f64 = 32.0;
 
-/// Units in the last place of the ends of a piece beyond which an uncertainty is not put down to noise.
+/// Largest uncertainty that is ascribed to noise, in units in the last place of the ends of a
+/// piece.
 const LARGEST_NOISE: f64 = (1 << 20) as f64;
 
-/// Times the noise of the heights that a series may be uncertain by for it.
+/// Largest uncertainty of a series by noise, as a multiple of the noise of the heights.
 const NOISE: f64 = 8.0;
 
-/// A point of a body as a graph over x.
+/// Point of a body as a graph over x.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row<T> {
     pub x: T,
     pub y: T,
-    /// dY/dX; may be infinite, or NaN where `Y'/X'` is 0/0.
+    /// Slope dY/dX; may be infinite, or NaN where `Y'/X'` is 0/0.
     pub slope: T,
-    /// Uncertainty of the slopes around it, beyond rounding.
+    /// Uncertainty of the slopes around the point, beyond rounding.
     pub doubt: T,
 }
 
-/// X and Y over a variable t from -1, the left end of a stretch, to 1.
+/// Series of X and Y over a variable t from -1, the left end of a stretch, to 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T> {
-    /// The range of the parameter of the curve, and X there.
+    /// Range of the parameter of the curve, and X at its ends.
     k: [T; 2],
     between: [T; 2],
     x: [T; NODES + 1],
     y: [T; NODES + 1],
-    /// The points it is made from, by rising x.
+    /// Points that it is made from, by rising x.
     pub(super) rows: [Row<T>; NODES],
     /// Uncertainty of the heights, a length; infinite where a point is not finite.
     pub doubt: T,
-    /// Whether the uncertainty of the heights is rounding.
+    /// True if the uncertainty of the heights is rounding.
     pub is_exact: bool,
 }
 
 impl<T: Real> Series<T> {
-    /// Returns the parameters of the points that a series on a range of k is made from.
+    /// Returns the parameters of the points from which a series on a range of k is made.
     pub fn parameters([left, right]: [T; 2]) -> [T; POINTS] {
         let (half, table) = (T::of(0.5), Table::of(NODES));
         let (middle, reach) = (half * left + half * right, half * right - half * left);
@@ -75,14 +76,15 @@ impl<T: Real> Series<T> {
         let steep =
             ((points[NODES - 1].y - points[0].y) / (points[NODES - 1].x - points[0].x)).abs();
         let slopes: [T; NODES] = from_fn(|j| points[j].dy / points[j].dx);
-        // A point of the series lies beside the curve; what counts is its distance along y.
+        // A point of the series lies next to the curve; its distance along y counts.
         let missed = (0..POINTS).fold(zero, |most, j| {
             let slope = points[j].dy / points[j].dx;
             let slope = if slope.is_finite() { slope } else { steep };
             most.max((y.missed[j] - slope * x.missed[j]).abs())
         });
         let tail = y.tail + if x.tail.is_zero() { zero } else { steep * x.tail };
-        // The next coefficients of the heights are those of the rates, halved and divided by their number.
+        // The next coefficients of the heights are half those of the rates, divided by their
+        // number.
         let rounding = y.rounding + if x.rounding.is_zero() { zero } else { steep * x.rounding };
         let doubt = missed + tail / T::count(NODES);
         let rows = from_fn(|j| {
@@ -93,7 +95,7 @@ impl<T: Real> Series<T> {
             let doubt = if beyond > zero { beyond / rate } else { zero };
             Row { x: points[j].x, y: points[j].y, slope: slopes[j], doubt }
         });
-        // Between points at which X stands still nothing is known.
+        // Where X stands still between points the curve is unknown.
         let length = points[NODES - 1].x - points[0].x;
         let astray = x.missed.iter().fold(zero, |most, missed| most.max(missed.abs()));
         let known = doubt.is_finite() && astray <= T::of(0.1) * length;
@@ -115,7 +117,8 @@ impl<T: Real> Series<T> {
         ((k - from) - (to - k)) / (to - from)
     }
 
-    /// Tells whether it is uncertain by no more than the noise of the curve, which is measured if that may be.
+    /// Tells whether the uncertainty is noise of the curve, which is measured only for small
+    /// uncertainties.
     pub fn is_noise(&self, piece: &Piece<'_, T>, evaluations: &mut usize) -> bool {
         let sizes = piece.ends.iter().flat_map(|end| [end.x.abs(), end.y.abs()]);
         let size = sizes.filter(|size| size.is_finite()).fold(T::zero(), T::max);
@@ -127,12 +130,12 @@ impl<T: Real> Series<T> {
         self.doubt <= T::of(NOISE) * noise.of_height(self.rows[NODES / 2].slope)
     }
 
-    /// Returns the share that its range of the parameter is of another one.
+    /// Returns the length of its range of the parameter as a share of the range of another series.
     pub fn share_of(&self, other: &Self) -> T {
         ((self.k[1] - self.k[0]) / (other.k[1] - other.k[0])).abs()
     }
 
-    /// Returns about the parameter of the curve at x; `None` outside the outermost points.
+    /// Returns the approximate parameter of the curve at x; `None` outside the outermost points.
     pub fn parameter_near(&self, x: T) -> Option<T> {
         let between = [self.rows[0].x, self.rows[NODES - 1].x];
         if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
@@ -148,7 +151,8 @@ impl<T: Real> Series<T> {
         [x, y, dy / dx]
     }
 
-    /// Returns by how much it misses a point of the curve at t, along y and beyond rounding.
+    /// Returns the distance of the series from a point of the curve at t, along y and beyond
+    /// rounding.
     pub fn miss(&self, t: T, point: &CurvePoint<T>) -> T {
         let [x, y, _] = self.at_t(t);
         let slope = point.dy / point.dx;
@@ -172,7 +176,7 @@ impl<T: Real> Series<T> {
             return if x <= from { low } else { high };
         }
         let mut t = self.guess(x);
-        // Newton's rule squares what is left.
+        // Newton's rule squares the error.
         let small = T::of(0.125) * T::epsilon().sqrt();
         let mut more = T::DERIVATIVE_ORDER;
         for _ in 0..MOST_STEPS {
@@ -193,7 +197,7 @@ impl<T: Real> Series<T> {
         t
     }
 
-    /// Returns about where X(t) = x, by the points around x.
+    /// Returns an approximate solution of X(t) = x, by the points around x.
     fn guess(&self, x: T) -> T {
         let (one, [from, to]) = (T::one(), self.between);
         let after = self.rows.partition_point(|row| row.x <= x);
@@ -205,12 +209,12 @@ impl<T: Real> Series<T> {
     }
 }
 
-/// One coordinate, from its rates.
+/// Series of one coordinate, from its rates.
 struct Primitive<T> {
     series: [T; NODES + 1],
-    /// The values less the series.
+    /// Values less the series.
     missed: [T; POINTS],
-    /// The last two coefficients of the rates, and what they miss of the last one.
+    /// Size of the last two coefficients of the rates, and of the mismatch at the additional point.
     tail: T,
     rounding: T,
 }

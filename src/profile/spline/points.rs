@@ -1,4 +1,4 @@
-//! What points must be to become a profile.
+//! Conditions on points that become a profile.
 
 use crate::Real;
 use crate::rounded::{apart, six, span};
@@ -6,23 +6,25 @@ use crate::search::SearchError;
 use std::cmp::Ordering;
 use thiserror::Error;
 
-/// Points to either side of one that tell how far off is far there.
+/// Number of points to either side of a point from which the scale of the distances there is
+/// estimated.
 const AROUND: usize = 10;
 
-/// Fewest points among which an outlier can be told.
+/// Smallest number of points among which an outlier can be found.
 const FEWEST: usize = 12;
 
-/// The standard deviation of a normal distribution by the median of its absolute values.
+/// Standard deviation of a normal distribution, in units of the median of its absolute values.
 const BY_MEDIAN: f64 = 1.4826;
 
-/// Why points do not make a profile. Rows are counted from 1, as in a file with a point on each line.
+/// Reason why points do not make a profile. Rows are counted from 1, as in a file with a point on
+/// each line.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SplineError<T: Real> {
-    /// There are not enough of them.
+    /// There are too few points.
     #[error("{points} points: a spline needs four or more")]
     TooFew {
-        /// How many there are.
+        /// Number of points.
         points: usize,
     },
     /// A coordinate is NaN or infinite.
@@ -30,17 +32,17 @@ pub enum SplineError<T: Real> {
     NotFinite {
         /// Row of the point.
         row: usize,
-        /// Its x.
+        /// x of the point.
         x: T,
-        /// Its y.
+        /// y of the point.
         y: T,
     },
-    /// Two neighbours have one x, or x so near that their distance is lost.
+    /// Two neighbours have equal x, or x so close that their distance is lost.
     #[error("row {row}: x = {} as in the row before: keep one of the two, or their mean", six(*x))]
     Duplicate {
-        /// Row of the second.
+        /// Row of the second point.
         row: usize,
-        /// Their x.
+        /// x of both points.
         x: T,
     },
     /// x falls from one point to the next.
@@ -49,9 +51,9 @@ pub enum SplineError<T: Real> {
         x = apart(*x, &[*before]), before = apart(*before, &[*x])
     )]
     Unsorted {
-        /// Row of the second.
+        /// Row of the second point.
         row: usize,
-        /// Its x.
+        /// x of the second point.
         x: T,
         /// x of the row before.
         before: T,
@@ -66,13 +68,13 @@ pub enum SplineError<T: Real> {
     Outlier {
         /// Row of the point, the one that is furthest off.
         row: usize,
-        /// Its x.
+        /// x of the point.
         x: T,
-        /// Its y.
+        /// y of the point.
         y: T,
-        /// `Y` there of the cubic through its four neighbours.
+        /// `Y` at this x on the cubic through its four neighbours.
         expected: T,
-        /// How far off it is.
+        /// Distance of the point from this cubic, in standard deviations.
         deviations: T,
     },
     /// The noise is negative, NaN or infinite.
@@ -87,8 +89,8 @@ pub enum SplineError<T: Real> {
         /// The limit as given.
         deviations: T,
     },
-    /// A straight line is as close to the points as the noise allows, or expected to be nearer to the body than
-    /// any curve.
+    /// A straight line is as close to the points as the noise allows, or is expected to be nearer
+    /// to the body than any curve.
     #[error(
         "noise of {noise} leaves nothing of the points: a straight line, {line} off them, is as near as can be told; \
          give less noise, or points of more of the body", noise = apart(*noise, &[*line]),
@@ -108,15 +110,15 @@ pub enum SplineError<T: Real> {
     Overflow {
         /// Row of the point.
         row: usize,
-        /// Its x.
+        /// x of the point.
         x: T,
         /// x of the row before.
         before: T,
     },
-    /// The smoothing that the noise asks for was not found: the squares of the numbers overflow.
+    /// No smoothing was found for the noise: the squares of the numbers overflow.
     #[error("no smoothing was found: {source}. Give the points in a unit of their own size")]
     Smoothing {
-        /// Where the search for it stood.
+        /// Error of the search for the smoothing.
         source: SearchError<T>,
     },
 }
@@ -141,10 +143,10 @@ pub(super) fn check<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
     Ok(())
 }
 
-/// Refuses the point that is furthest off the curve through its neighbours, if by more than `most`
-/// standard deviations.
+/// Refuses the point that is furthest off the curve through its neighbours, if it is off by more
+/// than `most` standard deviations.
 pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), SplineError<T>> {
-    // Not for NaN either.
+    // Refuses NaN, too.
     if most.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
         return Err(SplineError::Limit { deviations: most });
     }
@@ -183,8 +185,8 @@ pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), 
     Err(SplineError::Outlier { row: i + 1, x, y, expected, deviations })
 }
 
-/// Which point near one that is off is at fault: the one without which the others are smoothest. (At
-/// an end three of them are foretold by the same five, and equally far off.)
+/// Returns the faulty point near one that is off: the point without which the others are smoothest.
+/// (At an end the same five points predict three of them, and all three are equally far off.)
 fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
     let near = i.saturating_sub(8)..(i + 9).min(points.len());
     let rough = |left_out: &usize| {
@@ -196,15 +198,15 @@ fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
     candidates.min_by(order).unwrap_or(i)
 }
 
-/// How far a point is off the cubic through its neighbours, in units such that it is the error of
-/// one height that is off by as much as all the others.
+/// Returns the distance of a point from the cubic through its neighbours, scaled to the error of a
+/// single height where all heights have equal errors.
 fn deviation<T: Real>(points: &[[T; 2]], i: usize) -> T {
     let (expected, weights) = foretold(points, i);
     (points[i][1] - expected) / (T::one() + weights).sqrt()
 }
 
-/// The height at a point by the cubic through the four nearest others of a row of five, and the sum
-/// of the squares of the weights that they have in it.
+/// Returns the height at a point by the cubic through the four nearest others of a row of five, and
+/// the sum of the squares of their weights.
 fn foretold<T: Real>(points: &[[T; 2]], i: usize) -> (T, T) {
     let start = i.saturating_sub(2).min(points.len() - 5);
     let x = points[i][0];

@@ -2,13 +2,13 @@
 
 use crate::Real;
 
-/// The slope at each of four points or more, x rising, with "not a knot" at both ends (de Boor, *A
-/// Practical Guide to Splines*, 1978, chapter IV).
+/// Returns the slope at each of four or more points, x rising, with "not a knot" at both ends (de
+/// Boor, *A Practical Guide to Splines*, 1978, chapter IV).
 pub(super) fn slopes<T: Real>(points: &[[T; 2]]) -> Vec<T> {
     let (n, two, three) = (points.len(), T::of(2.0), T::of(3.0));
     let h = |i: usize| points[i + 1][0] - points[i][0];
     let chord = |i: usize| (points[i + 1][1] - points[i][1]) / h(i);
-    // The condition at an end, from the two distances next to it, the outer one first.
+    // Condition at an end, from the two distances next to it, the outer one first.
     let end = |[h0, h1]: [T; 2], [c0, c1]: [T; 2]| {
         let sum = h0 + h1;
         (three * h0 + two * h1) * (h1 / sum) * c0 + h0 * (h0 / sum) * c1

@@ -1,35 +1,37 @@
 //! The smoothest curve at a given distance from the points.
 //!
-//! For a given α the natural cubic spline minimises `Σ (Y(xᵢ) - yᵢ)² + α ∫ Y''² dX`. By its heights
-//! and slopes at the knots this is a problem of least squares, in which an interval of length h
+//! For a given α the natural cubic spline minimises `Σ (Y(xᵢ) - yᵢ)² + α ∫ Y''² dX`. In its heights
+//! and slopes at the knots this is a least-squares problem, in which an interval of length h
 //! between `[Y₀, Y₀']` and `[Y₁, Y₁']` has two rows,
 //!
 //! ```text
 //! ∫ Y''² dX = (Y₁' - Y₀')²/h + 12/h ((Y₀' + Y₁')/2 - (Y₁ - Y₀)/h)²
 //! ```
 //!
-//! It is solved by rotations, from left to right, in time and memory of the order of the number of
+//! It is solved by rotations, from left to right, in time and memory proportional to the number of
 //! points. (Reinsch's own equations, the normal ones, have the square of its condition number: the
-//! eighth power of the number of points that the smoothing reaches over, in place of the fourth.)
+//! eighth power of the number of points that the smoothing reaches over, instead of the fourth.)
 
 use super::SplineError;
 use crate::Real;
 use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
 use nalgebra::Matrix2;
 
-/// A row of the equations: the height and the slope at two neighbouring knots, and the right side.
+/// Row of the equations: the height and the slope at two neighbouring knots, and the right side.
 type Row<T> = [T; 5];
 
-/// How often the doubt about a curve counts in its [`risk`](Fitting::risk). Once is right for heights. Twice left
-/// half the error of pressures, which follow the curvature, and bears a noise of half its true size.
+/// Weight of the uncertainty of a curve in its [`risk`](Fitting::risk). One is right for heights.
+/// Two halved the error of pressures, which follow the curvature, and tolerates a noise given at
+/// half its true size.
 const DOUBT: f64 = 2.0;
 
-/// Steps, as ratios, at which reaches are tried.
+/// Ratio of successive reaches tried.
 const STEP: f64 = 1.5;
 
-/// Height and slope at each knot of the smoothest spline that Reinsch allows the noise, `N + sqrt(2 N)` for the sum
-/// of the squares of the distances in units of it; or of a smoother one, where that is expected to be nearer to
-/// the curve that was measured, as where the noise is said to be less than it is.
+/// Returns height and slope at each knot of the smoothest spline that Reinsch allows for the noise,
+/// with up to `N + sqrt(2 N)` for the sum of the squared distances in units of the noise. Returns a
+/// smoother spline where it is expected to be nearer to the true curve, as where the given noise is
+/// too small.
 pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>, SplineError<T>> {
     let count = T::count(points.len());
     let [least, most] = [T::of(1e-3), T::of(3.0) * count];
@@ -44,7 +46,7 @@ pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>
     if line_off <= allowed {
         return Err(nothing_left);
     }
-    // Both in logarithms, and nothing below a millionth of what is sought.
+    // Both in logarithms; the floor is a millionth of the distance sought.
     let floor = T::of(1e-12);
     let mut off = |reach: T| (fitting.fit(reach).max(floor) / allowed).ln();
     let near = off(least);
@@ -62,7 +64,7 @@ pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>
     Ok(fitting.knots())
 }
 
-/// Where a function of the logarithm of the reach is zero.
+/// Finds the zero of a function of the logarithm of the reach, and returns the reach.
 fn search<T: Real>(
     function: &mut dyn FnMut(T) -> T,
     bracket: &Bracket<T>,
@@ -75,8 +77,8 @@ fn search<T: Real>(
 
 /// Points, and the curve that was fitted to them last.
 struct Fitting<T> {
-    /// With the mean spacing as the unit of x, and without the line from the first to the last: it is not
-    /// penalised, and there is less to round.
+    /// Points with the mean spacing as the unit of x, less the line from the first to the last: the
+    /// line is not penalised, and there is less to round.
     points: Vec<[T; 2]>,
     noise: T,
     spacing: T,
@@ -106,8 +108,9 @@ impl<T: Real> Fitting<T> {
         }
     }
 
-    /// The mean square of the distances from the points to the curve that smooths over `reach` points,
-    /// `α = reach⁴ spacing³`; in units of the noise, so that no square of a small number vanishes.
+    /// Fits the curve that smooths over `reach` points, `α = reach⁴ spacing³`, and returns the mean
+    /// square of its distances from the points, in units of the noise, so that no square of a small
+    /// number vanishes.
     fn fit(&mut self, reach: T) -> T {
         penalised(&self.points, reach * reach, &mut self.triangle, &mut self.curve);
         let pairs = self.points.iter().zip(&self.curve);
@@ -116,15 +119,16 @@ impl<T: Real> Fitting<T> {
         pairs.fold(T::zero(), |sum, pair| sum + square(pair)) / T::count(self.points.len())
     }
 
-    /// The mean square error to be expected of the heights, but for a constant (Mallows, *Technometrics* 15,
-    /// 1973, 661), in units of the noise: of the distances, which grow with the reach, and the doubt, which falls.
+    /// Returns the expected mean square error of the heights, up to a constant, in units of the
+    /// noise (Mallows, *Technometrics* 15, 1973, 661): the mean square of the distances, which
+    /// grows with the reach, plus the uncertainty, which falls with it.
     fn risk(&mut self, reach: T) -> T {
         let distance = self.fit(reach);
         let doubt = freedom(&self.triangle) / T::count(self.points.len());
         distance + T::of(2.0 * DOUBT) * doubt
     }
 
-    /// The reach of the least risk, from one reach to another.
+    /// Finds the reach of the least risk between two reaches.
     fn least_risk(&mut self, from: T, most: T) -> Result<T, SplineError<T>> {
         let step = T::of(STEP);
         let (mut best, mut least, mut reach) = (from, self.risk(from), from);
@@ -138,7 +142,7 @@ impl<T: Real> Fitting<T> {
         if best <= from || best >= most {
             return Ok(best);
         }
-        // Between half a step to the left and half a step to the right the risk stops falling.
+        // The risk stops falling between half a step to the left and half a step to the right.
         let half = step.ln() * T::of(0.5);
         let mut rise = |middle: T| {
             let [before, after] =
@@ -153,7 +157,7 @@ impl<T: Real> Fitting<T> {
         search(&mut rise, &Bracket::new(ends[0], ends[1]).values(falls, rises))
     }
 
-    /// Height and slope at each knot, with the line.
+    /// Returns height and slope at each knot, with the line added.
     fn knots(self) -> Vec<[T; 2]> {
         let Self { first, chord, spacing, .. } = self;
         let knot = |(&[x, _], &[y, slope]): (&[T; 2], &[T; 2])| {
@@ -163,10 +167,11 @@ impl<T: Real> Fitting<T> {
     }
 }
 
-/// By how much all heights together follow the points: the trace of the matrix that makes the heights of the
-/// curve from those of the points. From right to left, by the inverse of the triangle.
+/// Returns the trace of the matrix that makes the heights of the curve from those of the points:
+/// the extent to which the curve follows the points. Computed from right to left, by the inverse of
+/// the triangle.
 fn freedom<T: Real>(triangle: &[[Row<T>; 2]]) -> T {
-    // The covariance of height and slope at a knot, for points with a variance of 1.
+    // Covariance of height and slope at a knot, for points with a variance of 1.
     let mut covariance = Matrix2::zeros();
     triangle.iter().rev().fold(T::zero(), |sum, [upper, lower]| {
         let next = Matrix2::new(upper[2], upper[3], lower[2], lower[3]);
@@ -179,7 +184,7 @@ fn freedom<T: Real>(triangle: &[[Row<T>; 2]]) -> T {
     })
 }
 
-/// Height and slope at each knot, for the square root of α.
+/// Finds height and slope at each knot, given the square root of α.
 fn penalised<T: Real>(
     points: &[[T; 2]],
     stiffness: T,

@@ -1,4 +1,4 @@
-//! What a spline is in a file: its cubics.
+//! Splines in files: their cubics.
 
 use super::{Cubic, Spline, SplineError, points};
 use crate::Real;
@@ -6,7 +6,7 @@ use crate::profile::ParametricProfile;
 use crate::rounded::six;
 use thiserror::Error;
 
-/// Why cubics make no spline.
+/// Reason why cubics do not make a spline.
 #[derive(Debug, Error)]
 pub(in crate::profile) enum Fault<T: Real> {
     #[error(transparent)]
@@ -19,7 +19,7 @@ pub(in crate::profile) enum Fault<T: Real> {
 }
 
 impl<T: Real> Spline<T> {
-    /// Builds a spline of cubics that meet as closely as where they were made.
+    /// Builds a spline from cubics that meet as closely as when they were made.
     pub(in crate::profile) fn of_cubics(cubics: Vec<Cubic<T>>) -> Result<Self, Fault<T>> {
         let start = |cubic: &Cubic<T>| (cubic.x[0], [cubic.coefficients[0], cubic.coefficients[1]]);
         let mut knots: Vec<_> = cubics.iter().map(start).collect();
