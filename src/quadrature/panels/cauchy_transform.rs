@@ -172,11 +172,12 @@ impl<T: Real> CauchyTransform<T> {
         [pull + more - self.far_away, (slope + steeper) * y]
     }
 
-    /// Returns `∫ P ln|ζ - s| ds` of a single contact, unless ζ is too near for Gauss's rule on its panels. With the
-    /// Joukowski variable u, |u| < 1, it is the real part of
+    /// Returns `∫ P ln|ζ - s| ds` of a single contact, unless ζ is too near for Gauss's rule on its
+    /// panels. With the Joukowski variable u, |u| < 1, it is the real part of
     ///
     /// ```text
-    /// F ln(L/(2 u)) + L (κ/π ∫ g (i sin θ ln((1 - u exp(iθ))/(1 - u exp(-iθ))) - u) dθ - π/2 (K_a - K_b) u)
+    /// F ln(L/(2 u)) + L (κ/π ∫ g k dθ - π/2 (K_a - K_b) u)
+    /// k = i sin θ ln((1 - u exp(iθ))/(1 - u exp(-iθ))) - u
     /// ```
     ///
     /// which is the integral of W.
