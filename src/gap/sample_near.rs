@@ -217,7 +217,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             count += 1;
         }
         let mut points = [nowhere; N];
-        self.piece.curve.at_many(&k[..count], &mut points[..count]);
+        if count > 0 {
+            self.piece.curve.at_many(&k[..count], &mut points[..count]);
+        }
         cost.evaluations += count;
         let (mut all_near, mut sound) = (true, true);
         for ((&i, &k), &point) in asked.iter().zip(&k).zip(&points[..count]) {

@@ -59,7 +59,9 @@ impl<'a, T: Real> Piece<'a, T> {
     /// [`ProfileError::TurnsBack`] where `X` is equal at both ends, or runs the wrong way at both.
     pub fn new(curve: &'a dyn ParametricProfile<T>) -> Result<Self, ProfileError<T>> {
         let k = interval(curve.domain())?;
-        let ends = k.map(|k| curve.at(k));
+        let nowhere = T::of(f64::NAN);
+        let mut ends = [CurvePoint { x: nowhere, y: nowhere, dx: nowhere, dy: nowhere }; 2];
+        curve.at_many(&k, &mut ends);
         for (k, end) in k.into_iter().zip(ends) {
             finite_at("X", k, end.x)?;
         }

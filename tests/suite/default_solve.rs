@@ -2,7 +2,11 @@
 #![allow(missing_docs)]
 
 use crate::common::speed_scenes::{SCENES, Scene, scene};
-use linecontact::{Contact, Control, Material, PlaneState, Reference, References, Solver};
+use linecontact::{
+    Contact, Control, Convexity, CurvePoint, Material, ParametricProfile, PlaneState, Reference,
+    References, Solver,
+};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Columns of evaluations, heights, and both at the next load.
 const COUNTS: [usize; 3] = [3, 4, 7];
@@ -26,6 +30,51 @@ fn counts_are_those_of_the_table_of_times() {
         let row = format!("|{}, and {} for heights|", found[0], found[1]);
         let is_in_readme = ["circle", "example4"].contains(&name);
         assert!(!is_in_readme || include_str!("../../README.md").contains(&row), "{row}");
+    }
+}
+
+/// Calls of the curves are what a solve from Python costs.
+#[test]
+fn a_curve_is_called_a_few_times_for_many_points() {
+    let most = [("parabola", 6), ("circle", 7), ("example3", 15), ("wave", 10)];
+    for (name, calls) in most {
+        let Scene { lower, upper, load } = scene(name);
+        let [lower, upper] = [lower, upper].map(|body| Called { body, calls: AtomicUsize::new(0) });
+        let count = || [&lower, &upper].map(|body| body.calls.load(Relaxed)).iter().sum::<usize>();
+        let contact = Contact::new(&lower, &upper).unwrap();
+        let mut solver = Solver::new();
+        solver.solve(&contact, Control::Load(load)).unwrap();
+        let cold = count();
+        solver.solve(&contact, Control::Load(1.02 * load)).unwrap();
+        // A flat is a body, too, whose ends are asked for.
+        let flat = usize::from(name != "example3");
+        assert!(cold <= calls + flat && count() == cold, "{name}: {cold}, then {}", count());
+    }
+}
+
+/// A body that counts its calls, of one point or of many.
+struct Called {
+    body: Box<dyn ParametricProfile<f64>>,
+    calls: AtomicUsize,
+}
+
+impl ParametricProfile<f64> for Called {
+    fn domain(&self) -> [f64; 2] {
+        self.body.domain()
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        self.calls.fetch_add(1, Relaxed);
+        self.body.at(k)
+    }
+    fn at_many(&self, k: &[f64], points: &mut [CurvePoint<f64>]) {
+        self.calls.fetch_add(1, Relaxed);
+        self.body.at_many(k, points);
+    }
+    fn slope_at(&self, x: f64) -> Option<f64> {
+        self.body.slope_at(x)
+    }
+    fn convexity(&self) -> Convexity {
+        self.body.convexity()
     }
 }
 
