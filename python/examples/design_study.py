@@ -1,16 +1,19 @@
-"""A design study of a roller, of a million contacts: which crowning bears all loads and misalignments best?
+"""A design study of a million roller contacts: the best crowning for all loads and misalignments.
 
     python design_study.py results --local 2
     python design_study.py results --scheduler tcp://node1:8786
 
-The first starts two workers here, the second asks a cluster of Dask. Wherever it was stopped, the same line goes on.
+The first line starts two workers here, the second uses a Dask cluster. After an interruption the
+same line continues the study.
 
-The plane of the contact is that of the roller's axis: its generatrix, with logarithmic crowning, is pressed on a flat,
-in plane strain. Lengths are in mm, angles in radians, loads in N/mm, pressures in MPa.
+The plane of the contact contains the axis of the roller: the generatrix, with logarithmic crowning,
+is pressed on a flat, in plane strain. Lengths are in mm, angles in radians, loads in N/mm,
+pressures in MPa.
 
-The study is cut into blocks of a few thousand rows, load innermost. A worker solves a block with `lc.sweep` and writes
-it to the folder, which on a cluster is a shared one: no results pass through the scheduler, or are kept by the client.
-A file has another name until it is whole. So each file is a finished block, and one written twice is the same.
+The study is cut into blocks of a few thousand rows, load innermost. A worker solves a block with
+`lc.sweep` and writes it to the folder, which the workers of a cluster share: no results pass
+through the scheduler or stay in the client. A file has a temporary name until it is complete. So
+each file is a finished block, and writing a block twice gives the same file.
 """
 
 from __future__ import annotations
@@ -40,9 +43,9 @@ Columns: TypeAlias = Mapping[str, npt.NDArray[Any]]
 
 STEEL = lc.Material(210e3, 0.3)
 QUANTITIES = ("peak_pressure", "half_width", "centre")
-# Blocks that a thread has been given: one in hand, and one to go on with.
+# Number of blocks submitted for each thread: one in progress, and the next one.
 AHEAD = 2
-# How often a block is tried again where its worker could not write it.
+# Number of further attempts at a block whose worker could not write it.
 RETRIES = 2
 
 
@@ -57,21 +60,24 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class Study:
-    """All that its results depend on. Workers get this, and the number of a block."""
+    """A study: all data that its results depend on.
+
+    Workers get the study and the number of a block.
+    """
 
     crownings: Range = Range(0.001, 0.03, 100)
     misalignments: Range = Range(0.0, 1e-3, 100)
     loads: Range = Range(200.0, 3000.0, 100)
-    # Where the logarithm would go down for ever, and where the roller ends before.
+    # Half-length at which the logarithm is infinite, and the end of the roller, which is shorter.
     half_length: float = 8.0
     reach: float = 7.9
-    # A multiple of the 32 rows that a sweep solves one from the other.
+    # A multiple of the 32 rows in which a sweep solves each from the one before.
     block_rows: int = 4096
     version: str = metadata.version("linecontact")
 
     @classmethod
     def of(cls, points: Sequence[int], block_rows: int = 4096) -> Study:
-        """A study of as many crownings, misalignments and loads."""
+        """Creates a study with these numbers of crownings, misalignments and loads."""
         crownings, misalignments, loads = points
         return cls(
             cls.crownings._replace(points=crownings),
@@ -110,7 +116,10 @@ def rows(study: Study, block: int) -> range:
 
 
 def solve_block(study: Study, block: int, threads: int | None = 1) -> dict[str, npt.NDArray[Any]]:
-    """The columns of a block. One thread, as Dask and joblib have as many blocks in hand as there are cores."""
+    """Returns the columns of a block.
+
+    One thread is enough: Dask and joblib solve as many blocks at a time as there are cores.
+    """
     if (here := metadata.version("linecontact")) != study.version:
         raise RuntimeError(f"the study was started with linecontact {study.version}, this worker has {here}")
     crownings, misalignments, loads = (of.values() for of in (study.crownings, study.misalignments, study.loads))
@@ -127,13 +136,16 @@ def solve_block(study: Study, block: int, threads: int | None = 1) -> dict[str, 
 
 
 def write_block(study: Study, folder: Path, block: int) -> int:
-    """Solves a block and writes it, all or nothing. Returns how many rows have failed."""
+    """Solves a block and writes its file, completely or not at all.
+
+    Returns the number of failed rows.
+    """
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     found = solve_block(study, block)
     path = folder / study.name(block)
-    # A worker that was given up may still be at the same block.
+    # A worker that was given up may still be working on this block.
     unfinished = path.with_suffix(f".{uuid.uuid4().hex}.tmp")
     try:
         pq.write_table(pa.table(found), unfinished, write_page_checksum=True)
@@ -144,7 +156,7 @@ def write_block(study: Study, folder: Path, block: int) -> int:
 
 
 def read_block(study: Study, folder: Path, block: int) -> dict[str, npt.NDArray[Any]]:
-    """The columns of a block that is finished; a ValueError if its file is not whole."""
+    """Reads the columns of a finished block; raises a ValueError if its file is damaged."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -161,14 +173,14 @@ def read_block(study: Study, folder: Path, block: int) -> dict[str, npt.NDArray[
 
 
 def read_all(study: Study, folder: Path) -> Iterator[dict[str, npt.NDArray[Any]]]:
-    """The columns of all blocks, one after the other."""
+    """Reads the columns of all blocks, one block after the other."""
     return (read_block(study, folder, block) for block in blocks(study))
 
 
 def unfinished_blocks(study: Study, folder: Path) -> list[int]:
-    """What is left to be solved: blocks without a file, and those whose file is damaged.
+    """Lists the blocks still to be solved: blocks without a file, or with a damaged one.
 
-    Results of another study in the same folder are a ValueError.
+    Raises a ValueError if the folder holds results of another study.
     """
     folder.mkdir(parents=True, exist_ok=True)
     names = {path.name for path in folder.glob("*.parquet")}
@@ -189,20 +201,20 @@ def unfinished_blocks(study: Study, folder: Path) -> list[int]:
 
 
 def tidy(folder: Path) -> None:
-    """Takes away what workers that were killed have left."""
+    """Removes the files that killed workers have left."""
     for path in folder.glob("*.tmp"):
         path.unlink(missing_ok=True)
 
 
 class Told:
-    """A line that tells how far it is."""
+    """A progress line."""
 
     def __init__(self, study: Study) -> None:
         self.study, self.failed, self.began = study, 0, time.perf_counter()
 
     def __call__(self, done: int, of: int, failed: int) -> None:
         self.failed += failed
-        # Of the blocks of this run, of which all but the last of the study are as long.
+        # Rate over the blocks of this run, all equally long except the last one of the study.
         rate = done * self.study.block_rows / (time.perf_counter() - self.began)
         left = (of - done) * self.study.block_rows / rate
         line = f"{done}/{of} blocks, {self.failed} rows failed, {rate:.0f} rows/s, {left / 60:.1f} min left"
@@ -210,10 +222,10 @@ class Told:
 
 
 def run(client: Any, study: Study, folder: Path, told: Callable[[int, int, int], object] | None = None) -> int:
-    """Solves what is left of a study on a cluster, and returns how many blocks that were.
+    """Solves the remaining blocks of a study on a cluster, and returns their number.
 
-    The client knows of a few blocks for each thread of the cluster, whatever the size of the study; workers may come
-    and go. A block whose worker dies is given to another.
+    The client holds a few blocks for each thread of the cluster, whatever the size of the study.
+    Workers may join and leave. A block whose worker dies is given to another.
     """
     from distributed import as_completed
 
@@ -234,38 +246,38 @@ def run(client: Any, study: Study, folder: Path, told: Callable[[int, int, int],
         if told is not None:
             told(done, len(left), failed)
         fill()
-    # What workers that were killed have left.
+    # Files that killed workers have left.
     for path in folder.glob("*.tmp"):
         path.unlink(missing_ok=True)
     return len(left)
 
 
 class Optimum(NamedTuple):
-    """Of each crowning, the largest pressure under each load, whatever the misalignment."""
+    """The largest pressure of each crowning under each load, over all misalignments."""
 
     crownings: Array
     loads: Array
-    # Infinite where one of the misalignments cannot be borne.
+    # Infinite if a contact fails at one of the misalignments.
     worst: Array
-    # Rows that have failed, by the names of the errors.
+    # Number of failed rows, by the names of their errors.
     failed: dict[str, int]
 
     @property
     def pressures(self) -> Array:
-        """Of each crowning, the largest under all loads."""
+        """Largest pressure of each crowning under all loads."""
         largest: Array = self.worst.max(axis=1)
         return largest
 
     @property
     def best(self) -> int:
-        """The crowning with the least of them."""
+        """Index of the crowning with the smallest of these pressures."""
         if not np.isfinite(self.pressures).any():
             raise ValueError("each crowning fails under some load and misalignment")
         return int(self.pressures.argmin())
 
 
 def optimum(study: Study, solved: Iterable[Columns]) -> Optimum:
-    """The optimum of all blocks in their order; one is looked at after the other."""
+    """Finds the optimum over all blocks, given in order and read one after the other."""
     crownings, misalignments, loads = study.shape
     worst = np.zeros((crownings, loads))
     failed: dict[str, int] = {}
@@ -280,7 +292,7 @@ def optimum(study: Study, solved: Iterable[Columns]) -> Optimum:
 
 
 def table(found: Optimum, lines: int = 12) -> str:
-    """The pressures of the optimum, of its neighbours, and of some others."""
+    """Returns a table of the pressures at the optimum, its neighbours and some other crownings."""
     step = max(1, found.crownings.size // lines)
     shown = {*range(0, found.crownings.size, step), *range(max(0, found.best - 1), found.best + 2)}
     text = ["crowning, mm   largest pressure, MPa"]
@@ -291,7 +303,7 @@ def table(found: Optimum, lines: int = 12) -> str:
 
 
 def draw(found: Optimum, file: Path) -> None:
-    """The largest pressure by the crowning, under some loads, with the least of each."""
+    """Draws the largest pressure against the crowning for some loads, and marks each minimum."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.0, 4.5), layout="constrained")

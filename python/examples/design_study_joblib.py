@@ -1,4 +1,4 @@
-"""The same study with joblib, on the cores of one machine; it goes on where it was stopped, too.
+"""The design study with joblib, on one machine; it continues after an interruption too.
 
 python design_study_joblib.py results
 """

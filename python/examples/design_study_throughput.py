@@ -1,10 +1,10 @@
-"""How many scenes of the design study are solved each second: in one process, by Dask and by joblib.
+"""Number of scenes of the design study solved per second: in one process, by Dask and by joblib.
 
 python design_study_throughput.py [ROUNDS]
 
-Ways take turns, and of each the best round counts. Beside the time on the clock there is that of the processors, of all
-processes together, which says less of what else the machine does. What a block costs besides its scenes is seen from
-blocks of one row.
+The ways take turns, and the best round of each counts. Next to the elapsed time stands the
+processor time of all processes together, which depends less on other work on the machine. Blocks of
+one row show the cost of a block besides its scenes.
 """
 
 import os
@@ -20,13 +20,13 @@ import psutil
 from design_study import Study, blocks, solve_block, write_block
 from distributed import Client, LocalCluster
 
-# The whole study, coarser: about as large a share of it fails.
+# The whole study on a coarser grid: about the same share of it fails.
 SOLVED = Study.of((16, 16, 64), block_rows=1024)
 SINGLE = Study.of((6, 6, 6), block_rows=1)
 
 
 def processors() -> float:
-    """Seconds of this process and of those that it has started."""
+    """Returns the processor time of this process and its children, in seconds."""
     here = psutil.Process()
     times = (process.cpu_times() for process in (here, *here.children(recursive=True)))
     return float(sum(of.user + of.system for of in times))

@@ -1,4 +1,4 @@
-"""What a call from Python costs: the table in the README.
+"""Cost of a call from Python: the table in the README.
 
     python python/examples/figures.py
 """
@@ -14,7 +14,7 @@ import linecontact as lc
 
 
 def least(work: Callable[[], object], count: int = 1, rounds: int = 7) -> float:
-    """Microseconds of one of `count`, in the quickest of some rounds."""
+    """Returns the microseconds for one of `count` calls, in the quickest of some rounds."""
     took = []
     for _ in range(rounds):
         began = time.perf_counter()

@@ -1,4 +1,5 @@
-"""Tests find each other's scenes, and the examples; nothing opens a window."""
+"""Import path for the scenes and the examples; no windows are opened.
+"""
 
 from __future__ import annotations
 

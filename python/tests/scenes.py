@@ -1,4 +1,4 @@
-"""The reference scenes of the Rust tests, built with this package: shapes where there is one, else functions."""
+"""The reference scenes of the Rust tests, built with this package: shapes, or else functions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DATA = Path(__file__).parents[2] / "tests" / "data"
 
 
 class Reference(NamedTuple):
-    """A file of `tests/data`."""
+    """A reference file in `tests/data`."""
 
     a: float
     b: float
@@ -41,7 +41,7 @@ def reference(name: str) -> Reference:
     )
 
 
-# The curves of the paper, Eqs. (30) to (38), as in examples/paper/curves.rs.
+# Curves of the paper, Eqs. (30) to (38), as in examples/paper/curves.rs.
 
 
 def two_lower(k: Array) -> tuple[Any, ...]:
@@ -181,7 +181,7 @@ def example_five() -> tuple[lc.Body, lc.Body]:
 
 
 class Power:
-    """|x|^n/n on one side."""
+    """The curve |x|^n/n on one side."""
 
     def __init__(self, n: float) -> None:
         self.n = n
@@ -236,7 +236,7 @@ def steep_parabola() -> lc.Body:
 
 
 SCENES: list[tuple[str, Callable[[], Pair], float]] = [
-    # The relative accuracy of the limits is that of tests/common/mod.rs.
+    # Relative accuracy of the limits, as in tests/common/mod.rs.
     ("paper_example_2", example_two, 1e-15),
     ("paper_example_3_scale_one", example_three, 6e-14),
     ("paper_example_3_scale_half_pi", example_three, 6e-14),
@@ -266,7 +266,7 @@ SCENES: list[tuple[str, Callable[[], Pair], float]] = [
 
 
 class Formula:
-    """The formulas of a piece in a reference file, which are in NumPy's words."""
+    """The formulas of a piece in a reference file, written for NumPy."""
 
     def __init__(self, piece: dict[str, str]) -> None:
         self.parts = [compile(piece[name], name, "eval") for name in ("X", "Y", "dX", "dY")]
@@ -276,7 +276,7 @@ class Formula:
 
 
 def from_file(body: dict[str, Any]) -> lc.Body:
-    """A body of a reference file; one without ends is cut off far from all contacts."""
+    """Builds a body of a reference file; one without ends is cut off far from all contacts."""
     pieces = []
     for piece in body["pieces"]:
         if piece["Y"] == "0":

@@ -1,4 +1,4 @@
-"""Every error: a class of its own, with its numbers, and what provokes it."""
+"""Errors: the class of each one, its numbers, and a call that provokes it."""
 
 from __future__ import annotations
 
@@ -82,17 +82,17 @@ def sinh_parameter(k: Any) -> tuple[Any, ...]:
 
 
 def dwindling(x: Any) -> tuple[Any, ...]:
-    """Behind its end this curve would turn down."""
+    """Curve that would turn down beyond its end."""
     return x, x**2 / 2 - x**4 / 4, 1.0, x - x**3
 
 
 def waves(x: Any) -> tuple[Any, ...]:
-    """Beyond the contact, and too short for any number of panels."""
+    """Curve with waves outside the contact, too short for any number of panels."""
     return x, x**2 / 2, 1.0, x + np.maximum(x - 0.5, 0.0) ** 4 * np.sin(1e9 * x)
 
 
 def missed_bump(x: Any) -> tuple[Any, ...]:
-    """Too narrow for the panels, and too slight to be felt."""
+    """Curve with a bump too narrow for the panels and too small for the solve to notice."""
     width, rise = 2e-3, 1e-4
     t = np.clip((x - 0.123) / width, -1.0, 1.0)
     area = t - 2 / 3 * t**3 + t**5 / 5
@@ -100,7 +100,7 @@ def missed_bump(x: Any) -> tuple[Any, ...]:
 
 
 def saw(k: Any) -> tuple[Any, ...]:
-    """Hundreds of kinks that nobody has declared."""
+    """Curve with hundreds of undeclared kinks."""
     x, dx = k + 0.1 * k**3, 1.0 + 0.3 * k**2
     u = (400.0 * x) % 1.0
     tooth = np.abs(2 * u - 1.0) - 0.5
@@ -109,7 +109,7 @@ def saw(k: Any) -> tuple[Any, ...]:
 
 
 class Sinks:
-    """A double well, one half of which sinks once it is told to."""
+    """A double well, one half of which sinks after the solve."""
 
     def __init__(self) -> None:
         self.sunk = 0.0
@@ -491,13 +491,13 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
         if path == "source":
             found = type(found).__name__
         assert want is None or found == want, path
-    # Errors come from other processes as they are.
+    # Pickled errors, as from other processes, keep their type, message and numbers.
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and str(again) == str(error)
     assert sorted(vars(again)) == sorted(vars(error))
 
 
-# Not to be had with what this package takes, or by no scene that is known.
+# Errors that this package cannot raise, or for which no scene is known.
 NOT_PROVOKED = {
     "ApproachFallsError": "no scene is known",
     "CancelledError": "comes out as KeyboardInterrupt, or as the exception of a function",
@@ -518,7 +518,7 @@ def test_all_others_are_provoked() -> None:
 
 
 def rust_variants(path: str, enum: str) -> list[str]:
-    """The variants of an error of the library, from its source."""
+    """Returns the variants of an error of the library, from its source."""
     text = (SOURCE / path).read_text()
     body = text[text.index(f"pub enum {enum}<") :]
     body = body[: body.index("\n}\n")]
@@ -595,7 +595,7 @@ def with_an_if(k: Any) -> Any:
     return (k, k**2, 1.0, 2 * k) if k > 0 else (k, 0.0, 1.0, 0.0)
 
 
-# Types would tell of most of these mistakes.
+# Module without types: a type checker would find most of these mistakes.
 ANY: Any = lc
 
 
@@ -603,7 +603,7 @@ def anything(made: Any) -> Any:
     return made
 
 
-# What is asked for wrongly; the exception; what it says of what was found, and of what helps.
+# Wrong call; exception; parts of its message: the value found, and the remedy.
 MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: material_of(STEEL), TypeError, ("materials are Material(", "such as (steel, steel)")),
     (lambda: material_of((STEEL, 210e3)), TypeError, ("210000.0 is no Material", "E and ν")),

@@ -1,4 +1,4 @@
-"""The page that `explore` writes, read without a browser; `long/test_explore_in_browser.py` has one."""
+"""Page of `explore`, read without a browser; `long/test_explore_in_browser.py` uses one."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def bumps(x: Array) -> tuple[Any, ...]:
 
 
 def read(page: Path) -> Any:
-    """The data of a page."""
+    """Returns the data of a page."""
     text = page.read_text(encoding="utf-8")
     data = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
     assert len(data) == 1
@@ -122,14 +122,14 @@ def test_what_is_infinite(tmp_path: Path) -> None:
         (on,) = frame["contacts"]
         assert pressures[x == on["left"]].tolist() == [left]
         assert pressures[x == on["right"]].tolist() == [right]
-        # Beyond a corner there is no body.
+        # There is no body beyond a corner.
         assert (x[0] < on["left"]) == (left <= 0.0)
         assert (x[-1] > on["right"]) == (right <= 0.0)
 
 
 def test_the_picture_between_the_points_of_the_grid(tmp_path: Path) -> None:
     contact = CONTACTS["hertz"][0]
-    # The lesser contact is a tenth as wide as the picture.
+    # The smaller contact is a tenth as wide as the picture.
     frame, *_ = read(lc.explore(contact, [0.0005, 0.02], tmp_path / "page.html"))["frames"]
     solution = contact.solve(load=0.0005)
     size, peak = solution.half_width, solution.peak().pressure
@@ -140,7 +140,7 @@ def test_the_picture_between_the_points_of_the_grid(tmp_path: Path) -> None:
     drawn = [np.interp(one, depth, column) for one, column in zip(down, rows.T, strict=True)]
     exact = solution.stress(at, down).max_shear()
     assert np.max(np.abs(np.array(drawn) - exact)) < 0.01 * peak
-    # On the axis, by the formula of Hertz's contact.
+    # Shear on the axis, by the formula of Hertz's contact.
     z = depth / size
     axis = np.array([np.interp(0.0, x, row) for row in shear])
     np.testing.assert_allclose(axis, peak * (z - z**2 / np.sqrt(1 + z**2)), atol=0.002 * peak)
@@ -168,10 +168,11 @@ def test_the_loaded_surface_of_a_flat(
     for frame in data["frames"]:
         x, lower, size = array(frame["x"]), array(frame["lower"]), frame["half_width"]
         inside = np.abs(x) <= size
-        # Under Hertz's pressure it is a parabola, whose curvature is its share of 1/R.
+        # Under Hertz's pressure the loaded surface is a parabola; its curvature is its share of
+        # 1/R.
         bent = 2 * np.polyfit(x[inside] / size, lower[inside], 2)[0] / size**2
         assert math.isclose(bent, curvature / 10.0, rel_tol=1e-9, abs_tol=1e-12)
-        # And the ends of the picture stay where they are.
+        # The ends of the picture stay in place.
         assert abs(lower[0] + lower[-1]) < 1e-15
 
 
@@ -208,7 +209,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
 
 
 class Tags(HTMLParser):
-    """The elements of a page, which are closed in the order in which they were opened."""
+    """Parser that checks that elements are closed in the reverse order of their opening."""
 
     EMPTY = ("input", "link", "meta")
 
@@ -249,7 +250,7 @@ def test_the_page_stands_alone(tmp_path: Path) -> None:
 
 
 class Hostile:
-    """Its name ends scripts."""
+    """Function whose `repr` ends scripts."""
 
     def __call__(self, k: Array) -> tuple[Any, ...]:
         return k, k**2 / 2, 1.0, k
@@ -293,7 +294,7 @@ def test_colours_darken_in_equal_steps() -> None:
     assert len(colours) == 11
     share = np.array(colours) / 255
     linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-    # L* of CIELAB.
+    # Lightness L* of CIELAB.
     lightness = 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
     steps = -np.diff(lightness)
     np.testing.assert_allclose(steps, np.mean(steps), atol=0.5)

@@ -1,4 +1,4 @@
-"""Derivatives by the numbers of a scene: against closed forms, differences, and what scaling says of them."""
+"""Derivatives by the numbers of a scene, against closed forms, differences and scaling laws."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ BETWEEN = lc.References(0.1, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
 
 
 def close(found: Any, exact: Any, within: float) -> None:
-    """As a share of the largest of a row."""
+    """Compares rows; the tolerance is a share of the largest number of a row."""
     found, exact = np.atleast_1d(found), np.atleast_1d(exact)
     off = np.abs(found - exact) / np.max(np.abs(exact))
     assert np.all(off <= within), (found, exact, off)
@@ -49,7 +49,7 @@ def test_materials_and_the_elastic_constants_of_each() -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(STEEL, ALUMINIUM))
     by = [f"materials.{i}.{name}" for i in (0, 1) for name in lc.Material._fields]
     value, derivatives = lc.gradient(contact, "half_width", by, load=500.0)
-    # a² goes with the sum of (1 - ν²)/E.
+    # The square of a is proportional to the sum of (1 - ν²)/E.
     compliances = [(1 - nu**2) / modulus for modulus, nu in (STEEL, ALUMINIUM)]
     rates = [(-(1 - nu**2) / modulus**2, -2 * nu / modulus) for modulus, nu in (STEEL, ALUMINIUM)]
     exact = [value / 2 * rate / sum(compliances) for pair in rates for rate in pair]
@@ -81,7 +81,7 @@ def test_a_wedge_by_its_slopes() -> None:
 
 
 def test_a_circle_by_its_radius() -> None:
-    """Both semi-axes: near the pole, where the circle is a parabola."""
+    """Changes both semi-axes: near the pole the circle is a parabola."""
     contact = lc.Contact(lc.Flat(), lc.Ellipse.circle(10.0, (-1.0, 1.0)), kappa=1.0)
     by_both = {"upper.along": 1.0, "upper.across": 1.0}
     value, derivative = lc.gradient(contact, "half_width", by_both, load=1e-9)
@@ -100,7 +100,7 @@ def test_an_eccentric_load_turns_a_parabola() -> None:
     close(values, [moment / load, -moment / load / radius], 1e-12)
     close(found[0], [0.0, -moment / load**2, 1 / load], 1e-12)
     close(found[1], [moment / load / radius**2, moment / load**2 / radius, -1 / load / radius], 1e-12)
-    # The same by the place of the load.
+    # Derivative by the place of the load.
     value, by_place = lc.gradient(contact, "tilt", "centre", load=load, centre=moment / load)
     close([value, by_place], [values[1], -1 / radius], 1e-12)
 
@@ -210,7 +210,7 @@ SCENES: dict[str, Scene] = {
     "wedge": Scene(
         above(lambda left, right, reach: lc.Wedge((left, right), reach)),
         {"upper.slopes.0": -0.3, "upper.slopes.1": 0.5, "upper.reach": 3.0},
-        # At the tip the pressure is infinite.
+        # The pressure is infinite at the tip.
         of=("a", "b", "centre", "mean_pressure", "moment"),
     ),
     "rounded punch": Scene(
@@ -305,7 +305,7 @@ SCENES: dict[str, Scene] = {
 
 
 def differences(of: Callable[[float], Array], at: float) -> Array:
-    """Central ones of two steps, to the fourth order."""
+    """Returns central differences of fourth order, from two steps."""
     step = 2e-3 * abs(at)
     wide, narrow = ((of(at + h) - of(at - h)) / (2 * h) for h in (step, step / 2))
     return (4 * narrow - wide) / 3
@@ -345,17 +345,17 @@ def number(solution: lc.Solution, quantity: str) -> float:
     return float(found() if callable(found) else found)
 
 
-# Degrees of homogeneity: with all lengths doubled, the load goes with them, pressures stay.
+# Degrees of homogeneity: with all lengths doubled the load doubles, and pressures are unchanged.
 DEGREES = dict.fromkeys(["angle", "angles", "factor", "kappa", "origin", "slope", "slopes"], 0)
 OF_LENGTHS = {"load": 1, "a": 1, "b": 1, "centre": 1, "moment": 2}
-# With κ doubled, the load goes with it, limits stay.
+# With κ doubled the load doubles, and the limits are unchanged.
 OF_STIFFNESS = {"load": 1, "mean_pressure": 1, "peak_pressure": 1, "moment": 1}
 SIMILAR = [name for name in SCENES if "spline" not in name and name != "given pressures"]
 
 
 @pytest.mark.parametrize("name", SIMILAR)
 def test_scaled_scenes_have_scaled_solutions(name: str) -> None:
-    """Euler: the sum of numbers times derivatives is the degree times the value."""
+    """Tests Euler's theorem: the sum of numbers times derivatives is the degree times the value."""
     make, numbers, _, prescribed, of = SCENES[name]
     contact = make(*numbers.values())
     known = lc.parameters(contact, **prescribed)
@@ -366,7 +366,8 @@ def test_scaled_scenes_have_scaled_solutions(name: str) -> None:
     of_lengths, of_stiffness = (
         (derivatives * list(known.values())) @ np.array(weights, dtype=float) for weights in (degrees, stiff)
     )
-    # Of what is zero but for rounding: lengths by the half-width, a moment by load and half-width.
+    # Sizes of values that are zero except for rounding: the half-width for lengths, load times
+    # half-width for a moment.
     size = np.abs(values)
     width = (values[of.index("a")] + values[of.index("b")]) / 2
     for quantity, least in (("centre", width), ("moment", width * prescribed["load"])):
@@ -386,14 +387,14 @@ def shapes() -> st.SearchStrategy[lc.Body]:
 
 
 def carried(contact: lc.Contact) -> float:
-    """The load at the ends of the bodies."""
+    """Returns the load under which the contact reaches the ends of the bodies."""
     try:
         return contact.solve(load=1e9).load
     except lc.errors.DomainTooShortError as short:
         return short.carried
 
 
-# Not upright: of two maxima that are equal each parameter may take another.
+# Scenes are not upright: of two equal maxima each parameter may take a different one.
 @settings(deadline=None, derandomize=True)
 @given(shapes(), shapes(), st.floats(0.001, 0.05), st.floats(-0.01, 0.01), st.floats(0.01, 0.5))
 def test_scaled_random_scenes_have_scaled_solutions(
@@ -411,7 +412,7 @@ def test_scaled_random_scenes_have_scaled_solutions(
     found = derivatives @ [degree(name) * value for name, value in by.items()]
     width = (values[0] + values[1]) / 2
     size = np.max(np.abs(derivatives * list(by.values())), axis=1) + [width, width, *values[2:]]
-    # The place of a peak beside a breakpoint is not found to all digits.
+    # The place of a peak next to a breakpoint is not found to all digits.
     within = np.array([1e-11, 1e-11, 1e-11, 1e-7])
     assert np.all(np.abs(found - values * [1, 1, 0, 0]) <= within * size), (found, values)
 
@@ -520,7 +521,7 @@ def test_shapes_of_what_comes_back() -> None:
     assert lc.gradient(contact, "a", [], load=0.02)[1].shape == (0,)
 
 
-# What cannot be.
+# Requests without a derivative.
 
 
 def test_what_there_is_not() -> None:
@@ -569,7 +570,10 @@ LOADS_AND_TILTS = [(400.0, -1e-3), (700.0, 0.0), (1000.0, 1e-3)]
 
 
 def test_an_optimiser_goes_further_with_exact_gradients() -> None:
-    """Depth and taper of a crowned roller that is loaded and tilted in three ways: a norm of its peaks is least."""
+    """Optimises depth and taper of a crowned roller for a norm of its peaks.
+
+    The roller is loaded and tilted in three ways.
+    """
     optimize = pytest.importorskip("scipy.optimize")
     calls = 0
 

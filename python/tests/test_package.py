@@ -1,4 +1,4 @@
-"""What the package says of itself: types, names, examples."""
+"""Names, types and examples of the package."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_everything_public_is_listed_and_has_words() -> None:
 
 
 def test_every_class_has_an_example() -> None:
-    # Rows of numbers are seen in the examples of what returns them.
+    # Rows of numbers appear in the examples of the functions that return them.
     rows = {"Approach", "Attempt", "Certificate", "ContactRegion", "Cost", "Extremum", "Peak"}
     rows |= {"SpringPoints", "StressPeak", "Summary"}
     kinds = {"EvaluationError", "InputError", "LineContactError", "SolveError"}
@@ -86,7 +86,7 @@ def test_the_code_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_the_tutorial_prints_what_it_says() -> None:
-    """Block after block of `docs/python.md`, each with the text under it."""
+    """Runs the blocks of `docs/python.md` one after the other, and compares the text below each."""
     pytest.importorskip("scipy")
     tutorial = (HERE.parents[1] / "docs" / "python.md").read_text()
     blocks = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```)?", tutorial, re.DOTALL)
@@ -105,7 +105,7 @@ def test_types() -> None:
     checks = [
         [*strict, "-p", "linecontact"],
         [*strict, *map(str, HERE.rglob("*.py"))],
-        # What the stub says of the extension is what the extension says of itself.
+        # The stub must agree with the extension.
         ["mypy.stubtest", "linecontact._native"],
         [*strict, *map(str, (HERE.parent / "examples").glob("*.py"))],
     ]

@@ -31,7 +31,7 @@ def test_limits_and_pressures(name: str, bodies: Callable[[], Pair], accuracy: f
     solution = lc.solve(*bodies(), kappa=want.kappa, load=want.load)
     for got, exact in [(solution.a, want.a), (solution.b, want.b)]:
         assert abs(got - exact) <= accuracy * max(abs(got), abs(exact))
-    # As tests/suite/estimates.rs: what is said of each error covers it.
+    # The estimate of each error covers it, as in tests/suite/estimates.rs.
     x, exact_pressures = want.points.T
     values, errors = solution.pressure_estimate(x)
     judged = np.isfinite(exact_pressures) & (exact_pressures != 0.0)
@@ -43,7 +43,7 @@ def test_there_are_enough_of_them() -> None:
 
 
 class Counted:
-    """A function that counts its calls, and the points asked for."""
+    """A function that counts its calls, and the points of each."""
 
     def __init__(self, function: CurveFunction) -> None:
         self.function, self.sizes = function, list[int]()
@@ -53,7 +53,8 @@ class Counted:
         return self.function(k)
 
 
-# Calls of the curves in one solve, and those for single points, by which the first point of each piece is found.
+# Number of calls of the curves in one solve, and of calls for single points, by which the first
+# point of each piece is found.
 CALLS = {"three": (example_three, 14, 0), "four": (example_four, 32, 6), "five": (example_five, 31, 4)}
 
 
@@ -72,7 +73,7 @@ def test_python_is_called_for_many_points_at_a_time(
     bodies, calls, single = CALLS[example]
     lower, upper = bodies()
     before = [list(count.sizes) for count in counted]
-    # Both ends at once.
+    # Both ends are taken in one call.
     assert all(sizes[0] == 2 for sizes in before)
     contact = lc.Contact(lower, upper, kappa=1.0)
     assert [count.sizes for count in counted] == before

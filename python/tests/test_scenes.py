@@ -1,4 +1,4 @@
-"""Random scenes: whatever is pressed together, the answer holds, or says why it does not."""
+"""Random scenes: the answer holds for any bodies, or an error gives the reason."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import linecontact as lc
 
-# The same scenes in each run: what is new is for the random scenes of the library.
+# Settings with the same scenes in each run: the random tests of the library take new ones.
 SAME = settings(
     database=None,
     deadline=None,
@@ -23,12 +23,12 @@ FLAT = lc.Flat()
 
 
 def sizes(least: float, most: float) -> st.SearchStrategy[float]:
-    """Positive numbers, as likely between 1 and 10 as between 10 and 100."""
+    """Returns positive numbers, as likely between 1 and 10 as between 10 and 100."""
     return st.floats(math.log(least), math.log(most)).map(math.exp)
 
 
 def shapes() -> st.SearchStrategy[lc.Body]:
-    """Upper bodies of about the size 1 that bulge towards the contact."""
+    """Returns upper bodies of about the size 1 that bulge towards the contact."""
     arc = st.builds(
         lambda long, high, reach: lc.Ellipse(long, high, (-reach, reach)),
         sizes(0.5, 5.0),
@@ -55,7 +55,7 @@ def shapes() -> st.SearchStrategy[lc.Body]:
 
 @st.composite
 def scenes(draw: st.DrawFn) -> tuple[lc.Body, lc.Body, float]:
-    """A body on a flat or on one that bulges towards it, and a load."""
+    """Draws a body on a flat or on one that bulges towards it, and a load."""
     upper = draw(shapes())
     lower: lc.Body = FLAT
     if draw(st.booleans()):
@@ -64,7 +64,7 @@ def scenes(draw: st.DrawFn) -> tuple[lc.Body, lc.Body, float]:
 
 
 def solved(lower: lc.Body, upper: lc.Body, load: float, **settings: Any) -> lc.Solution | None:
-    """None where the body is too short for the load."""
+    """Returns the solution; None if the body is too short for the load."""
     try:
         return lc.solve(lower, upper, kappa=1.0, load=load, **settings)
     except lc.errors.DomainTooShortError as error:
@@ -73,7 +73,7 @@ def solved(lower: lc.Body, upper: lc.Body, load: float, **settings: Any) -> lc.S
 
 
 def found(scene: tuple[lc.Body, lc.Body, float]) -> lc.Solution:
-    """The solution; scenes without one are left out."""
+    """Returns the solution; scenes without one are left out."""
     solution = solved(*scene)
     assume(solution is not None)
     assert solution is not None
@@ -81,7 +81,8 @@ def found(scene: tuple[lc.Body, lc.Body, float]) -> lc.Solution:
 
 
 def close(one: lc.Solution, other: lc.Solution, factor: float = 1.0, shift: float = 0.0) -> None:
-    """Whether the limits are the same, but for a scale and a shift, to what they are said to be good for."""
+    """Checks that the limits agree, after a scaling and a shift, to within their estimated errors.
+    """
     assert one.limits_error is not None and other.limits_error is not None
     size = one.hull.half_width * abs(factor)
     allowed = 4.0 * (one.limits_error + other.limits_error + 1e-15) * size + 1e-15 * abs(shift)
@@ -96,8 +97,8 @@ def test_pressures_carry_the_load_and_meet_the_equation(scene: tuple[lc.Body, lc
     solution = found(scene)
     assert solution.is_checked
     on = solution.hull
-    # By Gauss and Chebyshev: to rounding where bodies are smooth, to less beside a kink, and to little at a tip, where
-    # the pressure is infinite.
+    # Gauss-Chebyshev rule: accurate to rounding where bodies are smooth, to less next to a kink,
+    # and least at a tip, where the pressure is infinite.
     angles = (np.arange(4000) + 0.5) * np.pi / 4000
     x = on.centre + on.half_width * np.cos(angles)
     carried = np.sum(solution.pressure(x) * np.sin(angles)) * on.half_width * np.pi / 4000
@@ -125,10 +126,10 @@ def test_put_elsewhere(scene: tuple[lc.Body, lc.Body, float], shift: float, fact
         return other
 
     close(solution, of(lambda body: body.mirrored()), -1.0)
-    # A flat is everywhere, and how high a body is before it is pressed does not matter.
+    # A flat is the same at every x, and the height of a body before loading does not matter.
     close(solution, of(lambda body: body if body is FLAT else body.shifted(shift, 0.3)), 1.0, shift)
     close(solution, of(lambda body: body if body is FLAT else body.scaled(factor), factor * load), factor)
-    # The bodies exchanged, each upside down.
+    # The bodies are exchanged, each upside down.
     swapped = solved(upper.flipped(), lower if lower is FLAT else lower.flipped(), load)
     assert swapped is not None
     close(solution, swapped)

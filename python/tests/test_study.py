@@ -1,4 +1,4 @@
-"""The design study, without a cluster: its blocks, its files, its optimum."""
+"""Design study without a cluster: its blocks, its files and its optimum."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SMALL = Study.of((4, 4, 4), block_rows=10)
 
 
 def largest(study: Study, crowning: float, misalignment: float, load: float) -> tuple[float, str]:
-    """Pressure and error of one scene."""
+    """Returns the pressure and the error of one scene."""
     try:
         return study.roller(crowning, misalignment).solve(load=load).peak().pressure, ""
     except lc.errors.LineContactError as error:
@@ -108,10 +108,10 @@ def test_a_damaged_file_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[s
     whole = [path.read_bytes() for path in paths]
     paths[0].write_bytes(whole[0][:-100])
     paths[1].write_bytes(b"")
-    # One bit of a number.
+    # One bit of a number is flipped.
     at = whole[2].index(np.float64(ds.solve_block(SMALL, 2)["peak_pressure"][5]).tobytes())
     paths[2].write_bytes(whole[2][:at] + bytes([whole[2][at] ^ 1]) + whole[2][at + 1 :])
-    # Too few rows.
+    # This file has too few rows.
     paths[3].write_bytes(whole[6])
     assert ds.unfinished_blocks(SMALL, tmp_path) == [0, 1, 2, 3]
     assert capsys.readouterr().err.count("is damaged") == 4

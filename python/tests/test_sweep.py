@@ -1,4 +1,4 @@
-"""Many contacts in one call: what single solves find, on any number of threads, with failures one by one."""
+"""Sweeps: equal to single solves, on any number of threads, with errors row by row."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def parabola(x: Array) -> tuple[Any, ...]:
 
 
 def of_one(solution: lc.Solution) -> dict[str, float]:
-    """All quantities, each by its own way."""
+    """Returns all quantities, each by its own method."""
     hull, peak, shear = solution.hull, solution.peak(), solution.max_shear()
     return {
         "load": solution.load,
@@ -68,7 +68,7 @@ def test_the_same_as_one_by_one() -> None:
         for name, want in of_one(solution).items():
             off = {"rel_tol": 1e-12, "abs_tol": 0.0}
             if name in ("peak_x", "max_shear_x", "max_shear_depth"):
-                # Where a largest value is, it is flat: half the digits.
+                # A maximum is flat: its place has half the digits.
                 off["abs_tol"] = 1e-6 * size
             elif name in ("centre", "centre_of_pressure", "moment"):
                 off["abs_tol"] = 1e-13 * size * (load if name == "moment" else 1.0)
@@ -141,12 +141,12 @@ def test_a_number_that_is_not_to_be_had_leaves_the_others() -> None:
     found = lc.sweep(punch, load=[0.3], quantities=["peak_x", "peak_pressure", "mean_pressure"])
     assert math.isinf(found["peak_pressure"][0]) and math.isclose(found["mean_pressure"][0], 0.15)
     assert found["error"][0] == "SingularError" and math.isnan(found["peak_x"][0])
-    # Of a corner an infinite pressure is not a failure.
+    # The infinite pressure at a corner is not a failure.
     assert not lc.sweep(punch, load=[0.3]).errors
 
 
 class Fails:
-    """A parabola until it is asked for places beyond `x`."""
+    """A parabola that raises for places beyond `x`."""
 
     def __init__(self, beyond: float) -> None:
         self.beyond = beyond
@@ -169,7 +169,7 @@ def test_an_exception_of_a_function_is_that_of_its_row() -> None:
 
 
 class Ends:
-    """Raises what means to end all."""
+    """Curve that raises an exception which ends the whole sweep."""
 
     def __init__(self, error: BaseException) -> None:
         self.error = error
@@ -259,7 +259,7 @@ def test_a_signal_ends_it(body: lc.Body) -> None:
         signal.setitimer(signal.ITIMER_REAL, 0.15)
         began = time.perf_counter()
         with pytest.raises(Late):
-            # Minutes of largest shears.
+            # The largest shears would take minutes.
             lc.sweep(contact, load=np.full(10_000, 100.0), quantities=["max_shear"])
         assert time.perf_counter() - began < 5.0
     finally:
@@ -314,5 +314,5 @@ def test_a_fork_does_not_wait_for_threads_that_it_has_not() -> None:
 
 def test_the_interpreter_may_be_without_a_lock() -> None:
     without = not getattr(sys, "_is_gil_enabled", lambda: True)()
-    # A build without a lock keeps it off: the extension says that it needs none.
+    # A build without a lock keeps it off: the extension declares that it needs none.
     assert without == bool(__import__("sysconfig").get_config_var("Py_GIL_DISABLED"))

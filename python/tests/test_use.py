@@ -1,4 +1,4 @@
-"""Curves of one's own, pickles, threads, signals, memory, pictures."""
+"""User-defined curves, pickles, threads, signals, memory and pictures."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TO = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
 
 @dataclass(frozen=True)
 class Circle:
-    """By its angle."""
+    """A circle by its angle."""
 
     radius: float
 
@@ -66,7 +66,7 @@ def placed(body: lc.Body) -> lc.Body:
     return body.scaled(2.0).mirrored().flipped().rotated(0.01).shifted(0.3, -0.1)
 
 
-# Curves of one's own.
+# User-defined curves.
 
 
 def test_a_curve_is_the_shape_that_it_draws() -> None:
@@ -75,7 +75,7 @@ def test_a_curve_is_the_shape_that_it_draws() -> None:
     one, other = (lc.solve(FLAT, body, contact_modulus=115e3, load=500.0) for body in (shape, curve))
     assert abs(one.a / other.a - 1.0) < 1e-14
     assert one.cost == other.cost
-    # Placed, and joined, it is evaluated in batches, too.
+    # A placed or joined curve is evaluated in batches, too.
     for of in (shape.flipped(), lc.Piecewise([shape]).flipped()):
         assert math.isclose(lc.solve(of, FLAT, contact_modulus=115e3, load=500.0).a, one.a, rel_tol=1e-14)
 
@@ -99,7 +99,7 @@ def test_what_a_function_may_return() -> None:
 
 
 class Faulty:
-    """Raises from the third call on."""
+    """A curve that raises from the third call on."""
 
     def __init__(self, error: BaseException) -> None:
         self.error, self.calls = error, 0
@@ -118,12 +118,12 @@ def test_an_exception_comes_out_as_it_is(error: BaseException) -> None:
     with pytest.raises(type(error)) as raised:
         contact.solve(load=0.02)
     assert raised.value is error
-    # Python is not called again once it has raised.
+    # Python is not called again after an exception.
     assert body.calls == 3
     with pytest.raises(type(error)):
         lc.Solver().solve(contact, load=0.02)
     assert body.calls == 4
-    # And it is forgotten then.
+    # The exception does not affect the next solve.
     assert lc.solve(FLAT, BODY, kappa=1.0, load=0.02).is_checked
 
 
@@ -327,13 +327,13 @@ def test_a_signal_ends_what_takes_long() -> None:
     def late(*_: object) -> None:
         raise Late
 
-    # Ten seconds and more for hundreds of contacts, and for as many stresses.
+    # Hundreds of contacts take ten seconds or more, and so do a million stresses.
     x = np.linspace(-1.0, 1.0, 10_000)
     rough = x**2 / 2 + 1e-4 * np.cumsum(np.random.default_rng(1).normal(size=x.size))
     body = lc.Spline(np.column_stack([x, rough]), outliers=None)
     solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.02)
     many = np.full(1_000_000, 0.1)
-    # Minutes for the largest shear below several contacts.
+    # The largest shear below several contacts takes minutes.
     x = np.linspace(-8.0, 8.0, 400)
     y = x**2 / 4000 + np.random.default_rng(3).normal(0.0, 2e-4, x.size)
     points = np.column_stack([x, y + 0.01 * np.exp(-(((x - 1.5) / 0.15) ** 2))])
@@ -357,7 +357,7 @@ def test_a_signal_ends_what_takes_long() -> None:
 
 
 def resident() -> int:
-    """Bytes of memory that this process has."""
+    """Returns the resident memory of this process, in bytes."""
     with open("/proc/self/statm") as numbers:
         return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
@@ -410,7 +410,7 @@ def test_pictures() -> None:
 
 
 def test_heights_of_a_place_that_is_met_at_once() -> None:
-    # The others take another step, and zero is bounded by zero from one side.
+    # The other places take a further step, and zero is bounded from one side by zero.
     np.testing.assert_allclose(BODY.heights([0.0, 1e-150, -2e-150]), [0.0, 5e-301, 2e-300], rtol=1e-12)
 
 

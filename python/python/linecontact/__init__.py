@@ -1,7 +1,7 @@
-"""Line contact of two bodies, each given as a parametric curve: where they touch, and the pressure between them.
+"""Line contact of two bodies, each a parametric curve: contact limits and pressure.
 
-Lengths, pressures and loads per unit length are in any units that go together: mm, MPa and N/mm, or m, Pa and N/m.
-The lower body is body 1. The contact runs from x = -b to x = a.
+Lengths, pressures and loads per unit length are in any consistent units: mm, MPa and N/mm, or m, Pa
+and N/m. The lower body is body 1. The contact runs from x = -b to x = a.
 
 Examples
 --------

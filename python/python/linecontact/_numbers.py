@@ -1,4 +1,4 @@
-"""Arrays of any shape in, arrays of the same shape out."""
+"""Conversion of arguments to numbers and arrays; results keep the shape of the argument."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
-"""What comes back of an array."""
+"""Array of results."""
 
 Numbers: TypeAlias = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[Any]
-"""What is taken for an array of numbers."""
+"""Argument that is converted to an array of numbers."""
 
 Range: TypeAlias = tuple[float, float]
-"""From one number to another."""
+"""First and last number of a range."""
 
 
 class Unchanging:
-    """What does not change: once `_SEAL` is set, no attribute can be set any more, as nobody would look at it."""
+    """Base class of immutable objects: once `_SEAL` is set, assigning an attribute raises."""
 
     __slots__ = ()
     _SEAL = ""
@@ -39,7 +39,7 @@ class Unchanging:
 
 
 def as_number(given: Any, name: str) -> float:
-    """One number: what is read from a file or a form is text as yet, and an array is more than one."""
+    """Converts to one number; refuses text, as read from a file or a form, and arrays."""
     if not isinstance(given, str | bytes):
         try:
             return float(given)
@@ -49,7 +49,7 @@ def as_number(given: Any, name: str) -> float:
 
 
 def as_range(given: Any, name: str) -> Range:
-    """Two numbers as a tuple."""
+    """Converts to a tuple of two numbers."""
     try:
         first, last = given
     except (TypeError, ValueError):
@@ -58,7 +58,7 @@ def as_range(given: Any, name: str) -> Range:
 
 
 def as_numbers(given: Any, name: str) -> FloatArray:
-    """An array of numbers."""
+    """Converts to an array of numbers; refuses text."""
     found = np.asarray(given)
     if found.dtype.kind in "US":
         raise TypeError(f"{name} is {given!r}: give numbers")
@@ -66,7 +66,7 @@ def as_numbers(given: Any, name: str) -> FloatArray:
 
 
 def each(of: Callable[[FloatArray], FloatArray], x: Any) -> Any:
-    """The values at `x`: a number of a number, an array of an array."""
+    """Evaluates a function at `x`: a number for a number, an array for an array."""
     places = as_numbers(x, "x")
     values = of(places.reshape(-1))
     return float(values[0]) if places.ndim == 0 else values.reshape(places.shape)

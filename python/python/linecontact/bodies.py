@@ -1,7 +1,8 @@
-"""Bodies: shapes, measured points, curves of one's own, joined and put in place.
+"""Bodies: shapes, measured points and user-defined curves, which can be joined and placed.
 
-Lengths are in any unit, the same for both bodies of a contact; angles are in radians. Each vertex is at the
-origin, and convex shapes open upwards: as they are they are upper bodies. `Body.flipped` makes lower ones of them.
+Lengths are in any unit, the same for both bodies of a contact; angles are in radians. Each vertex
+is at the origin. Convex shapes open upwards, which makes them upper bodies; `Body.flipped` turns
+them into lower ones.
 """
 
 from __future__ import annotations
@@ -38,9 +39,10 @@ __all__ = [
 
 
 class Body(Unchanging, ABC):
-    """A surface as a curve `[X(k), Y(k)]` of a parameter `k`, over which `X` rises or falls strictly.
+    """A surface: a curve `[X(k), Y(k)]` along which `X` rises or falls strictly with `k`.
 
-    A body does not change: `shifted` and the like return another one. Bodies that are equal have the same numbers.
+    Bodies are immutable: `shifted` and the other placements return a new body. Bodies are equal if
+    they are of the same class and were created with equal arguments.
 
     Examples
     --------
@@ -54,7 +56,7 @@ class Body(Unchanging, ABC):
 
     @abstractmethod
     def _arguments(self) -> tuple[Any, ...]:
-        """What the constructor was called with."""
+        """Returns the arguments of the constructor."""
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(map(repr, self._arguments()))})"
@@ -72,28 +74,28 @@ class Body(Unchanging, ABC):
 
     @property
     def domain(self) -> Range:
-        """The range of `k`: no unit, or radians, or a length, as the body has it."""
+        """Range of `k`: without unit, in radians or a length, depending on the body."""
         first, last = self._profile.domain
         return first, last
 
     @property
     def pieces(self) -> int:
-        """How many smooth pieces the body has."""
+        """Number of smooth pieces."""
         return self._profile.pieces
 
     @property
     def convexity(self) -> Bulge:
-        """Which way the body bulges, as far as it says: `"convex"` is an upper body that bulges towards the contact."""
+        """Declared convexity: `"convex"` for an upper body that bulges towards the contact."""
         return self._profile.convexity
 
     def at(self, k: float | Numbers) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """The points at many parameters, with the derivatives by `k`.
+        """Returns points of the curve, with their derivatives by `k`.
 
         Parameters
         ----------
         k : array_like
-            Parameters within the `domain`. Of a body of several pieces it is `i + s` on piece `i`, with `s`
-            from 0 at its left end to 1 at its right one.
+            Parameters within the `domain`. For a body of several pieces the parameter is `i + s` on
+            piece `i`, with `s` from 0 at its left end to 1 at its right.
 
         Returns
         -------
@@ -112,9 +114,9 @@ class Body(Unchanging, ABC):
         return x, y, dx, dy
 
     def heights(self, x: float | Numbers) -> FloatArray:
-        """`Y` at given `x`, for drawings: a length. NaN beyond the ends of the body.
+        """Returns the heights `Y` at given `x`, for drawings: lengths; NaN beyond the ends.
 
-        `X(k) = x` is solved for each of them, all at once, to about twelve digits.
+        It inverts `X(k) = x` for all `x` at once, to about twelve digits.
 
         Examples
         --------
@@ -144,14 +146,15 @@ class Body(Unchanging, ABC):
         return np.where(within, height, np.nan)
 
     def check_derivatives(self) -> None:
-        """Whether the derivatives are those of their functions, all over the domain.
+        """Checks the derivatives against differences, over the whole domain.
 
-        About 600 evaluations for each smooth piece, one by one: for a curve just written.
+        It takes about 600 evaluations of each smooth piece, one by one: meant for a curve just
+        written.
 
         Raises
         ------
         linecontact.errors.ProfileDerivativeError
-            With the place of the largest fault.
+            For the largest fault, with its place.
 
         Examples
         --------
@@ -164,7 +167,7 @@ class Body(Unchanging, ABC):
         return Placed(self, [(name, numbers)])
 
     def shifted(self, along: float = 0.0, across: float = 0.0) -> Placed:
-        """Moved by lengths along `X` and across it.
+        """Moves the body by the lengths `along` in X and `across` in Y.
 
         Examples
         --------
@@ -176,33 +179,38 @@ class Body(Unchanging, ABC):
         return self._placed("shifted", as_number(along, "along"), as_number(across, "across"))
 
     def mirrored(self) -> Placed:
-        """Left and right exchanged: `X` becomes `-X`, without any rounding."""
+        """Exchanges left and right: `X` becomes `-X`, without any rounding."""
         return self._placed("mirrored")
 
     def flipped(self) -> Placed:
-        """Turned upside down: `Y` becomes `-Y`, without any rounding. Of an upper body it makes a lower one."""
+        """Turns the body upside down: `Y` becomes `-Y`, without any rounding.
+
+        This turns an upper body into a lower one.
+        """
         return self._placed("flipped")
 
     def rotated(self, angle: float) -> Placed:
-        """Turned about the origin by an angle in radians, from the X axis towards the Y axis."""
+        """Turns the body about the origin by an angle in radians, from the X to the Y axis.
+        """
         return self._placed("rotated", as_number(angle, "angle"))
 
     def scaled(self, factor: float) -> Placed:
-        """All lengths multiplied by a factor; a negative one adds half a turn."""
+        """Multiplies all lengths by a factor; a negative one adds half a turn."""
         return self._placed("scaled", as_number(factor, "factor"))
 
 
 class Placed(Body):
-    """A body moved, turned, mirrored, flipped or scaled, step by step, each about the origin.
+    """A body that is shifted, rotated, mirrored, flipped or scaled, step by step.
 
-    The methods `shifted`, `mirrored`, `flipped`, `rotated` and `scaled` of a body make it.
+    Each step acts about the origin. The methods `shifted`, `mirrored`, `flipped`, `rotated` and
+    `scaled` of a body create it.
 
     Parameters
     ----------
     body : Body
-        What is placed.
+        Body to be placed.
     steps : sequence of (str, tuple of float)
-        Names of those methods and their numbers, lengths and radians, in the order in which they are done.
+        Names of these methods with their arguments, lengths and radians, in the order of the steps.
 
     Examples
     --------
@@ -231,7 +239,7 @@ class Placed(Body):
 
 
 class Flat(Body):
-    """The level `Y = 0`, without ends.
+    """The level line `Y = 0`, without ends.
 
     Examples
     --------
@@ -253,9 +261,9 @@ class Line(Body):
     Parameters
     ----------
     slope : float
-        m, no unit.
+        Slope m, no unit.
     domain : (float, float)
-        From one `X` to another: lengths.
+        First and last `X`: lengths.
 
     Examples
     --------
@@ -278,9 +286,9 @@ class Parabola(Body):
     Parameters
     ----------
     radius : float
-        R, the radius at the vertex: a length, negative where it bulges upwards.
+        Radius R at the vertex: a length, negative where the parabola bulges upwards.
     domain : (float, float)
-        From one `X` to another: lengths.
+        First and last `X`: lengths.
 
     Examples
     --------
@@ -298,14 +306,15 @@ class Parabola(Body):
 
 
 class Ellipse(Body):
-    """An arc of an ellipse, `X = A sin k`, `Y = B (1 - cos k)`, by the angle k from its lowest point.
+    """An arc of an ellipse, `X = A sin k`, `Y = B (1 - cos k)`, with its lowest point at k = 0.
 
     Parameters
     ----------
     along, across : float
-        The semi-axes A along the contact, positive, and B across it, negative where it bulges upwards: lengths.
+        Semi-axes A along the contact, positive, and B across it, negative where the ellipse bulges
+        upwards: lengths.
     angles : (float, float)
-        From one k to another, within ±π/2: radians.
+        First and last angle k, within ±π/2: radians.
 
     Examples
     --------
@@ -320,14 +329,14 @@ class Ellipse(Body):
 
     @classmethod
     def circle(cls, radius: float, angles: Sequence[float]) -> Ellipse:
-        """An arc of a circle.
+        """Creates an arc of a circle.
 
         Parameters
         ----------
         radius : float
-            A length, negative where the circle bulges upwards.
+            Radius: a length, negative where the circle bulges upwards.
         angles : (float, float)
-            From the lowest point, within ±π/2: radians.
+            First and last angle from the lowest point, within ±π/2: radians.
 
         Examples
         --------
@@ -343,16 +352,16 @@ class Ellipse(Body):
 
 
 class Involute(Body):
-    """The flank of a gear tooth: the involute of a circle, seen from one of its points.
+    """The flank of a gear tooth: the involute of a circle, with the origin at one of its points.
 
     Parameters
     ----------
     base_radius : float
         Radius r of the base circle: a length.
     origin : float
-        The angle t₀ rolled off where the origin is put: radians. The radius of curvature there is r t₀.
+        Angle t₀ rolled off at the origin: radians. The radius of curvature there is r t₀.
     angles : (float, float)
-        The angles rolled off at the ends, not negative and within π/2 of t₀: radians.
+        Angles rolled off at the ends, not negative and within π/2 of t₀: radians.
 
     Examples
     --------
@@ -375,18 +384,19 @@ class Involute(Body):
 
 
 class Crowning(Body):
-    """Logarithmic (Lundberg) crowning, `Y = -C ln(1 - (X/l)²)`, of a body that is long across the plane.
+    """Logarithmic (Lundberg) crowning, `Y = -C ln(1 - (X/l)²)`.
 
-    Along the axis of a roller the contact is one in space: for it a plane solution is a guide only.
+    In the plane it describes a body that is long across, such as a slide shoe. Along the axis of a
+    roller the contact is three-dimensional: for it a plane solution is only a guide.
 
     Parameters
     ----------
     depth : float
-        C, a length: positive for an upper body, negative for a lower one.
+        Depth C: a length, positive for an upper body, negative for a lower one.
     half_length : float
-        l, a length.
+        Half-length l: a length.
     domain : (float, float)
-        From one `X` to another, at most from -l to l: lengths.
+        First and last `X`, at most from -l to l: lengths.
 
     Examples
     --------
@@ -411,9 +421,10 @@ class Wedge(Body):
     Parameters
     ----------
     slopes : (float, float)
-        Of the left and the right flank, no unit: of a wedge that points down the left one is negative.
+        Slopes of the left and the right flank, no unit: the left one is negative for a wedge that
+        points down.
     reach : float
-        The flanks go from -reach to reach: a length.
+        Reach of the flanks, from -reach to reach: a length.
 
     Examples
     --------
@@ -432,16 +443,16 @@ class Wedge(Body):
 
 
 class RoundedPunch(Body):
-    """A punch that is flat in the middle and goes on as a parabola on either side.
+    """A punch with a flat middle that continues as a parabola on either side.
 
     Parameters
     ----------
     flat : float
-        It is flat from -flat to flat: a length.
+        Half-width of the flat, from -flat to flat: a length.
     radius : float
-        R, the radius of the edges: a length.
+        Radius R of the edges: a length.
     reach : float
-        It ends at -reach and reach: a length.
+        Reach of the punch, from -reach to reach: a length.
 
     Examples
     --------
@@ -464,18 +475,21 @@ class Spline(Body):
     Parameters
     ----------
     points : array_like, shape (n, 2)
-        Rows of x and y, lengths, by rising x.
+        Rows of x and y, lengths, in order of rising x.
     noise : float
-        Standard deviation of the heights: a length. Of all curves that are off the points by so much the
-        smoothest is taken. With 0 the curve goes through the points. Rather a tenth too much than too little: with
-        much less than half of the true noise the curve follows it, and touches in many places.
+        Standard deviation of the heights: a length. The smoothest of all curves at this distance
+        from the points is taken; with 0 the curve goes through the points. A tenth too much is
+        better than a tenth too little: with much less than half of the true noise the curve follows
+        the noise, and touches in many places.
     outliers : float or None
-        How far off its neighbours a point may be before it is refused, in standard deviations. None: any.
+        Distance from the cubic through its neighbours at which a point is refused, in standard
+        deviations; None disables the check.
 
     Raises
     ------
     linecontact.errors.LineContactError
-        One of `SplineTooFewError` and the like, with the row of the point at fault, from 1.
+        One of `SplineTooFewError`, `SplineOutlierError` and so on, with the row of the faulty
+        point, counted from 1.
 
     Examples
     --------
@@ -519,24 +533,25 @@ class Spline(Body):
 
 
 class Curve(Body):
-    """A curve of one's own, by a function of arrays.
+    """A user-defined curve, given by a function of arrays.
 
     Parameters
     ----------
     domain : (float, float)
-        The range of the parameter k, over which X rises or falls strictly. End it where X turns back.
+        Range of the parameter k, over which X rises or falls strictly. End it where X turns back.
     function : callable
-        `k -> (x, y, dx, dy)`: of an array of k the arrays of X and Y, lengths, and of their derivatives by k.
-        Each may also be one number, for all k. It must return the same for the same k. It is called with many k
-        at a time, at the ends once; an exception in it comes out of what was called, as it is.
+        `k -> (x, y, dx, dy)`: maps an array of k to the arrays of X and Y, lengths, and of their
+        derivatives by k. A single number stands for an array of equal numbers. The function must
+        return the same values for the same k. It is called with many k at a time, and once with
+        both ends. Its exceptions reach the caller unchanged.
     convexity : {"unknown", "straight", "convex", "concave"}
-        Which way the curve bulges, if it is known: "convex" if the slope dY/dX never falls with X. Two bodies that
-        bulge towards each other take fewer evaluations. Where the slopes that a solve samples contradict it there is a
-        NotConvexError; what lies between them is not checked.
+        Convexity, if it is known: "convex" if the slope dY/dX never falls with X. Two bodies that
+        bulge towards each other take fewer evaluations. A NotConvexError is raised if the slopes
+        sampled by a solve contradict the declaration; the curve between the samples is not checked.
 
     Notes
     -----
-    A function that `pickle` can find by its name can be pickled, a lambda cannot.
+    The curve can be pickled if `pickle` can find its function by name, which excludes lambdas.
 
     Examples
     --------
@@ -574,15 +589,16 @@ class Curve(Body):
 class Piecewise(Body):
     """Bodies joined end to end, from left to right.
 
-    Each has a parameter and a range of its own. Where two meet the slope may jump; X and Y may not.
+    Each part has its own parameter and range. The slope may jump where two parts meet; X and Y may
+    not.
 
     Parameters
     ----------
     parts : sequence of Body
-        From left to right.
+        Bodies, from left to right.
     tolerance : float or None
-        By how much two ends may miss each other, as a share of the larger of their extent and their distance
-        from 0. None: by rounding.
+        Largest mismatch of two ends, as a share of the larger of their extent and their distance
+        from 0. None: rounding.
 
     Examples
     --------

@@ -1,4 +1,5 @@
-"""Scenes: two bodies, how stiff they are, what is at the edges, and how the contact is found."""
+"""Scenes: two bodies, their stiffness, the conditions at the edges and the settings of the solve.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +42,7 @@ class Material(_Material):
     Parameters
     ----------
     youngs_modulus : float
-        E: a pressure, infinite of a rigid body.
+        E: a pressure, infinite for a rigid body.
     poisson_ratio : float
         ν, from 0 to 1/2.
 
@@ -56,12 +57,12 @@ class Material(_Material):
     __slots__ = ()
 
     def __new__(cls, youngs_modulus: float, poisson_ratio: float) -> Material:
-        """Refuses a ratio that none can have, here and not at a solve."""
+        """Creates the material; refuses an impossible Poisson's ratio here, before any solve."""
         return super().__new__(cls, as_number(youngs_modulus, "youngs_modulus"), _ratio(poisson_ratio))
 
     @classmethod
     def rigid(cls) -> Material:
-        """A body that keeps its shape.
+        """Creates the material of a rigid body.
 
         Examples
         --------
@@ -82,7 +83,7 @@ def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
 
 
 def _both(materials: Sequence[Any]) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
-    """The materials of the two bodies."""
+    """Returns the materials of the two bodies."""
     if isinstance(materials, Material) or not isinstance(materials, Sequence) or len(materials) != 2:
         raise TypeError(
             f"materials are {materials!r}: give one for the lower and one for the upper body, such as (steel, steel)"
@@ -93,14 +94,14 @@ def _both(materials: Sequence[Any]) -> tuple[tuple[float, float] | None, tuple[f
 def contact_modulus(
     lower: Sequence[float], upper: Sequence[float], plane: Plane = "strain"
 ) -> float:
-    """The contact modulus of two bodies, `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` in plane strain.
+    """Returns the contact modulus: `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` in plane strain.
 
     Parameters
     ----------
     lower, upper : Material
-        What they are made of.
+        Materials of the two bodies.
     plane : {"strain", "stress"}
-        "strain" for bodies much longer than the contact is wide, "stress" for much shorter ones.
+        "strain" for bodies much longer than the contact is wide, "stress" for bodies much shorter.
 
     Returns
     -------
@@ -118,7 +119,7 @@ def contact_modulus(
 
 
 class Edge(NamedTuple):
-    """What becomes of one edge of the contact. Made by `free`, `fixed`, `free_until` and `adhesive`.
+    """The condition at one edge of the contact, created by `free`, `fixed` and so on.
 
     Examples
     --------
@@ -133,36 +134,39 @@ class Edge(NamedTuple):
 
     @classmethod
     def free(cls) -> Edge:
-        """A smooth body: the limit is where the pressure ends at zero."""
+        """Creates the edge of a smooth body: the limit is where the pressure ends at zero."""
         return cls("free")
 
     @classmethod
     def fixed(cls, x: float) -> Edge:
-        """A sharp corner at this x, a length, from which the contact does not part; it must press there."""
+        """Creates an edge at a sharp corner at this x, a length, where the limit stays.
+
+        The body must press there.
+        """
         return cls("fixed", as_number(x, "x"))
 
     @classmethod
     def free_until(cls, x: float) -> Edge:
-        """A smooth body with a sharp corner at this x, a length: free as long as the corner is not reached."""
+        """Creates an edge that is free until the contact reaches a corner at this x: a length."""
         return cls("free_until", as_number(x, "x"))
 
     @classmethod
     def adhesive(cls, work: float) -> Edge:
-        """Adhesion at the edge alone (JKR), with this work of adhesion: energy per unit area."""
+        """Creates an edge with adhesion (JKR) of this work: energy per unit area."""
         return cls("adhesive", as_number(work, "work"))
 
 
 class EdgePressure(NamedTuple):
-    """Edges where the pressure has given values at given distances from the limits: the paper's Eq. (6).
+    """Prescribed pressures at given distances from the limits: the paper's Eq. (6).
 
     Parameters
     ----------
     at_a, at_b : float
-        The pressures wanted at `a - distance_a` and `distance_b - b`.
+        Pressures prescribed at `a - distance_a` and `distance_b - b`.
     distance_a, distance_b : float
         Lengths, positive.
     tolerance_a, tolerance_b : float
-        How far the pressures may be from those, positive.
+        Tolerances of these pressures, positive.
 
     Examples
     --------
@@ -183,12 +187,15 @@ class EdgePressure(NamedTuple):
 
     @classmethod
     def zero(cls, distance: float, tolerance: float) -> EdgePressure:
-        """No pressure, at the same distance (a length) and with the same tolerance (a pressure) on both sides."""
+        """Creates the condition of zero pressure, with equal settings on both sides.
+
+        The distance is a length, the tolerance a pressure.
+        """
         return cls(0.0, 0.0, distance, distance, tolerance, tolerance)
 
 
 class Reference(NamedTuple):
-    """The point of a body that its surface comes nearer to. Made by `depth`, `disc` and `length`.
+    """The reference point for the approach of a body, created by `depth`, `disc` or `length`.
 
     Examples
     --------
@@ -202,17 +209,20 @@ class Reference(NamedTuple):
 
     @classmethod
     def depth(cls, depth: float) -> Reference:
-        """The point at this depth below the surface, a length."""
+        """Creates a reference at this depth below the surface: a length."""
         return cls("depth", as_number(depth, "depth"))
 
     @classmethod
     def disc(cls, radius: float) -> Reference:
-        """The centre of a disc of this radius, a length, which is loaded at the opposite point."""
+        """Creates a reference at the centre of a disc of this radius: a length.
+
+        The disc is loaded at the point opposite to the contact.
+        """
         return cls("disc", as_number(radius, "radius"))
 
     @classmethod
     def length(cls, length: float) -> Reference:
-        """ℓ in `2 ln(ℓ/|x - s|)`, a length: any other constant."""
+        """Creates a reference by ℓ in `2 ln(ℓ/|x - s|)`, a length: for any other constant."""
         return cls("length", as_number(length, "length"))
 
 
@@ -222,9 +232,9 @@ class References(NamedTuple):
     Parameters
     ----------
     x : float
-        The x below and above which they are: a length.
+        The x of both references: a length.
     lower, upper : Reference
-        Of body 1 and of body 2.
+        References of body 1 and of body 2.
 
     Examples
     --------
@@ -248,13 +258,13 @@ class Search(NamedTuple):
     Parameters
     ----------
     method : {"bisection", "secant", "brent", "newton"}
-        Which.
+        Name of the strategy.
     absolute, relative : float
-        Errors at which it may stop, in what is sought and as a share of it.
+        Errors of the unknown at which the search may stop: absolute, and as a share of the unknown.
     residual : float
-        What the function may be where it stops.
+        Residual at which the search may stop.
     max_evaluations : int
-        When it gives up.
+        Number of evaluations after which the search gives up.
 
     Examples
     --------
@@ -278,7 +288,7 @@ class Panels(NamedTuple):
     Parameters
     ----------
     tolerance : float
-        Relative error that the slopes may have; 0 for all digits.
+        Largest error of the slopes, relative; 0 for all digits.
 
     Examples
     --------
@@ -293,16 +303,17 @@ class Panels(NamedTuple):
 
 
 class Midpoint(NamedTuple):
-    """The paper's quadrature.
+    """The paper's quadrature: the midpoint rule with Richardson extrapolation.
 
     Parameters
     ----------
     segments : int
-        N, of the coarsest level.
+        Number of segments N of the coarsest level.
     extrapolations : int
-        ET: 0 for the trapezoidal sum, 1 for the midpoint rule, one more for each power taken away.
+        Number of extrapolations ET: 0 for the trapezoidal sum, 1 for the midpoint rule, and one
+        more for each power eliminated.
     exponents : {"half_integer", "even"}
-        The powers that are taken away: "even" as in the paper.
+        Powers that are eliminated: "even" as in the paper.
 
     Examples
     --------
@@ -335,7 +346,7 @@ def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | No
 
 
 class Prescribed(TypedDict, total=False):
-    """What a solve is given: the keyword arguments of `Contact.solve`."""
+    """Prescribed quantities: the keyword arguments of `Contact.solve`."""
 
     load: float
     half_width: float
@@ -366,7 +377,7 @@ class Settings(TypedDict, total=False):
     single_interval: bool
 
 
-# Numbers that are prescribed together, and what that is called.
+# Numbers that are prescribed together, with the name of the control.
 _CONTROLS: dict[frozenset[str], tuple[str, tuple[str, ...]]] = {
     frozenset({"load"}): ("load", ("load",)),
     frozenset({"half_width"}): ("half_width", ("half_width",)),
@@ -381,9 +392,9 @@ _CONTROLS: dict[frozenset[str], tuple[str, tuple[str, ...]]] = {
 def _control(
     given: Mapping[str, Any], references: References | None, quantities: Sequence[str] = ()
 ) -> tuple[str, list[Any]]:
-    """What is prescribed: its name, and its numbers (or arrays of them) in the library's order.
+    """Returns the name of the control, and its numbers (or arrays) in the library's order.
 
-    References must be there for it, and for the quantities that are asked for.
+    References are required for an approach, and for the quantities that depend on them.
     """
     if references is None and {"approach", "stiffness"} & set(quantities):
         raise TypeError("approach and stiffness are between references: give them")
@@ -400,7 +411,7 @@ def _control(
 def _prescribed(
     *, references: References | None, **numbers: float | None
 ) -> tuple[str, list[float], References | None]:
-    """What is prescribed, as the library takes it."""
+    """Returns the prescribed quantities in the library's form."""
     given = {name: as_number(value, name) for name, value in numbers.items() if value is not None}
     kind, values = _control(given, references)
     if references is not None and kind != "approach":
@@ -409,44 +420,48 @@ def _prescribed(
 
 
 class Contact(Unchanging):
-    """Two bodies to be pressed together, and the way to find their contact. One serves any number of loads.
+    """Two bodies to be pressed together, and the settings by which their contact is found.
+
+    One contact serves any number of loads.
 
     Parameters
     ----------
     lower, upper : Body
         Body 1, below, and body 2, above.
     contact_modulus : float, optional
-        E* of plane strain: a pressure. (`contact_modulus` of two materials gives it.)
+        E* of plane strain: a pressure. (The function `contact_modulus` returns it for two
+        materials.)
     materials : (Material, Material), optional
-        What the lower and the upper body are made of, in place of the modulus. An approach needs them.
+        Materials of the lower and the upper body, in place of the modulus. An approach needs them.
     kappa : float, optional
-        κ = π E*/2 in place of both: a pressure. Without any of the three κ is 1.
+        κ = π E*/2 in place of both: a pressure. The default is κ = 1 if none of the three is given.
     plane : {"strain", "stress"}
-        With materials: "strain" for bodies much longer than the contact is wide.
+        Plane state, with materials: "strain" for bodies much longer than the contact is wide.
     edges : (Edge, Edge), optional
-        The left and the right edge. Default: both free.
+        Conditions at the left and the right edge. Default: both free.
     edge_pressure : EdgePressure, optional
-        Conditions at the edges by the paper's Eq. (6), in place of `edges`.
+        Prescribed pressures near the edges, the paper's Eq. (6), in place of `edges`.
     start : (float, float), optional
-        From where the limits are sought, -b and a: lengths.
+        Interval from -b to a from which the search for the limits starts: lengths.
     search : Search or str, optional
-        What adjusts the limits, one at a time, in place of Newton's method on both.
+        Strategy that adjusts the limits, one at a time, in place of Newton's method on both.
     inversion : Search or str, optional
-        What inverts `X(k) = x`. Default: Newton's method.
+        Strategy that inverts `X(k) = x`. Default: Newton's method.
     quadrature : Panels or Midpoint, optional
-        Default: `Panels()`.
+        Quadrature. Default: `Panels()`.
     tolerance : float, optional
-        The same as `quadrature=Panels(tolerance)`.
+        Short form of `quadrature=Panels(tolerance)`.
     resolution : float, optional
-        The narrowest feature of the bodies to be seen: the length along x of a bump or a dent from end to end. Points
-        less than half of it apart are looked at, in the contacts and beside them as far as the load reaches, whatever
-        the bodies declare; with `single_interval` nothing is. By default bumps like Gauss's bell are seen that are as
-        wide at half their height as 2 % of the contact.
+        Narrowest feature of the bodies to be seen: the length along x of a bump or a dent from end
+        to end. Samples are then less than half of it apart, in the contacts and outside them as far
+        as the load reaches, whatever convexity the bodies declare. It does not apply with
+        `single_interval`. By default Gaussian bumps are seen whose width at half their height is at
+        least 2 % of the contact.
     certified : bool
-        Whether each solve is proved to be a contact, too: see `Solution.certify`.
+        If true, each solve also runs `Solution.certify`, which proves that the result is a contact.
     single_interval : bool
-        Whether one contact is to be found whatever the bodies do, as in the paper. Between two fixed edges it takes any
-        load, one that pulls too.
+        If true, the contact is treated as one interval and not checked, as in the paper. Between
+        two fixed edges any load is allowed, a tensile one too.
 
     Examples
     --------
@@ -531,11 +546,11 @@ class Contact(Unchanging):
 
     @property
     def has_modulus(self) -> bool:
-        """Whether it was said how stiff the bodies are. If not, pressures are those of κ = 1."""
+        """True if a modulus, materials or κ were given; otherwise pressures are those of κ = 1."""
         return any(self._settings[name] is not None for name in ("contact_modulus", "materials", "kappa"))
 
     def _set(self) -> dict[str, Any]:
-        """What has been set."""
+        """Returns the settings that differ from their defaults."""
         usual = {"plane": "strain", "certified": False, "single_interval": False}
         return {
             name: value
@@ -571,28 +586,29 @@ class Contact(Unchanging):
         about: float | None = None,
         centre: float | None = None,
     ) -> Solution:
-        """Finds the contact under what is prescribed.
+        """Finds the contact under the prescribed quantities.
 
-        The interpreter is released meanwhile, and Ctrl-C ends the search.
+        The interpreter is released during the solve, and Ctrl-C ends the search.
 
         Parameters
         ----------
         load : float
-            F per unit length: force/length.
+            Load per unit length F: force/length.
         half_width : float
-            L, in place of a load: a length.
+            Half-width L, in place of a load: a length.
         peak_pressure : float
-            The largest pressure, in place of a load: a pressure.
+            Peak pressure, in place of a load: a pressure.
         approach : float
-            How far the bodies come together, in place of a load: a length, between the `references`.
+            Approach of the bodies, in place of a load: a length, measured between the `references`.
         references : References
-            With an approach.
+            References of an approach.
         moment : float
-            With a load, the moment of the pressures about `about`: a force. The bodies turn until it is that.
+            Moment of the pressures about `about`, together with a load: a force. The bodies are
+            tilted so that the pressures have this moment.
         about : float
-            x, a length; 0 if not given.
+            The x about which the moment acts: a length, 0 by default.
         centre : float
-            With a load, the x at which it acts, in place of a moment: a length.
+            The x at which the load acts, together with a load, in place of a moment: a length.
 
         Returns
         -------
@@ -625,18 +641,19 @@ class Contact(Unchanging):
     def partial_slip(
         self, *, friction: float, force: float, tension: float = 0.0, **prescribed: Unpack[Prescribed]
     ) -> PartialSlip:
-        """Finds the contact, and where in it the bodies stick under a tangential force that friction carries.
+        """Finds the contact under a tangential force that friction carries, and its stick zones.
 
         Parameters
         ----------
         friction : float
-            The coefficient of friction μ, no unit.
+            Coefficient of friction μ, no unit.
         force : float
-            Q, on the lower body in the direction of x: force/length, less than μF.
+            Tangential force Q on the lower body, in the direction of x: force/length, less than μF.
         tension : float
-            By which the lower body is stretched along x, less that of the upper one: a pressure.
+            Tension that stretches the lower body along x, less the tension in the upper one: a
+            pressure.
         **prescribed : float
-            As for `solve`.
+            Prescribed quantities, as for `solve`.
 
         Returns
         -------
@@ -656,11 +673,11 @@ class Contact(Unchanging):
 
 
 def _wanted(given: Prescribed) -> tuple[str, list[float], References | None]:
-    """What is prescribed, of keyword arguments that may be left out."""
+    """Returns the prescribed quantities, given keyword arguments some of which may be missing."""
     return _prescribed(**cast("Any", {"references": None, **given}))
 
 
 def _again(lower: Body, upper: Body, settings: dict[str, Any]) -> Contact:
-    """A contact that was pickled."""
+    """Restores a pickled contact."""
     return Contact(lower, upper, **settings)
 

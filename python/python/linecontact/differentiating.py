@@ -1,4 +1,4 @@
-"""Derivatives of numbers of a solution by numbers of its scene, exact to rounding."""
+"""Derivatives of the numbers of a solution by the numbers of its scene, exact to rounding."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from .contact import Prescribed
 
 Parameter: TypeAlias = str | Mapping[str, float]
-"""A number of a scene by its name, or several and how fast each changes with the parameter."""
+"""Name of a number of a scene, or several names with the rates at which these numbers change."""
 
 __all__ = ["gradient", "parameters"]
 
 
-# A name is a sequence of its letters: the first that fits counts.
+# A string is a sequence too: the first overload that fits counts.
 @overload
 def gradient(  # type: ignore[overload-overlap]
     contact: Contact, of: str, by: Parameter, **prescribed: Unpack[Prescribed]
@@ -44,55 +44,62 @@ def gradient(
     by: Parameter | Sequence[Parameter],
     **prescribed: Unpack[Prescribed],
 ) -> tuple[float | FloatArray, float | FloatArray]:
-    """Numbers of a solution, and their derivatives by numbers of the scene.
+    """Returns numbers of a solution, and their derivatives by numbers of the scene.
 
-    The solver works on dual numbers, which carry their derivatives along: there is no step to choose, and no error
-    but that of rounding. There is one solve, and one more for each parameter.
+    The solver works on dual numbers, which carry their derivatives along: there is no step to
+    choose, and only rounding errors remain. It takes one solve, and one more for each parameter.
 
     Parameters
     ----------
     contact : Contact
-        Of any bodies but a `Curve`, whose second derivatives are not known.
+        Contact of any bodies except a `Curve`, whose second derivatives are unknown.
     of : str or sequence of str
-        What is differentiated: "load", "a", "b", "half_width", "centre", "tilt", "mean_pressure", "peak_pressure",
-        "moment", "centre_of_pressure", "max_shear", and with references "approach" and "stiffness".
+        Quantities to be differentiated: "load", "a", "b", "half_width", "centre", "tilt",
+        "mean_pressure", "peak_pressure", "moment", "centre_of_pressure", "max_shear", and with
+        references "approach" and "stiffness".
     by : str or mapping or sequence of them
-        By what: numbers of the bodies as their constructors call them ("upper.depth", "lower.angles.0",
-        "upper.parts.1.radius"), of the steps that have placed them ("upper.rotated.angle", "lower.shifted.along"; of
-        two steps of the same name "upper.rotated.0.angle" and "upper.rotated.1.angle"), of the contact
-        ("contact_modulus", "materials.0.youngs_modulus", "edges.1.value"), and what is prescribed ("load",
-        "references.x"). `parameters` lists them. A mapping moves several at once, each at its rate:
-        `{"upper.along": 1.0, "upper.across": 1.0}` is the radius of a circle.
+        Parameters. They are numbers of the bodies, named as in the constructors ("upper.depth",
+        "lower.angles.0", "upper.parts.1.radius"), of the placement steps ("upper.rotated.angle",
+        "lower.shifted.along"; of two steps of the same name "upper.rotated.0.angle" and
+        "upper.rotated.1.angle"), of the contact ("contact_modulus", "materials.0.youngs_modulus",
+        "edges.1.value"), and prescribed numbers ("load", "references.x"). `parameters` lists them.
+        A mapping changes several numbers at once, each at its rate: the radius of a circle is
+        `{"upper.along": 1.0, "upper.across": 1.0}`.
     **prescribed : float
-        As for `Contact.solve`. References may be given with any of it.
+        Prescribed quantities, as for `Contact.solve`. References may be given with any of them.
 
     Returns
     -------
     values : float or ndarray
-        As `of`, in the units of the quantities.
+        Values of the quantities `of`, in their units.
     derivatives : float or ndarray
-        Each quantity by each parameter: one number, a row or column, or the Jacobian matrix of shape
-        `(len(of), len(by))`. In the unit of the quantity per unit of the parameter.
+        Derivative of each quantity by each parameter: one number, a row or column, or the Jacobian
+        matrix of shape `(len(of), len(by))`, in the unit of the quantity per unit of the parameter.
 
     Raises
     ------
     ValueError
-        For a parameter that the scene has not, a quantity without a derivative, and a `Curve`.
+        For a parameter that the scene does not have, a quantity without a derivative, and a
+        `Curve`.
     linecontact.errors.LineContactError
-        As for `Contact.solve`, and what the quantities raise: at a corner the peak pressure is infinite.
+        As for `Contact.solve`, and the errors of the quantities: at a corner the peak pressure is
+        infinite.
 
     Notes
     -----
-    Where contacts are born or merge, and where an edge reaches its corner, there is no derivative: what comes out is
-    that of one side, or not finite. Where the largest pressure moves from one maximum to another its derivative jumps;
-    where two maxima are equal, as in a symmetric scene, it is that of one, and by another parameter maybe of the other.
+    There is no derivative where contacts appear or merge, or where an edge reaches its corner: the
+    result is then a one-sided derivative, or not finite. The derivative of the peak pressure jumps
+    where the peak moves from one maximum to another. Where two maxima are equal, as in a symmetric
+    scene, it is the derivative of one of them, and not necessarily of the same one for each
+    parameter.
 
-    The derivative of a body by the place where two of its parts meet is that of the parts: move both by a mapping, or
-    a gap opens between them.
+    A derivative by the place where two parts of a body meet moves the end of one part only: change
+    both ends by a mapping, or a gap opens between the parts.
 
     Examples
     --------
-    Hertz: the half-width goes with the root of the radius, the largest pressure with its reciprocal.
+    Hertz: the half-width is proportional to the root of the radius, the peak pressure to its
+    reciprocal.
 
     >>> import linecontact as lc
     >>> roller = lc.Contact(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), contact_modulus=115e3)
@@ -129,14 +136,15 @@ def gradient(
 
 
 def parameters(contact: Contact, **prescribed: Unpack[Prescribed]) -> dict[str, float]:
-    """All numbers of a scene by which `gradient` has derivatives, by their names.
+    """Returns all numbers of a scene by which `gradient` differentiates, by name.
 
     Parameters
     ----------
     contact : Contact
-        Of any bodies but a `Curve`.
+        Contact of any bodies except a `Curve`.
     **prescribed : float
-        As for `gradient`, or nothing: then the numbers of the contact alone.
+        Prescribed quantities, as for `gradient`. Without them only the numbers of the contact are
+        returned.
 
     Returns
     -------
@@ -156,7 +164,7 @@ def parameters(contact: Contact, **prescribed: Unpack[Prescribed]) -> dict[str, 
 def _given(
     prescribed: Prescribed, quantities: list[str]
 ) -> tuple[tuple[str, list[float], References | None], References | None]:
-    """What is prescribed, and between what an approach is measured."""
+    """Returns the prescribed quantities, and the references of an approach."""
     numbers: dict[str, Any] = {**cast("Any", prescribed)}
     references: References | None = numbers.pop("references", None)
     kind, values = _control(numbers, references, quantities)

@@ -13,18 +13,19 @@ if TYPE_CHECKING:
     from .contact import Contact
     from .solution import Solution
 
-# By how much more than the contacts is shown, as a share of their width; and to what depth, in half-widths.
+# Margin shown on each side of the contacts, as a share of their width; and depth shown, in
+# half-widths.
 BESIDE = 0.5
 _DEPTH = 2.0
 
-# Places at which the shear is drawn: over all that is shown, and again below the contacts.
+# Number of x at which the shear is drawn, over the whole picture, and again below the contacts.
 _COLUMNS = 48
 
 _WIDTH, _HEIGHT, _MARGIN = 320, 150, 24
 
 
 def svg(solution: Solution) -> str:
-    """The pressure over x, with the limits, the load and the largest value."""
+    """Draws the pressure over x, with the limits, the load and the largest pressure."""
     on = solution.hull
     x, pressures = solution.sample(49)
     top = float(np.max(pressures, initial=0.0)) or 1.0
@@ -53,7 +54,7 @@ def svg(solution: Solution) -> str:
 def before_loading(
     contact: Contact, x: FloatArray, tilt: float = 0.0
 ) -> tuple[FloatArray, FloatArray]:
-    """The heights of both bodies, brought together until they just touch."""
+    """Returns the heights of both bodies, brought together until they just touch."""
     lower, upper = contact.lower.heights(x), contact.upper.heights(x) + tilt * x
     shown = np.isfinite(lower) & np.isfinite(upper)
     touching = np.min((upper - lower)[shown], initial=np.inf)
@@ -61,7 +62,7 @@ def before_loading(
 
 
 def plot(solution: Solution) -> Figure:
-    """Bodies, pressure and subsurface shear, one below the other over the same x."""
+    """Draws bodies, pressure and subsurface shear, one below the other over the same x."""
     try:
         from matplotlib.figure import Figure
     except ImportError as missing:
@@ -87,8 +88,8 @@ def plot(solution: Solution) -> Figure:
     pressure.set_ylim(bottom=min(0.0, float(np.min(values, initial=0.0))))
     pressure.set_ylabel("pressure")
 
-    # Not the surface itself, where the pressure may be infinite.
-    # Denser below each contact, and nearer to the surface where they are narrow.
+    # The depths start below the surface, where the pressure may be infinite. The places are denser
+    # below each contact, and the depths start nearer to the surface where contacts are narrow.
     narrowest = min(interval.half_width for interval in solution.intervals)
     depth = np.geomspace(0.02 * narrowest, _DEPTH * on.half_width, 48)
     columns = max(_COLUMNS // len(solution.intervals), 3)

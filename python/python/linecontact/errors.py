@@ -1,13 +1,14 @@
-"""What can go wrong with a scene, and how to mend it.
+"""Errors of a scene, with remedies.
 
-Every error of the solver is an exception of its own, with the place and the values as attributes. All are
-`LineContactError`; below it are `InputError` (a body, an edge, a load or a setting is not what it must be: the
-same call fails again), `SolveError` (no contact was found, or what was found is none: another load, domain or
-start may help) and `EvaluationError` (the contact is known, but not what was asked of it there).
+Every error of the solver has its own exception class, with the place and the values as attributes.
+All are subclasses of `LineContactError`, by way of `InputError` (a body, edge, load or setting is
+invalid: the same call fails again), `SolveError` (no contact was found, or the result is not a
+contact: another load, domain or start may help) or `EvaluationError` (the contact is known, but the
+quantity asked for is not available there).
 
-Names are those of the Rust library: the variant `DomainTooShort` of `ContactError` is `DomainTooShortError`; those
-of `ProfileError`, `PiecewiseError`, `SplineError` and `SearchError` have `Profile`, `Piecewise`, `Spline` and
-`Search` before.
+The names are taken from the Rust library: the variant `DomainTooShort` of `ContactError` is
+`DomainTooShortError`. Variants of `ProfileError`, `PiecewiseError`, `SplineError` and `SearchError`
+have the prefix `Profile`, `Piecewise`, `Spline` or `Search`.
 
 Examples
 --------
@@ -25,23 +26,26 @@ from __future__ import annotations
 
 
 class LineContactError(Exception):
-    """Whatever the solver refuses; all of its exceptions are below this one."""
+    """Base class of all exceptions of the solver."""
 
 
 class InputError(LineContactError, ValueError):
-    """A body, an edge, a load or a setting is not what it must be."""
+    """A body, edge, load or setting is invalid. The same call fails again."""
 
 
 class SolveError(LineContactError):
-    """No contact was found, or what was found is none."""
+    """No contact was found, or the result is not a contact.
+
+    Another load, domain or start may help.
+    """
 
 
 class EvaluationError(LineContactError):
-    """The contact is known, but not what was asked of it there."""
+    """The contact is known, but the quantity asked for is not available there."""
 
 
 class SearchError(SolveError):
-    """A search for a root of a function of one variable has found none."""
+    """A search has found no root of a function of one variable."""
 
 
 class MissingDerivativesError(InputError, TypeError):
@@ -50,7 +54,7 @@ class MissingDerivativesError(InputError, TypeError):
     Attributes
     ----------
     count : int
-        How many it has returned; 1 of one array or number alone.
+        Number of arrays returned; 1 for a single array or number.
     """
 
     count: int
@@ -72,7 +76,7 @@ class MissingDerivativesError(InputError, TypeError):
 
 
 class CancelledError(SolveError):
-    """The solve was ended from outside. (Ctrl-C comes out as `KeyboardInterrupt`.)
+    """The solve was ended from outside. (Ctrl-C raises `KeyboardInterrupt`.)
 
     Attributes
     ----------
@@ -87,14 +91,14 @@ class CancelledError(SolveError):
 
 
 class ProfileError(InputError):
-    """A profile is at fault.
+    """The profile of a body is faulty.
 
     Attributes
     ----------
     body : str
-        Whose profile.
+        Body with this profile.
     source : LineContactError
-        What is wrong.
+        Fault of the profile.
     """
 
     body: str
@@ -122,7 +126,7 @@ class OutsideBodiesError(SolveError):
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa asked for.
     range : tuple[float, float]
         The range of `x` that both bodies cover.
     """
@@ -137,11 +141,11 @@ class InversionError(SolveError):
     Attributes
     ----------
     body : str
-        Whose profile.
+        Body with this profile.
     x : float
-        The abscissa.
+        Abscissa.
     source : SearchError
-        What the search says, in terms of `k`.
+        Error of the search, in terms of `k`.
     """
 
     body: str
@@ -150,13 +154,15 @@ class InversionError(SolveError):
 
 
 class InvalidLoadError(InputError):
-    """The load, half-width, peak pressure or approach asked for is not finite; or it is not positive, which a load
-    needs to be only where limits are sought without adhesion; or so small that it has lost digits.
+    """The load, half-width, peak pressure or approach asked for is not finite, or so small that it
+    has lost digits, or not positive.
+
+    A load needs to be positive only where limits are sought without adhesion.
 
     Attributes
     ----------
     quantity : str
-        What was asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`.
     value : float
         Its value.
     """
@@ -178,7 +184,7 @@ class InvalidKappaError(InputError):
 
 
 class InvalidModulusError(InputError):
-    """The contact modulus E* is not a positive finite number, or κ = π E*/2 is none.
+    """The contact modulus E* is not a positive finite number, or κ = π E*/2 is not.
 
     Attributes
     ----------
@@ -202,12 +208,12 @@ class InvalidLimitsError(InputError):
 
 
 class InvalidEdgePressureError(InputError):
-    """One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is unusable.
+    """One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is out of range.
 
     Attributes
     ----------
     name : str
-        Which of them.
+        Name of the quantity.
     value : float
         Its value.
     """
@@ -217,15 +223,15 @@ class InvalidEdgePressureError(InputError):
 
 
 class NoFirstContactError(SolveError):
-    """The slope difference of the bodies nowhere goes from negative to positive, so that they do not open on both
-    sides of a point of first contact.
+    """The slope difference of the bodies nowhere goes from negative to positive, so that they do
+    not open on both sides of a point of first contact.
 
     Attributes
     ----------
     x : tuple[float, float]
         Two abscissae.
     slope : tuple[float, float]
-        The slope difference there.
+        Slope differences at these abscissae.
     """
 
     x: tuple[float, float]
@@ -233,24 +239,29 @@ class NoFirstContactError(SolveError):
 
 
 class DomainTooShortError(SolveError):
-    """The contact that carries the load reaches beyond a body; of several, the first or the last. Or the bodies touch
-    at an end before any limit comes there.
+    """The contact that carries the load reaches beyond a body; of several contacts, the first or
+    the last does.
+
+    Or the bodies touch at an end before any limit gets there.
 
     Attributes
     ----------
     end : float
-        The end that the contact reaches first.
+        End of the bodies that the contact reaches first.
     carried : float
-        The load carried by the largest contact that stays on the bodies, or by several as wide as they can be:
-        the same whatever load is asked for. Zero where the bodies touch at this end first.
+        Load carried by the largest contact that stays on the bodies, or by several contacts of the
+        largest possible width. It does not depend on the load asked for. Zero where the bodies
+        touch at this end first.
     load : float
         The load asked for.
     half_width : float
-        The half-width of that contact; half of what lies between the first limit of several and the last.
+        Half-width of this largest contact; of several contacts, half the distance from the first
+        limit to the last.
     peak : float
-        Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        Peak pressure of this contact; infinite where it is held at a corner, or where the slope
+        jumps.
     kappa_is_default : bool
-        Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        True if κ was left at its default of 1: then the stiffness may be missing.
     """
 
     end: float
@@ -262,7 +273,7 @@ class DomainTooShortError(SolveError):
 
 
 class HalfWidthTooLargeError(SolveError):
-    """A contact of this half-width reaches beyond a body.
+    """A contact of the half-width asked for reaches beyond a body.
 
     Attributes
     ----------
@@ -271,13 +282,13 @@ class HalfWidthTooLargeError(SolveError):
     half_width : float
         The half-width of the largest contact that stays on the bodies.
     end : float
-        The end that it reaches.
+        End of the bodies that this largest contact reaches.
     load : float
-        The load that it carries.
+        Load that it carries.
     peak : float
-        Its largest pressure; infinite where it is held at a corner, or where the slope jumps.
+        Its peak pressure; infinite where it is held at a corner, or where the slope jumps.
     kappa_is_default : bool
-        Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        True if κ was left at its default of 1: then the stiffness may be missing.
     """
 
     wanted: float
@@ -289,12 +300,12 @@ class HalfWidthTooLargeError(SolveError):
 
 
 class NoEquilibriumError(SolveError):
-    """No position of a contact of some width balances the pressures at its two edges.
+    """No position of a contact balances the pressures at its two edges, for some half-width.
 
     Attributes
     ----------
     half_width : float
-        Half-width tried.
+        Half-width asked for, or else the half-width tried last.
     near : float
         Point of first contact.
     """
@@ -323,8 +334,8 @@ class BudgetSpentError(SolveError):
     evaluations : int
         Evaluations of the curves, or values of the slope of the gap, by then.
     budget : int
-        How many may be made: 2²⁰ and 1024 for each piece of the bodies; by Midpoint, which keeps no samples,
-        sixteen times as many, and besides what 4096 pressures take.
+        Largest number allowed: 2²⁰ and 1024 for each piece of the bodies. `Midpoint` keeps no
+        samples: sixteen times this number, plus the evaluations of 4096 pressures.
     last : tuple[float, float]
         The span of `x` sampled last.
     """
@@ -342,7 +353,8 @@ class LimitSearchError(SolveError):
     best : tuple[float, float]
         The best limits so far.
     source : SearchError
-        What the search says, in terms of the half-width or the distance from the point of first contact.
+        Error of the search, in terms of the half-width or the distance from the point of first
+        contact.
     """
 
     best: tuple[float, float]
@@ -350,16 +362,16 @@ class LimitSearchError(SolveError):
 
 
 class EdgePressureNotMetError(SolveError):
-    """The limits are as good as the numbers allow, but Eq. (6) is not met.
+    """The limits are as accurate as the numbers allow, but Eq. (6) is not met.
 
     Attributes
     ----------
     best : tuple[float, float]
         The best limits.
     at_a : float
-        What is left at `a`.
+        Residual of Eq. (6) at `a`: `P(a - ε_a) - A`.
     at_b : float
-        What is left at `-b`.
+        Residual of Eq. (6) at `-b`: `P(ε_b - b) - B`.
     """
 
     best: tuple[float, float]
@@ -368,14 +380,14 @@ class EdgePressureNotMetError(SolveError):
 
 
 class InvalidSegmentsError(InputError):
-    """Zero segments, or more points than can be counted.
+    """The number of segments is zero, or there are more points than can be counted.
 
     Attributes
     ----------
     segments : int
-        N.
+        Number of segments, N.
     extrapolations : int
-        ET.
+        Number of extrapolations, ET.
     """
 
     segments: int
@@ -383,31 +395,32 @@ class InvalidSegmentsError(InputError):
 
 
 class SingularError(EvaluationError):
-    """The pressure where it is infinite: at a fixed or adhesive edge, at one where Eq.
-
-    (6) has left a singularity, or where the slope of a body jumps.
+    """The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
+    where Eq. (6) has left a singularity, or where the slope of a body jumps.
 
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa asked for.
     """
 
     x: float
 
 
 class InconsistentHeightsError(InputError):
-    """A body's Y does not go with its Y', so that heights and slopes of the gap contradict each other: a step in
-    Y, or a wrong derivative, of which check_derivatives tells which body it is.
+    """A body's Y does not match its Y', so that heights and slopes of the gap contradict each
+    other.
+
+    Y has a step, or a derivative is wrong: `check_derivatives` tells for which body.
 
     Attributes
     ----------
     between : tuple[float, float]
-        Two places.
+        Two abscissae.
     by_heights : float
-        `Y₂ - Y₁` at the second, less that at the first.
+        Rise of `Y₂ - Y₁` from the first abscissa to the second.
     by_slopes : float
-        `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first to the second.
+        `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first abscissa to the second.
     """
 
     between: tuple[float, float]
@@ -421,9 +434,9 @@ class NotConvexError(InputError):
     Attributes
     ----------
     between : tuple[float, float]
-        Two places, the left one first; the same one twice where the slope jumps.
+        Two abscissae, the left one first; equal where the slope jumps.
     slopes : tuple[float, float]
-        The slopes of the gap there, before the bodies turn: ratios of lengths.
+        Slopes of the gap at these abscissae, before the bodies turn: ratios of lengths.
     """
 
     between: tuple[float, float]
@@ -436,13 +449,13 @@ class TensionError(SolveError):
     Attributes
     ----------
     x : float
-        Where the pressure is negative.
+        Abscissa at which the pressure is negative.
     pressure : float
-        What it would be there; minus infinity where the slope of the gap jumps down.
+        Pressure there; minus infinity where the slope of the gap jumps down.
     interval : tuple[float, float]
-        What solves the equations with it: the first and the last limit, and the load.
+        Solution of the equations with this pressure: the interval from the first limit to the last.
     load : float
-        The load per unit length of that.
+        Load per unit length of this solution.
     """
 
     x: float
@@ -452,18 +465,20 @@ class TensionError(SolveError):
 
 
 class LiftsOffError(SolveError):
-    """A fixed edge at which the body lifts off: the singularity of the pressure there is negative, or none.
+    """The body lifts off at a fixed edge: the singularity of the pressure there is negative, or the
+    contact ends before the corner.
 
     Attributes
     ----------
     x : float
-        The corner.
+        Abscissa of the corner.
     strength : float
-        K, see `Solution.edge_singularities`.
+        Strength K of the singularity, see `Solution.edge_singularities`: zero to rounding where the
+        contact ends before the corner.
     interval : tuple[float, float]
-        What solves the equations with it.
+        Contact that solves the equations with this strength.
     load : float
-        The load per unit length of that.
+        Load per unit length of this contact.
     """
 
     x: float
@@ -478,13 +493,13 @@ class OverlapError(SolveError):
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa of the overlap.
     gap : float
-        The gap there, negative.
+        Gap there, negative.
     interval : tuple[float, float]
-        What solves the equations with it: the first and the last limit.
+        Solution of the equations with this overlap: the interval from the first limit to the last.
     load : float
-        The load per unit length of that.
+        Load per unit length of this solution.
     """
 
     x: float
@@ -494,17 +509,17 @@ class OverlapError(SolveError):
 
 
 class FeatureMissedError(SolveError):
-    """The slope of the gap inside the contact is not what the samples say from which the contact was found:
-    something lies between two of them.
+    """The slope of the gap inside the contact differs from the panels by which the contact was
+    found: a feature lies between two of their samples.
 
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa of the difference.
     slope : float
-        The slope of the gap.
+        Slope of the gap.
     assumed : float
-        What it was taken for.
+        Slope according to the panels.
     """
 
     x: float
@@ -513,17 +528,17 @@ class FeatureMissedError(SolveError):
 
 
 class UnbalancedError(SolveError):
-    """The samples of the certificate leave a pressure at a free edge that is not that of the contact: what the
-    limits were found from was not the whole of the curves.
+    """The samples of the certificate give the pressure a singularity at a free edge that the found
+    contact does not have: the limits were found from a part of the curves only.
 
     Attributes
     ----------
     x : float
-        The limit.
+        Abscissa of the limit.
     strength : float
-        The strength K of the inverse-square-root singularity there, a pressure.
+        Strength K of the inverse-square-root singularity there, a pressure.
     allowed : float
-        How large it may be by the estimated error of the limits, and by that of the samples.
+        Largest strength that the estimated errors of the limits and of the samples allow.
     """
 
     x: float
@@ -537,7 +552,7 @@ class UndecidedError(SolveError):
     Attributes
     ----------
     x : float
-        Where it has stopped.
+        Abscissa at which the certificate has stopped.
     evaluations : int
         Evaluations of the curves by then.
     samples : int
@@ -562,14 +577,15 @@ class InvalidToleranceError(InputError):
 
 
 class InvalidResolutionError(InputError):
-    """The resolution is not a length, or lost in the rounding of x.
+    """The resolution is not a length, or is lost in the rounding of x.
 
     Attributes
     ----------
     resolution : float
         The resolution as given: a length.
     least : float
-        The least length that the rounding of x in the contact allows; zero where none was found yet.
+        Least length that the rounding of x in the contact allows; zero where no contact was found
+        yet.
     """
 
     resolution: float
@@ -589,7 +605,7 @@ class InvalidAdhesionError(InputError):
 
 
 class BothLimitsGivenError(InputError):
-    """Limits that are both given leave nothing to be sought: only a load can be asked of them.
+    """Both limits are given: then only a load can be asked for.
 
     Attributes
     ----------
@@ -613,32 +629,32 @@ class InvalidMomentError(InputError):
 
 
 class TiltNotSupportedError(InputError):
-    """A moment, or the place where the load acts, was asked for where the bodies cannot be turned.
+    """A moment, or the place where the load acts, was given for bodies that cannot be turned.
 
     Attributes
     ----------
     why : str
-        What stands in the way.
+        Reason, for the message.
     """
 
     why: str
 
 
 class TiltNotFoundError(SolveError):
-    """No tilt is found under which the load acts at the place asked for: the contact would leave the bodies.
+    """No tilt makes the load act at the place asked for: the contact would leave the bodies.
 
     Attributes
     ----------
     load : float
         Load per unit length asked for.
     at : float
-        Where it was to act: `x₀ + M/F`.
+        Place where the load was to act: `x₀ + M/F`.
     reached : float
-        The nearest place at which a contact was found that bears it.
+        Nearest place at which a contact was found that carries the load.
     tilt : float
         The tilt of that contact.
     ends : tuple[float, float]
-        Where the bodies end.
+        Ends of the bodies.
     """
 
     load: float
@@ -649,7 +665,7 @@ class TiltNotFoundError(SolveError):
 
 
 class PullOffError(SolveError):
-    """The bodies come apart: the pull is more than adhesion can bear.
+    """The bodies come apart: the tensile load exceeds the adhesion.
 
     Attributes
     ----------
@@ -664,7 +680,7 @@ class PullOffError(SolveError):
 
 
 class PeakEdgeError(InputError):
-    """An edge was asked for at which the pressure is not bounded, and a peak pressure with it.
+    """A peak pressure was asked for together with an edge at which the pressure is not bounded.
 
     Attributes
     ----------
@@ -676,22 +692,22 @@ class PeakEdgeError(InputError):
 
 
 class PeakTooHighError(SolveError):
-    """The contact with this peak pressure reaches beyond a body, or beyond a corner.
+    """The contact with this peak pressure reaches beyond a body or a corner.
 
     Attributes
     ----------
     wanted : float
         The peak pressure asked for.
     half_width : float
-        The largest half-width that there is room for.
+        Largest half-width that there is room for.
     found : float
-        The peak pressure there.
+        Peak pressure of the contact with this half-width.
     end : float
-        The end of the bodies, or the corner, that this contact reaches.
+        End of the bodies, or the corner, that this contact reaches.
     load : float
         The load that it carries.
     kappa_is_default : bool
-        Whether κ was left at its default of 1: then the stiffness may be what is missing.
+        True if κ was left at its default of 1: then the stiffness may be missing.
     """
 
     wanted: float
@@ -703,7 +719,7 @@ class PeakTooHighError(SolveError):
 
 
 class NoPeakError(SolveError):
-    """The pressure has no largest value to be set.
+    """No contact is found with this peak pressure.
 
     Attributes
     ----------
@@ -712,7 +728,8 @@ class NoPeakError(SolveError):
     half_width : float
         The half-width tried last.
     found : float
-        The peak pressure there; infinite where the slope of a body jumps.
+        Peak pressure there; infinite where the slope of a body jumps, NaN where no contact was
+        found.
     """
 
     wanted: float
@@ -721,18 +738,19 @@ class NoPeakError(SolveError):
 
 
 class InJumpError(SolveError):
-    """A half-width, peak pressure or approach that no load has: it jumps where a contact is born or a corner reached.
+    """The value asked for lies in a jump: a contact arises outside the others, a corner is reached,
+    or even the lightest load gives more.
 
     Attributes
     ----------
     wanted : float
-        The value asked for.
+        The half-width, peak pressure or approach asked for.
     load : float
-        The load at which it jumps.
+        Load at which the quantity jumps.
     below : float
-        The value under less; 0 where there is none.
+        Value under smaller loads; 0 where there is none.
     above : float
-        The value under more; infinite where the pressure is.
+        Value under larger loads; infinite where the pressure is.
     """
 
     wanted: float
@@ -762,7 +780,7 @@ class InvalidPoissonRatioError(InputError):
     Attributes
     ----------
     ratio : float
-        As given.
+        Poisson's ratio as given.
     """
 
     ratio: float
@@ -774,9 +792,9 @@ class InvalidYoungsModulusError(InputError):
     Attributes
     ----------
     body : str
-        Whose.
+        Body with this modulus.
     modulus : float
-        As given.
+        Young's modulus as given.
     """
 
     body: str
@@ -784,22 +802,22 @@ class InvalidYoungsModulusError(InputError):
 
 
 class BothRigidError(InputError):
-    """Both bodies are rigid: there is no pressure then."""
+    """Both bodies are rigid: then there is no pressure."""
 
 
 class NoMaterialsError(InputError):
-    """An approach was asked for, but not what the bodies are made of: E* alone does not tell how much of it each
-    of them gives."""
+    """An approach was asked for without the materials of the bodies: it depends on the deformation
+    of each body, which E* alone does not give."""
 
 
 class InvalidReferenceError(InputError):
-    """The depth, radius or length of a reference is not a positive finite number, or a disc is smaller than the
-    contact.
+    """The depth, radius or length of a reference is not a positive finite number, or a disc is
+    smaller than the contact.
 
     Attributes
     ----------
     length : float
-        As given.
+        Length as given.
     """
 
     length: float
@@ -813,9 +831,9 @@ class ApproachTooLargeError(SolveError):
     wanted : float
         The approach asked for.
     approach : float
-        About the largest approach of a contact that stays on the bodies.
+        Approximate largest approach of a contact that stays on the bodies.
     load : float
-        The load of that.
+        Load at this approach.
     """
 
     wanted: float
@@ -824,14 +842,14 @@ class ApproachTooLargeError(SolveError):
 
 
 class OutsideTableError(EvaluationError):
-    """An approach that a table of a spring does not cover.
+    """The table of a spring does not cover this approach.
 
     Attributes
     ----------
     approach : float
-        As given.
+        Approach as given.
     range : tuple[float, float]
-        From the least to the largest in the table.
+        Least and largest approach in the table.
     """
 
     approach: float
@@ -839,12 +857,13 @@ class OutsideTableError(EvaluationError):
 
 
 class ApproachFallsError(SolveError):
-    """The approach to these references does not grow with the load: no load goes with it alone.
+    """The approach to these references does not grow with the load, so that it does not determine
+    the load.
 
     Attributes
     ----------
     load : float
-        Where it was seen.
+        Load at which the approach falls.
     rate : float
         dδ/dF there, negative or zero.
     """
@@ -859,7 +878,7 @@ class InvalidFrictionError(InputError):
     Attributes
     ----------
     coefficient : float
-        As given.
+        Coefficient as given.
     """
 
     coefficient: float
@@ -883,9 +902,9 @@ class InvalidShearError(InputError):
     Attributes
     ----------
     quantity : str
-        `force` or `tension`.
+        Name of the quantity: `force` or `tension`.
     value : float
-        As given.
+        Value as given.
     """
 
     quantity: str
@@ -893,14 +912,14 @@ class InvalidShearError(InputError):
 
 
 class SlipsEverywhereError(SolveError):
-    """Friction does not carry the force: the bodies slip everywhere.
+    """The force exceeds friction: the bodies slip everywhere.
 
     Attributes
     ----------
     force : float
-        Q.
+        Tangential force Q.
     limit : float
-        μF.
+        Largest force that friction carries, μF.
     """
 
     force: float
@@ -908,15 +927,17 @@ class SlipsEverywhereError(SolveError):
 
 
 class SticksEverywhereError(SolveError):
-    """The force is so small beside what friction carries that the slip zones, and the traction with them, are lost in
-    rounding. Without slip the traction is the force times the rate of the pressure with the load.
+    """The force is so small, relative to friction, that the slip zones and their traction are lost
+    in rounding.
+
+    Without slip the traction is Q ∂P/∂F, see `Solution.load_rates`.
 
     Attributes
     ----------
     force : float
-        Q.
+        Tangential force Q.
     limit : float
-        μF.
+        Largest force that friction carries, μF.
     """
 
     force: float
@@ -924,15 +945,17 @@ class SticksEverywhereError(SolveError):
 
 
 class ReversedSlipError(SolveError):
-    """The bodies would stick beside the contact: with so large a tension, or so small a force, slip reverses while
-    the force grows, and the history counts.
+    """The bodies would stick outside the contact.
+
+    With such a large tension, or such a small force, slip reverses while the force grows, and the
+    history counts.
 
     Attributes
     ----------
     zone : tuple[float, float]
-        Where they would stick.
+        Zone in which the bodies would stick.
     contact : tuple[float, float]
-        The contact nearest to it.
+        Contact nearest to this zone.
     """
 
     zone: tuple[float, float]
@@ -945,7 +968,7 @@ class UnlikeBodiesError(InputError):
     Attributes
     ----------
     beta : float
-        β in plane strain, from -1/2 to 1/2.
+        Dundurs' constant β in plane strain, from -1/2 to 1/2.
     """
 
     beta: float
@@ -957,23 +980,23 @@ class SlipNotSupportedError(InputError):
     Attributes
     ----------
     why : str
-        What stands in the way.
+        Reason, for the message.
     """
 
     why: str
 
 
 class InvalidPositionError(EvaluationError):
-    """A point is not inside the contact, or not outside it, as it has to be.
+    """A point is not inside the contact, or not outside it, as required.
 
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa of the point.
     inside : bool
-        Whether it had to be strictly inside.
+        True if the point must be strictly inside.
     interval : tuple[float, float]
-        The contact.
+        Contact.
     """
 
     x: float
@@ -982,23 +1005,23 @@ class InvalidPositionError(EvaluationError):
 
 
 class NoLoadDerivativeError(EvaluationError):
-    """The load does not change the contact in a way that is known.
+    """The derivatives of the contact by the load are not known.
 
     Attributes
     ----------
     why : str
-        What stands in the way.
+        Reason, for the message.
     """
 
     why: str
 
 
 class EdgePressureLoadError(InputError):
-    """Conditions at the edges by the paper's Eq. (6) leave nothing else to be asked for than a load."""
+    """Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed."""
 
 
 class LengthMismatchError(EvaluationError):
-    """There is not one place for each pressure.
+    """The number of places for pressures is not the number of abscissae.
 
     Attributes
     ----------
@@ -1018,9 +1041,9 @@ class IntegralError(EvaluationError):
     Attributes
     ----------
     x : float
-        The abscissa that it was for.
+        Abscissa for which the integral was taken.
     panels : int
-        Panels tried.
+        Number of panels tried.
     """
 
     x: float
@@ -1028,16 +1051,17 @@ class IntegralError(EvaluationError):
 
 
 class UnresolvedError(EvaluationError):
-    """The quadrature has no correct digit of the pressure: `x` is too close to an edge for its segments.
+    """The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
+    segments.
 
     Attributes
     ----------
     x : float
-        Where.
+        Abscissa asked for.
     pressure : float
-        What the rule gives.
+        Pressure by the quadrature.
     error : float
-        Its estimated error.
+        Estimated error of this pressure.
     """
 
     x: float
@@ -1046,16 +1070,16 @@ class UnresolvedError(EvaluationError):
 
 
 class ProfileParameterError(InputError):
-    """A parameter has a value for which there is no such shape.
+    """A parameter has a value for which the shape does not exist.
 
     Attributes
     ----------
     name : str
-        Which parameter.
+        Name of the parameter.
     value : float
-        Its value.
+        Value of the parameter.
     must : str
-        What it must be.
+        Condition on the parameter.
     """
 
     name: str
@@ -1064,12 +1088,12 @@ class ProfileParameterError(InputError):
 
 
 class ProfileJoinedError(InputError):
-    """A profile of several pieces where a smooth one is wanted.
+    """A profile has several pieces where a smooth one is required.
 
     Attributes
     ----------
     pieces : int
-        How many it has.
+        Number of pieces.
     """
 
     pieces: int
@@ -1096,11 +1120,11 @@ class ProfileNotFiniteError(InputError):
     Attributes
     ----------
     quantity : str
-        `X`, `Y`, `X'` or the slope `Y'/X'`.
+        Name of the quantity: `X`, `Y`, `X'`, `Y'`, the slope `Y'/X'` or `slope_at(x)`.
     k : float
-        Where.
+        Parameter of the point.
     value : float
-        What it is there.
+        Value of the quantity there.
     """
 
     quantity: str
@@ -1109,18 +1133,18 @@ class ProfileNotFiniteError(InputError):
 
 
 class ProfileDerivativeError(InputError):
-    """A derivative is not that of its function.
+    """A derivative does not match its function.
 
     Attributes
     ----------
     quantity : str
-        `X'` or `Y'`.
+        Name of the derivative: `X'`, `Y'` or `slope_at(x)`.
     k : float
-        Where.
+        Parameter of the point.
     given : float
-        What the profile says.
+        Derivative given by the profile.
     difference : float
-        The central difference.
+        Derivative by differences.
     """
 
     quantity: str
@@ -1135,11 +1159,11 @@ class ProfileTurnsBackError(InputError):
     Attributes
     ----------
     k : float
-        Parameter of the turning point, as near as it was found.
+        Parameter of the turning point, as closely as it was found.
     x : float
         `X` there.
     domain : tuple[float, float]
-        The range of `k` of the curve.
+        Domain of the curve.
     """
 
     k: float
@@ -1148,14 +1172,14 @@ class ProfileTurnsBackError(InputError):
 
 
 class ProfilePiecesError(InputError):
-    """A compound profile does not have the pieces that it says it has.
+    """A compound profile does not have the pieces that it declares.
 
     Attributes
     ----------
     count : int
-        How many pieces it says it has.
+        Number of pieces declared.
     index : int
-        A piece at fault.
+        Index of a faulty piece.
     """
 
     count: int
@@ -1163,14 +1187,14 @@ class ProfilePiecesError(InputError):
 
 
 class PiecewiseInPieceError(InputError):
-    """A piece is at fault by itself.
+    """A piece is faulty by itself.
 
     Attributes
     ----------
     piece : int
         Index of the piece.
     source : LineContactError
-        What is wrong with it.
+        Fault of the piece.
     """
 
     piece: int
@@ -1201,9 +1225,9 @@ class PiecewiseGapError(InputError):
     breakpoint : int
         Index of the breakpoint, 0 between the first two pieces.
     left : float
-        Where the left piece ends.
+        Right end of the left piece.
     right : float
-        Where the right piece starts.
+        Left end of the right piece.
     """
 
     breakpoint: int
@@ -1212,16 +1236,18 @@ class PiecewiseGapError(InputError):
 
 
 class PiecewiseOverlapError(InputError):
-    """Two neighbours overlap: `x` between them belongs to both. Also what pieces in the wrong order look like.
+    """Two neighbours overlap: `x` between them belongs to both.
+
+    Pieces in the wrong order overlap too.
 
     Attributes
     ----------
     breakpoint : int
         Index of the breakpoint, 0 between the first two pieces.
     left : float
-        Where the left piece ends.
+        Right end of the left piece.
     right : float
-        Where the right piece starts.
+        Left end of the right piece.
     """
 
     breakpoint: int
@@ -1237,7 +1263,7 @@ class PiecewiseJumpError(InputError):
     breakpoint : int
         Index of the breakpoint, 0 between the first two pieces.
     x : float
-        Where.
+        Abscissa of the breakpoint.
     left : float
         `Y` at the end of the left piece.
     right : float
@@ -1251,12 +1277,12 @@ class PiecewiseJumpError(InputError):
 
 
 class SplineTooFewError(InputError):
-    """There are not enough of them.
+    """There are too few points.
 
     Attributes
     ----------
     points : int
-        How many there are.
+        Number of points.
     """
 
     points: int
@@ -1270,9 +1296,9 @@ class SplineNotFiniteError(InputError):
     row : int
         Row of the point.
     x : float
-        Its x.
+        x of the point.
     y : float
-        Its y.
+        y of the point.
     """
 
     row: int
@@ -1281,14 +1307,14 @@ class SplineNotFiniteError(InputError):
 
 
 class SplineDuplicateError(InputError):
-    """Two neighbours have one x, or x so near that their distance is lost.
+    """Two neighbours have equal x, or x so close that their distance is lost.
 
     Attributes
     ----------
     row : int
-        Row of the second.
+        Row of the second point.
     x : float
-        Their x.
+        x of both points.
     """
 
     row: int
@@ -1301,9 +1327,9 @@ class SplineUnsortedError(InputError):
     Attributes
     ----------
     row : int
-        Row of the second.
+        Row of the second point.
     x : float
-        Its x.
+        x of the second point.
     before : float
         x of the row before.
     """
@@ -1321,13 +1347,13 @@ class SplineOutlierError(InputError):
     row : int
         Row of the point, the one that is furthest off.
     x : float
-        Its x.
+        x of the point.
     y : float
-        Its y.
+        y of the point.
     expected : float
-        `Y` there of the cubic through its four neighbours.
+        `Y` at this x on the cubic through its four neighbours.
     deviations : float
-        How far off it is.
+        Distance of the point from this cubic, in standard deviations.
     """
 
     row: int
@@ -1362,7 +1388,8 @@ class SplineLimitError(InputError):
 
 
 class SplineNothingLeftError(InputError):
-    """A straight line is as close to the points as the noise allows.
+    """A straight line is as close to the points as the noise allows, or is expected to be nearer to
+    the body than any curve.
 
     Attributes
     ----------
@@ -1384,7 +1411,7 @@ class SplineOverflowError(InputError):
     row : int
         Row of the point.
     x : float
-        Its x.
+        x of the point.
     before : float
         x of the row before.
     """
@@ -1395,12 +1422,12 @@ class SplineOverflowError(InputError):
 
 
 class SplineSmoothingError(InputError):
-    """The smoothing that the noise asks for was not found: the squares of the numbers overflow.
+    """No smoothing was found for the noise: the squares of the numbers overflow.
 
     Attributes
     ----------
     source : SearchError
-        Where the search for it stood.
+        Error of the search for the smoothing.
     """
 
     source: SearchError
@@ -1448,9 +1475,9 @@ class SearchNotFiniteError(SearchError):
     Attributes
     ----------
     x : float
-        Where.
+        Point of the evaluation.
     value : float
-        What it returned.
+        Value returned.
     """
 
     x: float
@@ -1463,19 +1490,19 @@ class SearchBudgetError(SearchError):
     Attributes
     ----------
     best : tuple of float and int
-        The best point so far: where, the residual there, the evaluations.
+        Best point so far: its abscissa, the residual there, and the number of evaluations.
     """
 
     best: tuple[float, float, int]
 
 
 class SearchLeftBracketError(SearchError):
-    """A strategy has looked at, or returned, a point that is not in the bracket it was given.
+    """A strategy has evaluated, or returned, a point outside the bracket it was given.
 
     Attributes
     ----------
     x : float
-        Where it went.
+        Point outside the bracket.
     lo : float
         Lower end of the bracket.
     hi : float
@@ -1493,9 +1520,9 @@ class SearchNotConvergedError(SearchError):
     Attributes
     ----------
     x : float
-        What it returned.
+        Point returned.
     residual : float
-        The function there.
+        Value of the function there.
     """
 
     x: float

@@ -1,4 +1,4 @@
-"""One page to look at a contact under many loads, without a network: `explore.html` with the numbers put in."""
+"""A page to look at a contact under many loads, offline: `explore.html` with the data filled in."""
 
 from __future__ import annotations
 
@@ -25,20 +25,21 @@ from .solution import Solution
 
 __all__ = ["explore"]
 
-# Points of a curve: in each contact, beside each contact, of a body before loading.
+# Number of points of a curve: in each contact, outside each contact, and of a body before loading.
 _INSIDE, _OUTSIDE, _BEFORE = 129, 33, 257
-# The grid of the shear: columns for each contact, but not more than so many, and rows; how far from a limit they
-# begin to be less dense, in half-widths.
+# Grid of the shear: distance from a limit at which its columns become less dense, in half-widths;
+# number of columns for each contact, largest number of columns, and number of rows.
 _FINE = 0.1
 _COLUMNS, _MOST_COLUMNS, _ROWS = 64, 192, 40
-# The shear is kept in steps of this share of its largest value: finer than a screen shows.
+# Number of steps in which the shear is stored, from zero to its largest value: finer than a screen
+# shows.
 _STEPS = 65535
-# Where shear or pressure are infinite, the pictures end at the shear this deep, in half-widths, and at so many mean
-# pressures.
+# Ends of the scales where shear or pressure is infinite: the largest shear from this depth on, in
+# half-widths, and this number of mean pressures.
 _SHALLOW, _MEANS = 0.1, 3.0
-# Strengths of singularities, in mean pressures, that are none.
+# Largest strength of a singularity that counts as zero, in mean pressures: rounding.
 _ROUNDING = 1e-12
-# What is left of the description of a body that is a long one.
+# Largest number of characters of the description of a body.
 _WORDS = 400
 
 
@@ -50,21 +51,22 @@ def explore(
     title: str = "Line contact",
     units: Sequence[str] = ("", "", ""),
 ) -> Path:
-    """Writes a page on which a slider moves the load: both bodies, the pressure, and the shear below it.
+    """Writes a page with a slider for the load: both bodies, the pressure, and the shear below it.
 
-    The page is one file, and needs a browser, but no network. The slider steps through the loads that are given:
-    whatever is shown has been solved. A load that fails is a mark on it, with the message of its error.
+    The page is one file, which needs a browser but no network. The slider steps through the given
+    loads: everything shown has been solved. A load that fails is marked on the slider, with the
+    message of its error.
 
     Parameters
     ----------
     contact : Contact
         The scene.
     loads : array_like
-        Per unit length: force/length. Equal ones are solved once.
+        Loads per unit length: force/length. Equal ones are solved once.
     path : str or path-like
-        Where to write the page, such as "roller.html". A file that is there is written over.
+        File to write, such as "roller.html". An existing file is overwritten.
     title : str
-        The heading.
+        Heading of the page.
     units : (str, str, str)
         Names of the units of lengths, pressures and loads, to be shown with the numbers, such as
         ``("mm", "MPa", "N/mm")``.
@@ -72,20 +74,22 @@ def explore(
     Returns
     -------
     pathlib.Path
-        Of the page.
+        Path of the page.
 
     Raises
     ------
     linecontact.errors.LineContactError
-        If all loads fail: the error of the first.
+        The error of the first load, if all loads fail.
 
     Notes
     -----
-    A load takes about a tenth of a second, nearly all of it for the shear; more where a slope jumps in the contact.
+    Each load takes about a tenth of a second, nearly all of it for the shear; more if a slope jumps
+    in the contact.
 
-    The shapes of the loaded bodies are right, their heights are up to a rigid displacement: at the ends of the axis of
-    all loads it is none. Without materials each surface is drawn with half of the deformation. The largest shear is
-    that in the plane, the same in both bodies.
+    The shapes of the loaded bodies are right, their heights only up to a rigid displacement: it is
+    chosen so that the mean deformation at the two ends of the common x axis is zero. Without
+    materials each surface is drawn with half of the deformation. The shear is the largest shear
+    stress in the plane, equal in both bodies.
 
     Examples
     --------
@@ -136,7 +140,7 @@ def explore(
 
 
 def _solved(contact: Contact, loads: list[float]) -> dict[float, Solution | LineContactError]:
-    """Each load with its solution, or with why there is none."""
+    """Returns each load with its solution, or with its error."""
     found = dict[float, Solution | LineContactError]()
     for load in loads:
         try:
@@ -147,13 +151,13 @@ def _solved(contact: Contact, loads: list[float]) -> dict[float, Solution | Line
 
 
 def _reach(contact: Contact) -> Range:
-    """From where to where both bodies are."""
+    """Returns the range of x that both bodies cover."""
     ends = [np.sort(body.at(body.domain)[0]) for body in (contact.lower, contact.upper)]
     return max(float(left) for left, _ in ends), min(float(right) for _, right in ends)
 
 
 def _window(solution: Solution, reach: Range) -> Range:
-    """What is shown of the bodies: the contacts and some of what is beside them."""
+    """Returns the range of x to be shown: the contacts and a margin on either side."""
     on = solution.hull
     beside = 2 * BESIDE * on.half_width
     return max(on.left - beside, reach[0]), min(on.right + beside, reach[1])
@@ -162,7 +166,7 @@ def _window(solution: Solution, reach: Range) -> Range:
 def _frame(
     solved: Solution | LineContactError, window: Range, reach: Range
 ) -> dict[str, Any] | LineContactError:
-    """What the page shows of one load."""
+    """Returns the data that the page shows for one load."""
     if isinstance(solved, LineContactError):
         return solved
     try:
@@ -196,7 +200,7 @@ def _numbers(solution: Solution) -> dict[str, Any]:
 
 
 def _peak(solution: Solution) -> dict[str, Any]:
-    """The largest pressure and its x; None for one that is infinite."""
+    """Returns the largest pressure and its x; None for an infinite pressure."""
     try:
         return solution.peak()._asdict()
     except SingularError as infinite:
@@ -204,7 +208,7 @@ def _peak(solution: Solution) -> dict[str, Any]:
 
 
 def _curves(solution: Solution, window: Range) -> dict[str, Any]:
-    """Pressure, gap and lower surface over x, from one end of the window to the other."""
+    """Returns pressure, gap and lower surface over x, from one end of the window to the other."""
     inside, beside = np.column_stack(solution.sample(_INSIDE)), _beside(solution, window)
     left_out = np.reshape(_left_out(solution, inside[:, 0]), (-1, 2))
     table = np.concatenate([inside, left_out, np.column_stack([beside, np.zeros(beside.size)])])
@@ -212,8 +216,8 @@ def _curves(solution: Solution, window: Range) -> dict[str, Any]:
     order = np.argsort(table[:, 0], kind="stable")
     (x, pressures), gap = table[order].T, gaps[order]
     lower, upper = solution.contact.lower.heights(x), solution.contact.upper.heights(x)
-    # By how much both surfaces together have given way: the loaded gap is that before loading, less the approach of
-    # the bodies, and this.
+    # Deformation of both surfaces together, less the approach of the bodies: the loaded gap minus
+    # the gap before loading.
     given_way = gap - (upper - lower)
     ends = given_way[np.isfinite(given_way)][[0, -1]]
     drawn = pressures[np.isfinite(pressures)]
@@ -229,7 +233,10 @@ def _curves(solution: Solution, window: Range) -> dict[str, Any]:
 
 
 def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, float]]:
-    """The places that `sample` leaves out, with their pressures: corners at the ends, and the largest pressure."""
+    """Returns the places that `sample` leaves out, with their pressures.
+
+    They are corners at the ends, and the largest pressure.
+    """
     found = []
     for x, strength in zip(solution.hull, solution.edge_singularities, strict=True):
         if x not in sampled:
@@ -242,13 +249,15 @@ def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, floa
 
 
 def _is_infinite(solution: Solution, strength: float) -> bool:
-    """Whether the strength of a singularity is more than rounding."""
+    """Tells whether the strength of a singularity is more than rounding."""
     return abs(strength) > _ROUNDING * abs(solution.mean_pressure)
 
 
 def _beside(solution: Solution, window: Range) -> FloatArray:
-    """Places beside and between the contacts, more of them next to the limits: not beyond a corner that is pressed,
-    where one of the bodies ends."""
+    """Returns places outside and between the contacts, denser next to the limits.
+
+    Places beyond a corner that is pressed, where one of the bodies ends, are left out.
+    """
     pressed = [
         strength > 0.0 and _is_infinite(solution, strength)
         for strength in solution.edge_singularities
@@ -258,13 +267,13 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
     bounds = bounds[int(pressed[0]) : len(bounds) - int(pressed[1])]
     bounds = bounds[bounds[:, 0] < bounds[:, 1]]
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _OUTSIDE))
-    # From both ends, so that both are met without rounding.
+    # Weights of both ends, so that both ends are met without rounding.
     places = bounds[:, :1] * share[::-1] + bounds[:, 1:] * share
     return places[~np.isin(places, limits)]
 
 
 def _share_of_lower(contact: Contact) -> float:
-    """How much of what both surfaces give way the lower one does: half without materials."""
+    """Returns the lower body's share of the deformation: half without materials."""
     materials = contact._settings["materials"]
     if materials is None:
         return 0.5
@@ -277,14 +286,17 @@ def _share_of_lower(contact: Contact) -> float:
 
 
 def _field(solution: Solution, window: Range) -> dict[str, Any]:
-    """The largest shear and its place, and the shear on a grid that is finest at the limits of the contacts."""
+    """Returns the largest shear and its place, and the shear on a grid.
+
+    The grid is finest at the limits of the contacts.
+    """
     limits = np.array(solution.intervals)
     fine = _FINE * 0.5 * (limits[:, 1:] - limits[:, :1])
     columns = min(_COLUMNS * len(limits), _MOST_COLUMNS)
     x = _graded(window, limits, fine, columns)
     depth = _graded((0.0, 0.5 * (window[1] - window[0])), np.zeros_like(fine), fine, _ROWS)
     shear = np.zeros((depth.size, x.size))
-    # None at the surface: without friction it bears the same pressure along x as across.
+    # Zero at the surface: without friction the stress along x equals the stress across it.
     shear[1:] = solution.stress(x, depth[1:, None]).max_shear()
     try:
         largest: dict[str, Any] = solution.max_shear()._asdict()
@@ -303,14 +315,15 @@ def _field(solution: Solution, window: Range) -> dict[str, Any]:
 
 
 def _graded(span: Range, centres: FloatArray, widths: FloatArray, count: int) -> FloatArray:
-    """Places over a span, as dense as 1/sqrt((x - c)² + w²), added up over all centres."""
+    """Returns places over a span with the density 1/sqrt((x - c)² + w²), summed over centres.
+    """
     every = np.linspace(*span, 4097)
     risen = np.sum(np.arcsinh((every[:, None, None] - centres) / widths), axis=(1, 2))
     return np.interp(np.linspace(risen[0], risen[-1], count), risen, every)
 
 
 def _packed(numbers: FloatArray) -> str:
-    """All digits of an array, for the page to unpack."""
+    """Encodes all digits of an array, for the page to decode."""
     return _base64(numbers.astype("<f8"))
 
 
@@ -324,10 +337,10 @@ def _words(body: Body) -> str:
 
 
 def _filled(title: str, data: dict[str, Any]) -> str:
-    """The page, with the title and the data where it says so."""
+    """Returns the page with the title and the data filled in."""
     parts = {
         "title": html.escape(title),
-        # No `<` in it ends the script.
+        # Escaped, so that no `<` in the data can end the script.
         "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
     }
     page = files(__package__).joinpath("explore.html").read_text(encoding="utf-8")

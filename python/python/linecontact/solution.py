@@ -1,4 +1,4 @@
-"""What comes back of a solve, and what can be asked of it."""
+"""Solutions, and the quantities that follow from them."""
 
 from __future__ import annotations
 
@@ -50,31 +50,31 @@ class Interval(NamedTuple):
 
     @property
     def half_width(self) -> float:
-        """Half its width: a length."""
+        """Half-width: a length."""
         return 0.5 * (self.right - self.left)
 
     @property
     def centre(self) -> float:
-        """Its middle: a length."""
+        """Centre: a length."""
         return 0.5 * self.left + 0.5 * self.right
 
 
 class Peak(NamedTuple):
-    """A largest pressure, and the x where it is: a length and a pressure."""
+    """A largest pressure and its x: a pressure and a length."""
 
     x: float
     pressure: float
 
 
 class Extremum(NamedTuple):
-    """A value, and the x where it is."""
+    """An extreme value and its x."""
 
     x: float
     value: float
 
 
 class StressPeak(NamedTuple):
-    """A largest stress: x and depth, lengths, and the stress, a pressure."""
+    """A largest stress, a pressure, with its x and depth, lengths."""
 
     x: float
     depth: float
@@ -82,14 +82,14 @@ class StressPeak(NamedTuple):
 
 
 class Approach(NamedTuple):
-    """How far two bodies come together: lengths.
+    """The distances by which two bodies come together: lengths.
 
     Attributes
     ----------
     bodies : float
-        How much nearer the two references are than when the bodies just touched.
+        Decrease in distance of the two references since the bodies just touched.
     lower, upper : float
-        How much nearer the surface of each body is to its own reference.
+        Approach of the surface of each body to its own reference.
     """
 
     bodies: float
@@ -98,16 +98,16 @@ class Approach(NamedTuple):
 
 
 class Cost(NamedTuple):
-    """What finding the limits has taken: counts.
+    """The cost of finding the limits: counts.
 
     Attributes
     ----------
     samples : int
-        Values of the slope of the gap.
+        Number of values of the slope of the gap.
     evaluations : int
-        Points of the curves.
+        Number of points of the curves.
     heights : int
-        Besides those, points for the heights of the bodies as a whole.
+        Number of further points, for the heights of the bodies as a whole.
     """
 
     samples: int
@@ -116,26 +116,30 @@ class Cost(NamedTuple):
 
 
 class Attempt(NamedTuple):
-    """A start of the search, and what became of it."""
+    """A start of the search, and its outcome."""
 
     start: str
     outcome: str
 
 
 class Certificate(NamedTuple):
-    """A proof that a solution is a contact: no tension inside, no overlap up to the ends of the bodies.
+    """A proof that a solution is a contact.
+
+    There is no tension inside, and no overlap up to the ends of the bodies.
 
     Attributes
     ----------
     pressure : Extremum or None
-        Where the pressure is nearest to zero beside that of a smooth body, as a ratio. None where there is no doubt.
+        Smallest ratio of the pressure to the pressure of a smooth body, and its x. None if there is
+        no doubt.
     gap : Extremum or None
-        The least gap where the bodies approach each other again: a length. None where they do not.
+        Smallest gap where the bodies approach each other again, a length, and its x. None where
+        they do not.
     spacing : float
-        The longest cell, a length: a feature at least a quarter as wide cannot have passed unseen. A 400th of the
-        bodies, or four times the resolution of the contact if that is shorter.
+        Length of the longest cell: a feature at least a quarter as wide cannot have been missed. It
+        is a 400th of the bodies, or four times the resolution of the contact if that is shorter.
     cost : Cost
-        What it has taken.
+        Cost of the certificate.
     """
 
     pressure: Extremum | None
@@ -145,20 +149,20 @@ class Certificate(NamedTuple):
 
 
 class ContactRegion(NamedTuple):
-    """One of the contacts.
+    """One of the contacts of a solution.
 
     Attributes
     ----------
     interval : Interval
-        Where it is: lengths.
+        Limits: lengths.
     load : float
-        What it bears: force/length.
+        Load per unit length: force/length.
     edge_singularities : (float, float)
-        Strengths at its left and its right limit: pressures.
+        Strengths of the singularities at the left and the right limit: pressures.
     peak : Peak or None
-        Its largest pressure; None where that is infinite.
+        Largest pressure; None if it is infinite.
     moment : float
-        About x = 0: a force.
+        Moment about x = 0: a force.
     centre_of_pressure : float or None
         A length; None without a load.
     """
@@ -177,31 +181,31 @@ class Summary(NamedTuple):
     Attributes
     ----------
     intervals : tuple of Interval
-        Where the bodies touch: lengths.
+        Intervals in which the bodies touch: lengths.
     load : float
-        Of all contacts: force/length.
+        Load per unit length, of all contacts: force/length.
     loads : tuple of float
-        Of each contact: force/length.
+        Load per unit length of each contact: force/length.
     kappa : float
-        The scale κ = π E*/2: a pressure.
+        Scale κ = π E*/2: a pressure.
     tilt : float
-        Of the upper body, counter-clockwise: radians.
+        Tilt of the upper body, counter-clockwise: radians.
     mean_pressure : float
-        The load over the widths of all contacts: a pressure.
+        Load over the widths of all contacts: a pressure.
     peak : Peak or None
-        The largest pressure and its x; None where it is infinite.
+        Largest pressure and its x; None if it is infinite.
     centre_of_pressure : float or None
         A length; None without a load.
     edge_singularities : (float, float)
-        Strengths at the first and the last limit: pressures.
+        Strengths of the singularities at the first and the last limit: pressures.
     limits_error : float or None
-        As a share of the half-width; None where both limits were given.
+        Estimated error of the limits, as a share of the half-width; None if both were given.
     checked : bool
-        Whether it was checked to be the contact of the bodies.
+        True if the solution was checked to be the contact of the bodies.
     cost : Cost
-        What finding the limits has taken.
+        Cost of finding the limits.
     attempts : tuple of Attempt
-        The starts that were tried.
+        Starts that were tried.
     """
 
     intervals: tuple[Interval, ...]
@@ -225,9 +229,9 @@ class Stress(NamedTuple):
     Attributes
     ----------
     sigma_x, sigma_y : float or ndarray
-        Along the surface, and across it.
+        Normal stresses along the surface and across it.
     tau_xy : float or ndarray
-        With y into the body.
+        Shear stress, with y into the body.
 
     Examples
     --------
@@ -241,20 +245,20 @@ class Stress(NamedTuple):
     tau_xy: Any
 
     def principal(self) -> tuple[Any, Any]:
-        """The principal stresses in the plane, the larger one first: pressures."""
+        """Returns the principal stresses in the plane, the larger one first: pressures."""
         mean, radius = 0.5 * (self.sigma_x + self.sigma_y), self.max_shear()
         return mean + radius, mean - radius
 
     def max_shear(self) -> Any:
-        """The largest shear stress in the plane: a pressure."""
+        """Returns the largest shear stress in the plane: a pressure."""
         return _plain(np.hypot(0.5 * (self.sigma_x - self.sigma_y), self.tau_xy))
 
     def sigma_z(self, poisson_ratio: float) -> Any:
-        """ν (σ_x + σ_y), the stress that keeps the strain plane: a pressure."""
+        """Returns ν (σ_x + σ_y), the stress that keeps the strain plane: a pressure."""
         return _ratio(poisson_ratio) * (self.sigma_x + self.sigma_y)
 
     def von_mises(self, poisson_ratio: float) -> Any:
-        """The equivalent stress of von Mises in plane strain: a pressure."""
+        """Returns the von Mises equivalent stress in plane strain: a pressure."""
         share = 0.5 - _ratio(poisson_ratio)
         sum_ = self.sigma_x + self.sigma_y
         return _plain(np.hypot(share * sum_, 3.0**0.5 * self.max_shear()))
@@ -265,7 +269,7 @@ def _plain(value: Any) -> Any:
 
 
 def _ratio(given: float) -> float:
-    """Poisson's ratio, if a material can have it."""
+    """Returns Poisson's ratio; refuses an impossible one."""
     ratio = as_number(given, "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
         from .errors import InvalidPoissonRatioError
@@ -277,7 +281,7 @@ def _ratio(given: float) -> float:
 
 
 def _acting(friction: float, force: float, tension: float) -> tuple[float, float, float]:
-    """What acts along the contact, as the library takes it."""
+    """Returns friction and loads along the contact in the library's form."""
     return as_number(friction, "friction"), as_number(force, "force"), as_number(tension, "tension")
 
 
@@ -294,7 +298,7 @@ def _stress(of: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray,
 
 
 class LoadRates:
-    """The derivatives of limits and pressure by the load. `Solution.load_rates` makes it.
+    """The derivatives of limits and pressure by the load, from `Solution.load_rates`.
 
     Examples
     --------
@@ -321,7 +325,7 @@ class LoadRates:
 
     @property
     def limits(self) -> list[tuple[float, float]]:
-        """How fast the left and the right limit of each contact move in x: length² per force."""
+        """dx/dF of the left and the right limit of each contact: length² per force."""
         return self._rates.limits
 
     @overload
@@ -329,7 +333,7 @@ class LoadRates:
     @overload
     def pressure(self, x: Numbers) -> FloatArray: ...
     def pressure(self, x: float | Numbers) -> float | FloatArray:
-        """∂P/∂F at fixed x, one over a length; zero outside the contacts."""
+        """Returns ∂P/∂F at fixed x, one over a length; zero outside the contacts."""
         found: float | FloatArray = each(self._rates.pressure, x)
         return found
 
@@ -338,11 +342,12 @@ class LoadRates:
 
 
 class Solution:
-    """A solved contact: its limits, and on request its pressure and what follows from it.
+    """A solved contact: its limits, and on request its pressure and derived quantities.
 
-    `Contact.solve` and `Solver.solve` make it. Arrays of any shape are taken wherever an `x` is asked for, and what
-    comes back has that shape. A solution is pickled as its contact and what was prescribed, and is solved again
-    where it is read: a cold solve to the last bit, one by a `Solver` to rounding.
+    `Contact.solve` and `Solver.solve` create it. Wherever an `x` is an argument, it may be an array
+    of any shape, and the result has this shape. A pickled solution holds its contact and the
+    prescribed quantities, and is solved again when it is loaded. A cold solve is then reproduced to
+    the last bit, a solve by a `Solver` to rounding.
 
     Attributes
     ----------
@@ -376,96 +381,102 @@ class Solution:
     def __reduce__(self) -> tuple[Any, ...]:
         return _solved_again, (self._contact, self._prescribed)
 
-    # Where the bodies touch.
+    # Limits, intervals and load.
 
     @property
     def a(self) -> float:
-        """The last limit: a length."""
+        """Limit a, a length: the contact ends at x = a."""
         return self._found.a
 
     @property
     def b(self) -> float:
-        """The first limit is at x = -b: a length."""
+        """Limit b, a length: the contact starts at x = -b."""
         return self._found.b
 
     @property
     def half_width(self) -> float:
-        """(a + b)/2, of several contacts that from the first limit to the last: a length."""
+        """Half-width (a + b)/2, of several contacts from the first limit to the last: a length."""
         return self._found.half_width
 
     @property
     def centre(self) -> float:
-        """(a - b)/2: a length."""
+        """Centre (a - b)/2: a length."""
         return self._found.centre
 
     @property
     def hull(self) -> Interval:
-        """From the first limit to the last: lengths."""
+        """Interval from the first limit to the last: lengths."""
         return Interval(-self._found.b, self._found.a)
 
     @property
     def intervals(self) -> tuple[Interval, ...]:
-        """Where the bodies touch, from left to right: lengths."""
+        """Intervals in which the bodies touch, from left to right: lengths."""
         return tuple(Interval(*on) for on in self._found.intervals)
 
     @property
     def load(self) -> float:
-        """Per unit length, of all contacts: force/length."""
+        """Load per unit length, of all contacts: force/length."""
         return self._found.load
 
     @property
     def tilt(self) -> float:
-        """By how much the upper body has been turned counter-clockwise, where a moment was given: radians."""
+        """Tilt of the upper body, counter-clockwise, if a moment was given: radians."""
         return self._found.tilt
 
-    # How far it can be trusted.
+    # Accuracy, checks and cost.
 
     @property
     def limits_error(self) -> float | None:
-        """Estimated error of the limits, as a share of the half-width; None where both were given."""
+        """Estimated error of the limits, as a share of the half-width; None if both were given."""
         return self._found.limits_error
 
     @property
     def edge_singularities(self) -> tuple[float, float]:
-        """`(K_b, K_a)`, strengths of the inverse square roots at the limits: pressures, zero at free edges."""
+        """Strengths `(K_b, K_a)` of the singularities at the limits: pressures, zero at free edges.
+
+        The singularities are inverse square roots.
+        """
         left, right = self._found.edge_singularities
         return left, right
 
     @property
     def attempts(self) -> tuple[Attempt, ...]:
-        """The starts that the search has tried, the last of which has led here."""
+        """Starts that the search has tried; the last one has led to the solution."""
         return tuple(Attempt(*attempt) for attempt in self._found.attempts)
 
     @property
     def is_checked(self) -> bool:
-        """Whether this was checked to be the contact of the bodies, as far as the samples of the solve show.
+        """True if this was checked to be the contact of the bodies, as far as the samples show.
 
-        A `Curve` that is said to be convex is taken at its word: `certify` does not. Where a limit is in doubt by more
-        than a 1600th of the half-width (`limits_error`), nothing was.
+        The solve trusts the declared convexity of a `Curve`; `certify` does not. The solution is
+        not checked if a limit is uncertain by more than a 1600th of the half-width
+        (`limits_error`).
         """
         return self._found.is_checked
 
     @property
     def is_steep(self) -> bool:
-        """Whether the slope of the gap is more than 0.3, too much for half-planes: is a unit wrong?"""
+        """True if the slope of the gap exceeds 0.3, too much for half-planes: check the units."""
         return self._found.is_steep
 
     @property
     def cost(self) -> Cost:
-        """What finding the limits has taken."""
+        """Cost of finding the limits."""
         return Cost(*self._found.cost)
 
     def steepest_slope(self) -> float:
-        """The largest slope of either surface within the contacts, before loading: no unit."""
+        """Returns the largest slope of either surface in the contacts before loading: no unit."""
         return self._found.steepest_slope()
 
     def certify(self) -> Certificate:
-        """Proves that this is a contact, from the whole of both bodies. It takes far longer than a solve.
+        """Proves that this is a contact, from samples of both bodies over their whole length.
+
+        It takes far longer than a solve.
 
         Raises
         ------
         linecontact.errors.TensionError, linecontact.errors.OverlapError
-            Where it is none; others where it cannot be told.
+            If it is not a contact; other errors if this cannot be decided.
 
         Examples
         --------
@@ -487,9 +498,9 @@ class Solution:
     @overload
     def residual(self, x: Numbers) -> FloatArray: ...
     def residual(self, x: float | Numbers) -> float | FloatArray:
-        """By how much the pressure fails the integral equation at places inside: a pressure.
+        """Returns the residual of the integral equation at places inside: a pressure.
 
-        By a quadrature that has nothing in common with that of the solve.
+        Its quadrature is independent of the solve.
         """
         found: float | FloatArray = each(self._found.residual, x)
         return found
@@ -501,7 +512,7 @@ class Solution:
     @overload
     def pressure(self, x: Numbers) -> FloatArray: ...
     def pressure(self, x: float | Numbers) -> float | FloatArray:
-        """The pressure at any number of places, all in one call.
+        """Returns the pressure at any number of places, in one call.
 
         Parameters
         ----------
@@ -516,7 +527,7 @@ class Solution:
         Raises
         ------
         linecontact.errors.SingularError
-            Where it is infinite: at a corner that is pressed, or where a slope jumps.
+            Where the pressure is infinite: at a corner that is pressed, or where a slope jumps.
         linecontact.errors.OutsideBodiesError
             Beyond the bodies, and for NaN.
 
@@ -531,13 +542,13 @@ class Solution:
         return found
 
     def pressure_estimate(self, x: float | Numbers) -> tuple[Any, Any]:
-        """Pressures with their estimated errors: two pressures, or arrays of them."""
+        """Returns pressures and their estimated errors: two pressures, or two arrays."""
         places = np.asarray(x, dtype=np.float64)
         values, errors = self._found.pressure_estimate(places.reshape(-1))
         return _plain(values.reshape(places.shape)), _plain(errors.reshape(places.shape))
 
     def sample(self, count: int = 257) -> tuple[FloatArray, FloatArray]:
-        """Places and pressures between which lines draw the pressure, `count` of each contact.
+        """Returns places and pressures for drawing by straight lines, `count` in each contact.
 
         Examples
         --------
@@ -550,7 +561,7 @@ class Solution:
         return self._found.sample(count)
 
     def peak(self) -> Peak:
-        """The largest pressure, and where it is.
+        """Returns the largest pressure and its x.
 
         Examples
         --------
@@ -563,19 +574,19 @@ class Solution:
 
     @property
     def mean_pressure(self) -> float:
-        """The load over the widths of all contacts: a pressure."""
+        """Mean pressure: the load over the widths of all contacts."""
         return self._found.mean_pressure
 
     def moment(self) -> float:
-        """Of the pressures about x = 0: a force."""
+        """Returns the moment of the pressures about x = 0: a force."""
         return self._found.moment()
 
     def centre_of_pressure(self) -> float:
-        """Where the load acts: a length."""
+        """Returns the x at which the load acts: a length."""
         return self._found.centre_of_pressure()
 
     def contacts(self) -> tuple[ContactRegion, ...]:
-        """What each contact bears, and how, from left to right.
+        """Returns the data of each contact, from left to right.
 
         Examples
         --------
@@ -595,17 +606,17 @@ class Solution:
         return tuple(region(*found) for found in self._found.contacts())
 
     def load_rates(self) -> LoadRates:
-        """The derivatives of limits and pressure by the load."""
+        """Returns the derivatives of limits and pressure by the load."""
         return LoadRates(self._found.load_rates())
 
-    # Beside and below the contact.
+    # Gap outside the contacts, and stress below them.
 
     @overload
     def gap(self, x: float) -> float: ...
     @overload
     def gap(self, x: Numbers) -> FloatArray: ...
     def gap(self, x: float | Numbers) -> float | FloatArray:
-        """The distance between the loaded bodies along y: a length, zero in the contacts.
+        """Returns the gap between the loaded bodies along y: a length, zero in the contacts.
 
         Examples
         --------
@@ -622,19 +633,20 @@ class Solution:
     @overload
     def gap_slope(self, x: Numbers) -> FloatArray: ...
     def gap_slope(self, x: float | Numbers) -> float | FloatArray:
-        """How fast that gap opens towards larger x: no unit, zero in the contacts."""
+        """Returns the derivative of this gap by x: no unit, zero in the contacts."""
         found: float | FloatArray = each(self._found.gap_slope, x)
         return found
 
     def stress(self, x: float | Numbers, depth: float | Numbers, *, friction: float = 0.0) -> Stress:
-        """The stress below the surface of either body.
+        """Returns the stress below the surface of either body.
 
         Parameters
         ----------
         x, depth : float or array_like
-            Lengths; they are broadcast against each other. The depth is not negative.
+            Lengths, broadcast against each other. The depth must not be negative.
         friction : float
-            μ, with a traction μP on the surface of this body in the direction of x; of either sign.
+            Coefficient of friction μ, of either sign: adds a traction μP on the surface of this
+            body in the direction of x.
 
         Returns
         -------
@@ -652,7 +664,7 @@ class Solution:
         return _stress(lambda x, depth: self._found.stress(x, depth, friction), x, depth)
 
     def max_shear(self, *, friction: float = 0.0) -> StressPeak:
-        """The largest shear stress in the plane, and where it is.
+        """Returns the largest shear stress in the plane, and its place.
 
         Examples
         --------
@@ -665,28 +677,28 @@ class Solution:
         return StressPeak(*self._found.max_shear(friction))
 
     def max_von_mises(self, poisson_ratio: float, *, friction: float = 0.0) -> StressPeak:
-        """The largest equivalent stress of von Mises, and where it is."""
+        """Returns the largest von Mises equivalent stress, and its place."""
         return StressPeak(*self._found.max_von_mises(poisson_ratio, friction))
 
-    # How far the bodies come together.
+    # Approach, stiffness and partial slip.
 
     def approach(self, references: References) -> Approach:
-        """How far the bodies have come together: lengths. The contact must know the materials."""
+        """Returns the approach of the bodies: lengths. The contact must have materials."""
         return Approach(*self._found.approach(references))
 
     def stiffness(self, references: References) -> float:
-        """dF/dδ, by how much the load grows with the approach of the bodies: a pressure."""
+        """Returns the stiffness dF/dδ, the derivative of the load by the approach: a pressure."""
         return self._found.stiffness(references)
 
     def partial_slip(self, *, friction: float, force: float, tension: float = 0.0) -> PartialSlip:
-        """The same contact, found anew, with a tangential force that friction carries: see `Contact.partial_slip`."""
+        """Solves the contact again, under a tangential force: see `Contact.partial_slip`."""
         acting = _acting(friction, force, tension)
         return _slipped_again(self._contact, self._prescribed, acting)
 
-    # The whole.
+    # Summary and pictures.
 
     def summary(self) -> Summary:
-        """The numbers of the solution, to be kept without the bodies.
+        """Returns the numbers of the solution, to be kept without the bodies.
 
         Examples
         --------
@@ -725,13 +737,15 @@ class Solution:
         return f"<Solution: {which} {contacts}, load {self.load:.6g}, {checked}>"
 
     def _repr_svg_(self) -> str:
-        """The pressure, for notebooks."""
+        """Draws the pressure, for notebooks."""
         from .drawing import svg
 
         return svg(self)
 
     def plot(self) -> Figure:
-        """Draws both bodies before loading, the pressure, and the shear below it. It needs matplotlib.
+        """Draws both bodies before loading, the pressure, and the shear below it.
+
+        It needs matplotlib.
 
         Returns
         -------
@@ -750,7 +764,7 @@ class Solution:
 
 
 class PartialSlip:
-    """A contact that sticks in part, and slips in part. `Contact.partial_slip` makes it.
+    """A contact that sticks in part and slips in part, from `Contact.partial_slip`.
 
     Attributes
     ----------
@@ -791,27 +805,30 @@ class PartialSlip:
 
     @property
     def normal(self) -> Solution:
-        """The contact under its load, without what acts along it."""
+        """The contact under its normal load alone."""
         return Solution(self._found.normal, self._contact, self._prescribed)
 
     @property
     def friction(self) -> float:
-        """The coefficient of friction."""
+        """Coefficient of friction."""
         return self._acting[0]
 
     @property
     def force(self) -> float:
-        """On the lower body, in the direction of x: force/length."""
+        """Tangential force on the lower body, in the direction of x: force/length."""
         return self._acting[1]
 
     @property
     def tension(self) -> float:
-        """By which the lower body is stretched: a pressure."""
+        """Tension that stretches the lower body, less the tension in the upper one: a pressure."""
         return self._acting[2]
 
     @property
     def stick_zones(self) -> tuple[Interval, ...]:
-        """Where the bodies stick, from left to right: lengths. In the rest of the contacts they slip."""
+        """Intervals in which the bodies stick, from left to right: lengths.
+
+        In the rest of the contacts they slip.
+        """
         return tuple(Interval(*on) for on in self._found.stick_zones)
 
     @overload
@@ -819,7 +836,7 @@ class PartialSlip:
     @overload
     def traction(self, x: Numbers) -> FloatArray: ...
     def traction(self, x: float | Numbers) -> float | FloatArray:
-        """The traction on the lower body in the direction of x: a pressure, zero outside the contacts.
+        """Returns the traction on the lower body along x: a pressure, zero outside the contacts.
 
         Examples
         --------
@@ -836,12 +853,12 @@ class PartialSlip:
     def stress(
         self, body: Literal["lower", "upper"], x: float | Numbers, depth: float | Numbers
     ) -> Stress:
-        """The stress below the surface of one of the bodies, from pressure and traction: pressures."""
+        """Returns the stress below the surface of one body, from pressure and traction."""
         return _stress(lambda x, depth: self._found.stress(body, x, depth), x, depth)
 
 
 def _solved_again(contact: Contact, prescribed: Prescribed) -> Solution:
-    """A solution that was pickled."""
+    """Restores a pickled solution."""
     return Solution(contact._scene.solve(prescribed), contact, prescribed)
 
 

@@ -1,4 +1,4 @@
-"""Solving in one call, again and again, and once for a table."""
+"""Solves in one call, solvers that continue from their last contact, and tables of springs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Given(Settings, Prescribed, total=False):
 
 
 def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
-    """A contact and its solution in one call.
+    """Creates a contact and solves it, in one call.
 
     Parameters
     ----------
@@ -49,9 +49,10 @@ def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
 
 
 class Solver:
-    """A solver that starts from the last contact it has found: for the next load, the next time step.
+    """A solver that starts from its last contact: for the next load or the next time step.
 
-    The same contact under another load takes few evaluations or none. One solver serves one thread at a time.
+    The same contact under another load takes few evaluations or none. One solver serves one thread
+    at a time.
 
     Examples
     --------
@@ -71,7 +72,7 @@ class Solver:
         return Solver, ()
 
     def solve(self, contact: Contact, **prescribed: Unpack[Prescribed]) -> Solution:
-        """As `Contact.solve`, from the last contact."""
+        """Finds a contact as `Contact.solve` does, but starts from the last contact."""
         wanted = _wanted(prescribed)
         return Solution(self._solver.solve(contact._scene, wanted), contact, wanted)
 
@@ -84,7 +85,7 @@ class Solver:
         tension: float = 0.0,
         **prescribed: Unpack[Prescribed],
     ) -> PartialSlip:
-        """As `Contact.partial_slip`, from the last contact."""
+        """Finds a contact as `Contact.partial_slip` does, but starts from the last contact."""
         wanted = _wanted(prescribed)
         acting = _acting(friction, force, tension)
         found = self._solver.partial_slip(contact._scene, wanted, acting)
@@ -97,15 +98,15 @@ class SpringPoints(NamedTuple):
     Attributes
     ----------
     approach : float or ndarray
-        δ: a length.
+        Approach δ: a length.
     load : float or ndarray
-        F: force/length.
+        Load per unit length F: force/length.
     stiffness : float or ndarray
-        dF/dδ: a pressure.
+        Stiffness dF/dδ: a pressure.
     half_width : float or ndarray
-        Of several contacts half of all widths together: a length.
+        Half-width; for several contacts, half the sum of their widths: a length.
     peak : float or ndarray
-        The largest pressure; infinite at a corner.
+        Largest pressure; infinite at a corner.
     """
 
     approach: Any
@@ -116,18 +117,20 @@ class SpringPoints(NamedTuple):
 
 
 class SpringTable:
-    """Load, stiffness, half-width and peak pressure against the approach: what a simulator asks for at each step.
+    """A table of load, stiffness, half-width and peak pressure against the approach.
+
+    A simulation looks them up at each step.
 
     Parameters
     ----------
     contact : Contact
-        With materials.
+        Contact with materials.
     references : References
-        Between which the approach is measured.
+        References between which the approach is measured.
     loads : (float, float)
-        From the least to the largest: force/length.
+        Least and largest load: force/length.
     tolerance : float
-        Of load, half-width and peak between the points, as a share.
+        Largest error of load, half-width and peak between the points, as a share.
 
     Examples
     --------
@@ -158,21 +161,22 @@ class SpringTable:
 
     @property
     def error(self) -> float:
-        """The largest error between the points, as a share: twice what was seen."""
+        """Largest error between the points, as a share: twice the observed error."""
         return self._table.error
 
     @property
     def stiffness_error(self) -> float:
-        """The same of the stiffness."""
+        """Largest error of the stiffness between the points, as a share: twice the observed error.
+        """
         return self._table.stiffness_error
 
     @property
     def points(self) -> SpringPoints:
-        """The solved points, by rising approach."""
+        """Solved points, by rising approach."""
         return SpringPoints(*self._table.points())
 
     def at(self, approach: float | Numbers) -> SpringPoints:
-        """The states at approaches, lengths within the table."""
+        """Returns the states at approaches within the table: lengths."""
         places = as_numbers(approach, "approach")
 
         def shaped(column: FloatArray) -> Any:

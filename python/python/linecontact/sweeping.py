@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Columns", "sweep"]
 
-# More than machines have cores: starting them would take longer than any sweep.
+# Largest number of threads, more than machines have cores: starting more would take longer than any
+# sweep.
 _MOST_THREADS = 512
 
-# What is a count, or a yes or no, in its column.
+# Types of the columns of counts and booleans.
 _KINDS: dict[str, type[Any]] = {"contacts": np.int64, "evaluations": np.int64, "is_checked": np.bool_}
 
 
@@ -31,7 +32,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
     Attributes
     ----------
     errors : dict of int to Exception
-        Why rows have failed, by their number.
+        Exceptions of the failed rows, by row number.
 
     Examples
     --------
@@ -59,7 +60,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
         return f"<Columns: {rows} rows of {', '.join(self)}{failed}>"
 
     def to_pandas(self) -> DataFrame:
-        """The columns as a data frame of pandas, if it is installed."""
+        """Returns the columns as a data frame of pandas, if pandas is installed."""
         try:
             from pandas import DataFrame
         except ImportError as missing:
@@ -76,44 +77,47 @@ def sweep(
     threads: int | None = None,
     **prescribed: npt.ArrayLike,
 ) -> Columns:
-    """Solves many contacts, over all cores, and returns numbers of each as columns.
+    """Solves many contacts on all cores, and returns the quantities as columns.
 
-    Row after row, a contact is found under what is prescribed for it. One contact, or one number, serves all rows.
-    A row that fails fails alone.
+    For each row a contact is solved under the prescribed quantities of this row. A single contact
+    or number serves all rows. A row that fails does not affect the others.
 
     Parameters
     ----------
     contacts : Contact or sequence of Contact
-        One for all rows, or one for each.
+        One contact for all rows, or one for each row.
     quantities : sequence of str, or str
-        What is asked of each solution; nothing else is computed. Lengths: "a", "b", "half_width" and "centre" (of all
-        that lies between the outermost limits), "peak_x", "centre_of_pressure", "max_shear_x", "max_shear_depth",
-        "approach". Pressures: "peak_pressure" (infinite at a corner), "mean_pressure", "max_shear", "stiffness".
-        "load" is a force/length, "moment" a force, "tilt" is in radians. "limits_error" is a share of the half-width,
-        NaN where both limits were given. "contacts" (how many), "evaluations" (of the curves) and "is_checked" are no
-        floats, and 0 where the row has failed.
+        Quantities of each solution; no others are computed. Lengths: "a", "b", "half_width" and
+        "centre" (of the interval between the outermost limits), "peak_x", "centre_of_pressure",
+        "max_shear_x", "max_shear_depth", "approach". Pressures: "peak_pressure" (infinite at a
+        corner), "mean_pressure", "max_shear", "stiffness". "load" is a force/length, "moment" a
+        force, "tilt" is in radians. "limits_error" is a share of the half-width, NaN where both
+        limits were given. "contacts" (their number), "evaluations" (of the curves) and "is_checked"
+        are not floats, and 0 where the row has failed.
     references : References, optional
-        For the approach and the stiffness, asked for or prescribed.
+        References of the approach and the stiffness, as quantities or prescribed.
     progress : bool or callable
-        True shows a bar if tqdm is installed. A function is called now and then, with how many rows are done and of
-        how many.
+        True shows a bar if tqdm is installed. A function is called now and then, with the number of
+        rows done and the number of all rows.
     threads : int, optional
-        How many at most. Default: as many as this process has cores.
+        Largest number of threads. Default: the number of cores that this process may use.
     **prescribed : array_like
-        As for `Contact.solve`: numbers, or arrays of one number for each row.
+        Prescribed quantities, as for `Contact.solve`: numbers, or arrays with one number for each
+        row.
 
     Returns
     -------
     Columns
-        A dict of arrays: the quantities, and "error" with the name of what each row has failed with, "" if it has not.
-        Numbers that were not found are NaN.
+        A dict of arrays: the quantities, and "error" with the name of the error of each row, "" if
+        it has not failed. Missing numbers are NaN.
 
     Notes
     -----
-    Rows are solved in runs of up to 32, each from the contact of the row before, the first from nothing: put rows
-    that are alike beside each other, the load innermost. The results do not depend on the number of threads. The
-    functions of a `Curve` are called from all threads; where they raise an exception it is that of the row, but
-    KeyboardInterrupt and SystemExit end the sweep, as Ctrl-C does.
+    Rows are solved in runs of up to 32. The first of a run is solved from nothing, each other from
+    the contact of the row before: put similar rows next to each other, with the load innermost. The
+    results do not depend on the number of threads. The functions of a `Curve` are called from all
+    threads. An exception raised in them is the error of the row, but KeyboardInterrupt and
+    SystemExit end the sweep, as Ctrl-C does.
 
     Examples
     --------
@@ -180,7 +184,7 @@ def sweep(
 
 
 def _cores() -> int:
-    """Those that this process may use."""
+    """Returns the number of cores that this process may use."""
     allowed = getattr(os, "sched_getaffinity", None)
     return len(allowed(0)) if allowed else os.cpu_count() or 1
 
@@ -188,7 +192,7 @@ def _cores() -> int:
 def _bar(
     progress: bool | Callable[[int, int], object], rows: int
 ) -> tuple[Callable[[int], object] | None, Callable[[], object]]:
-    """What is told how many rows are done, and what is called in the end."""
+    """Returns a function that reports the number of rows done, and one to be called at the end."""
     if callable(progress):
         of = progress
         return lambda done: of(done, rows), lambda: None
