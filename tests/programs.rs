@@ -1,7 +1,8 @@
-//! Programs, each run as a process of its own: the examples, the random scenes of `fuzz/`, and a count of allocations.
+//! Programs, each run as a process of its own: the examples, the random scenes of `fuzz/`, and a
+//! count of allocations.
 //!
-//! They are compiled as one, so that the solver is compiled but once. `cargo test --test programs -- stress spring`
-//! runs those with one of these words in their name.
+//! They are compiled as one, so that the solver is compiled only once.
+//! `cargo test --test programs -- stress spring` runs those with one of these words in their name.
 #![allow(missing_docs, dead_code)]
 #![allow(clippy::duplicate_mod, reason = "programs of their own")]
 #![allow(unused_imports, reason = "those of unit tests, which need a harness")]
@@ -48,7 +49,7 @@ use std::process::{Command, ExitCode, Termination};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// A program: its name, its main function and its arguments in the test.
+/// Name, main function and arguments of a program in the test.
 type Program = (&'static str, fn() -> ExitCode, &'static [&'static str]);
 
 macro_rules! program {
@@ -57,7 +58,7 @@ macro_rules! program {
     };
 }
 
-/// The longest first.
+/// Programs, the longest first.
 const PROGRAMS: [Program; 18] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
@@ -79,7 +80,7 @@ const PROGRAMS: [Program; 18] = [
     program!(stress_field),
 ];
 
-/// The environment variable that names the program to run.
+/// Environment variable that names the program to run.
 const NAME: &str = "LINECONTACT_PROGRAM";
 
 fn main() -> ExitCode {
@@ -108,7 +109,7 @@ fn main() -> ExitCode {
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Lists the examples by name.
+/// Lists the names of the examples.
 fn examples() -> impl Iterator<Item = String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let paths =

@@ -1,50 +1,50 @@
-//! An oracle for contacts in any number of places: boundary elements, which share nothing with the
-//! crate.
+//! Boundary elements: an oracle for any number of contacts that shares no code with the crate.
 //!
-//! The pressure is linear between nodes, P ≥ 0 and the gap ≥ 0 hold at the nodes (collocation, an active
-//! set), and the cells are halved where contacts begin and end, where a contact has few of them, where
-//! the pressure bends, and where the open gap is about to close. The integrals of the logarithm over a cell are exact.
+//! The pressure is linear between nodes; P ≥ 0 and gap ≥ 0 hold at the nodes (collocation, an
+//! active set). Cells are halved at the ends of contacts, in contacts of few cells, where the
+//! pressure bends, and where the open gap is about to close. The integrals of the logarithm over a
+//! cell are exact.
 #![allow(dead_code)] // Each test crate uses its own part.
 
 use linecontact::{CurvePoint, Interval, ParametricProfile};
 
-/// Cells to begin with.
+/// Number of cells at the start.
 const CELLS: usize = 128;
-/// Halvings at most.
+/// Largest number of halvings.
 const HALVINGS: usize = 24;
-/// Where halving ends.
+/// Number of nodes at which halving stops.
 const NODES: usize = 1600;
-/// Fewest cells of a contact.
+/// Least number of cells of a contact.
 const FEWEST: usize = 32;
-/// How far the pressure may bend at a node, as a share of the peak.
+/// Largest bend of the pressure at a node, as a share of the peak.
 const BEND: f64 = 0.02;
-/// Cells halved on either side of an end of a contact.
+/// Number of cells halved on either side of an end of a contact.
 const BESIDE: usize = 4;
 
-/// What the bodies do, as far as the cells show.
+/// Solution of the contact problem, to the resolution of the cells.
 #[derive(Clone, Debug)]
 pub struct Oracle {
-    /// The contacts, from left to right.
+    /// Contacts, from left to right.
     pub contacts: Vec<Interval<f64>>,
-    /// How far off each of their limits may be.
+    /// Largest error of each limit.
     pub errors: Vec<[f64; 2]>,
-    /// What κ times the gap and the logarithms of the pressures add up to in the contacts.
+    /// Sum of κ times the gap and the logarithmic potential of the pressures in the contacts.
     pub approach: f64,
     /// Nodes, from left to right.
     pub x: Vec<f64>,
-    /// The pressures there.
+    /// Pressures at the nodes.
     pub pressure: Vec<f64>,
-    /// The gap of the loaded bodies there.
+    /// Gap of the loaded bodies at the nodes.
     pub gap: Vec<f64>,
 }
 
 impl Oracle {
-    /// The largest pressure of a node.
+    /// Returns the largest nodal pressure.
     pub fn peak(&self) -> f64 {
         self.pressure.iter().fold(0.0, |peak, &p| peak.max(p))
     }
 
-    /// The pressure at x, linear between the nodes.
+    /// Returns the pressure at x, linear between the nodes.
     pub fn at(&self, x: f64) -> f64 {
         let right = self.x.partition_point(|&node| node < x).clamp(1, self.x.len() - 1);
         let [from, to] = [self.x[right - 1], self.x[right]];
@@ -52,16 +52,16 @@ impl Oracle {
         self.pressure[right - 1] * (1.0 - share) + self.pressure[right] * share
     }
 
-    /// The longest of the cells beside x.
+    /// Returns the length of the longest cell next to x.
     pub fn cell(&self, x: f64) -> f64 {
         let right = self.x.partition_point(|&node| node < x).clamp(2, self.x.len() - 2);
         let cells = self.x[right - 2..=right + 1].windows(2).map(|cell| cell[1] - cell[0]);
         cells.fold(0.0, f64::max)
     }
 
-    /// A limit of these contacts that is none of the oracle's, or one of the oracle's that is missing, with
-    /// the distance that would pass; `None` if they agree. A gap, or a contact, too narrow for the cells
-    /// is left open.
+    /// Returns a limit on which these contacts and the oracle disagree (missing in one of the two),
+    /// with the distance that would pass; `None` if they agree. Gaps and contacts too narrow for
+    /// the cells are not judged.
     pub fn disagreement(&self, contacts: &[Interval<f64>]) -> Option<[f64; 2]> {
         let found = sides(contacts);
         let known = sides(&self.contacts);
@@ -88,8 +88,8 @@ impl Oracle {
         None
     }
 
-    /// The largest difference of a pressure from that at the nodes, as a share of the peak, and where it
-    /// is: away from the ends of contacts and from kinks, where the cells are too long.
+    /// Returns the largest difference from the nodal pressures, as a share of the peak, and its
+    /// place. Nodes near ends of contacts and kinks, where the cells are too long, are left out.
     pub fn pressure_off(&self, kinks: &[f64], at: impl Fn(f64) -> f64) -> [f64; 2] {
         let (peak, mut worst) = (self.peak(), [0.0, f64::NAN]);
         for (i, on) in self.contacts.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Oracle {
         worst
     }
 
-    /// Load per unit length.
+    /// Returns the load per unit length.
     pub fn load(&self) -> f64 {
         let cell = |i: usize| {
             0.5 * (self.x[i + 1] - self.x[i]) * (self.pressure[i] + self.pressure[i + 1])
@@ -120,14 +120,15 @@ impl Oracle {
     }
 }
 
-/// All limits, from left to right.
+/// Returns all limits, from left to right.
 fn sides(contacts: &[Interval<f64>]) -> Vec<f64> {
     contacts.iter().flat_map(|on| [on.left, on.right]).collect()
 }
 
-/// Solves the contact of a gap `f₂(x) - f₁(x)` under a load; `None` where the active set does not settle.
+/// Solves the contact of a gap `f₂(x) - f₁(x)` under a load; `None` if the active set does not
+/// settle.
 ///
-/// `nodes` are places where the gap has kinks; the range ends the bodies.
+/// `nodes` are the places of kinks of the gap; the range ends the bodies.
 pub fn solve(
     gap: &dyn Fn(f64) -> f64,
     kappa: f64,
@@ -166,7 +167,7 @@ pub fn solve(
     }
 }
 
-/// Pressures, κ times the gap, and the constant that is zero of it.
+/// Pressures, κ times the gap of the loaded bodies, and the approach subtracted from it.
 struct Found {
     pressure: Vec<f64>,
     gap: Vec<f64>,
@@ -220,7 +221,7 @@ fn active_set(x: &[f64], height: &[f64], load: f64, on: &mut [bool]) -> Option<F
         if round < 40 {
             wrong.iter().for_each(|&i| on[i] = !on[i]);
         } else {
-            // Round in circles: then one at a time, the worst.
+            // The set may cycle: from now on only the worst node changes.
             let most = |of: &[f64]| of.iter().fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
             let (peak, open) = (most(&pressure), most(&gap));
             let share = |i: usize| if on[i] { -pressure[i] / peak } else { -gap[i] / open };
@@ -231,10 +232,10 @@ fn active_set(x: &[f64], height: &[f64], load: f64, on: &mut [bool]) -> Option<F
     None
 }
 
-/// `-∫ ln|x - s| ds` over the pressure that is one at a node, zero at its neighbours and linear between:
-/// for all nodes.
+/// Returns, for all nodes, `-∫ ln|x - s| ds` over the pressure that is one at the node, zero at its
+/// neighbours and linear between them.
 fn influences(nodes: &[f64], x: f64) -> Vec<f64> {
-    // The antiderivatives of ln|u| and of u ln|u|.
+    // Antiderivatives of ln|u| and of u ln|u|.
     let antiderivatives = |&node: &f64| {
         let u = node - x;
         let log = if u == 0.0 { 0.0 } else { u.abs().ln() };
@@ -245,9 +246,10 @@ fn influences(nodes: &[f64], x: f64) -> Vec<f64> {
     for i in 0..nodes.len() - 1 {
         let [from, to] = [nodes[i] - x, nodes[i + 1] - x];
         let (h, middle) = (to - from, 0.5 * (from + to));
-        // Of the parts that fall from one to zero, and that rise to one.
+        // Integrals over the parts that fall from one to zero, and that rise to one.
         let [falls, rises] = if middle.abs() > 300.0 * h {
-            // The antiderivatives would cancel; Gauss's rule with three points is exact.
+            // The antiderivatives would cancel; the Gauss-Legendre rule with three points is
+            // accurate.
             let root = 0.6f64.sqrt();
             let at = [(-root, 5.0 / 18.0), (0.0, 8.0 / 18.0), (root, 5.0 / 18.0)];
             at.into_iter().fold([0.0; 2], |[falls, rises], (z, w)| {
@@ -264,7 +266,7 @@ fn influences(nodes: &[f64], x: f64) -> Vec<f64> {
     influence
 }
 
-/// Gauss's elimination with the largest pivot of a column, of n equations with one right side.
+/// Solves n equations with one right-hand side by Gaussian elimination with column pivoting.
 fn gauss(system: &mut [f64], n: usize) -> Option<Vec<f64>> {
     let width = n + 1;
     for column in 0..n {
@@ -297,7 +299,7 @@ fn gauss(system: &mut [f64], n: usize) -> Option<Vec<f64>> {
     solution.iter().all(|value| value.is_finite()).then_some(solution)
 }
 
-/// Runs of nodes in contact: first and last.
+/// Returns the first and last node of each run of nodes in contact.
 fn runs(on: &[bool]) -> Vec<[usize; 2]> {
     let mut runs: Vec<[usize; 2]> = Vec::new();
     for i in (0..on.len()).filter(|&i| on[i]) {
@@ -329,14 +331,15 @@ fn cells_to_halve(
         if to - from < FEWEST {
             ask(from.saturating_sub(1), to + 1, 0.0);
         }
-        // Cells next to an end as short as 3e-4 of the contact; at a corner the pressure is infinite.
+        // Cells next to an end get as short as 3e-4 of the contact; at a corner the pressure is
+        // infinite.
         for end in [from, to + 1] {
             let share = if end == 0 || end > last { 1e-4 } else { 3e-4 };
             ask(end.saturating_sub(BESIDE), end + BESIDE, share * width);
         }
     }
     for &kink in kinks {
-        // The pressure is a logarithm there.
+        // The pressure is logarithmic at a kink.
         let node = x.partition_point(|&x| x < kink);
         if let Some([from, to]) = runs.iter().find(|run| run[0] <= node && node <= run[1]) {
             ask(node.saturating_sub(BESIDE), node + BESIDE, 1e-3 * (x[*to] - x[*from]));
@@ -346,7 +349,7 @@ fn cells_to_halve(
     for &[from, to] in &runs {
         let pressure = &found.pressure;
         for i in from + 1..to {
-            // Between the nodes it is off by an eighth of that.
+            // Linear interpolation errs by an eighth of the second difference between nodes.
             let chord = pressure[i - 1] - 2.0 * pressure[i] + pressure[i + 1];
             if chord.abs() > BEND * peak {
                 ask(i - 1, i + 1, 2e-3 * (x[to] - x[from]));
@@ -363,7 +366,7 @@ fn cells_to_halve(
     for i in 1..last {
         let (gap, least) = (&found.gap, found.gap[i]);
         if !on[i] && least <= gap[i - 1] && least <= gap[i + 1] {
-            // Between two nodes it may come lower by about an eighth of the second difference.
+            // Between nodes the gap may be lower by about an eighth of the second difference.
             let bend = gap[i - 1] - 2.0 * least + gap[i + 1];
             if least < bend {
                 ask(i - 1, i + 1, 0.0);
@@ -377,11 +380,11 @@ fn finished(x: &[f64], on: &[bool], found: Found, kappa: f64) -> Oracle {
     let last = x.len() - 1;
     let (mut contacts, mut errors) = (Vec::new(), Vec::new());
     for [from, to] in runs(on) {
-        // The pressure goes down like the root of the distance: its square like the distance, which tells
-        // where in the last cell it ends.
+        // The square of the pressure falls linearly towards the limit, which locates the limit in
+        // the last cell.
         let end = |edge: usize, inside: usize, outside: Option<usize>| {
             let Some(outside) = outside else { return [x[edge], 0.0] };
-            // A cell, and what the shape of the pressure in all of the others leaves.
+            // One cell, and the error that the shape of the pressure leaves in all others.
             let error = 2.0 * (x[outside] - x[edge]).abs() + 3e-4 * (x[to] - x[from]);
             let [low, high] = [edge, inside].map(|i| found.pressure[i].powi(2));
             let fall = (high - low) / (x[inside] - x[edge]);
@@ -398,14 +401,14 @@ fn finished(x: &[f64], on: &[bool], found: Found, kappa: f64) -> Oracle {
     Oracle { contacts, errors, approach: found.approach, x, pressure, gap }
 }
 
-/// The height of a body at x.
+/// Returns the height of a body at x.
 pub fn height(body: &dyn ParametricProfile<f64>, x: f64) -> f64 {
-    // Straight on from the nearer end, for what the rounding of k leaves.
+    // Continues linearly past the nearer end, as far as k is rounded.
     let at = point(body, x);
     if at.dx == 0.0 { at.y } else { at.y + at.dy / at.dx * (x - at.x) }
 }
 
-/// The point of a body at x, by bisection of `X(k) = x` on the piece that it belongs to.
+/// Returns the point of a body at x, by bisection of `X(k) = x` on the piece that holds x.
 pub fn point(body: &dyn ParametricProfile<f64>, x: f64) -> CurvePoint<f64> {
     let on = |curve: &dyn ParametricProfile<f64>, [mut lo, mut hi]: [f64; 2]| {
         let rising = curve.x(lo) < curve.x(hi);
@@ -421,7 +424,7 @@ pub fn point(body: &dyn ParametricProfile<f64>, x: f64) -> CurvePoint<f64> {
     match body.pieces() {
         0 => on(body, body.domain()),
         count => {
-            // The first that does not end before x.
+            // First piece that does not end before x.
             let (mut first, mut last) = (0, count - 1);
             while first < last {
                 let middle = (first + last) / 2;

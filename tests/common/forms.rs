@@ -1,4 +1,4 @@
-//! The closed forms that the tests go through.
+//! Closed forms used by the tests.
 #![allow(dead_code)] // Each test crate uses its own part.
 
 use linecontact::reference::{
@@ -12,11 +12,11 @@ pub const KAPPA: f64 = 1.7;
 pub struct Form<T> {
     pub name: String,
     pub form: Box<dyn ClosedForm<T>>,
-    /// How far the body goes.
+    /// Distance from x = 0 to the ends of the body.
     pub reach: T,
 }
 
-/// One contact of a row, in ξ = tan(π x/λ).
+/// One contact of a periodic row, in ξ = tan(π x/λ).
 #[derive(Debug)]
 pub struct Unrolled<T> {
     pub row: Westergaard<T>,
@@ -55,7 +55,7 @@ impl<T: Real> ClosedForm<T> for Unrolled<T> {
     }
 
     fn pressure(&self, xi: T, kappa: T) -> T {
-        // x is as exact as ξ only away from the edges: there from the difference of the angles.
+        // Near the edges x is less exact than ξ: there the difference of the angles is used.
         let right = self.limits().right;
         if xi.abs() > right {
             return T::zero();
@@ -77,12 +77,12 @@ impl<T: Real> ClosedForm<T> for Unrolled<T> {
     }
 }
 
-/// Forms of half-widths near 1.
+/// Returns closed forms with half-widths near 1.
 pub fn forms<T: Real>() -> Vec<Form<T>> {
     forms_of(&T::of)
 }
 
-/// The same with parameters made by a function.
+/// Returns the forms of [`forms`] with parameters made by a function.
 pub fn forms_of<T: Real>(n: &dyn Fn(f64) -> T) -> Vec<Form<T>> {
     let kappa = n(KAPPA);
     let mut forms = Vec::new();

@@ -4,8 +4,8 @@
 use linecontact::Real;
 use linecontact::autodiff::{Formula, Over};
 
-/// The two bodies of the paper's Example 3, Eqs. (33), (34), with one coefficient of the lower one (8
-/// in the paper) and the scales of X and Y (both 1) as parameters.
+/// Bodies of the paper's Example 3, Eqs. (33), (34), with one coefficient of the lower body (8 in
+/// the paper) and the scales of X and Y (both 1) as parameters.
 #[derive(Clone, Copy)]
 pub struct Lower3<T> {
     pub coefficient: T,
@@ -45,7 +45,8 @@ impl<T: Real> Formula<T> for Upper3<T> {
     }
 }
 
-/// Those of Example 2, Eqs. (30), (31), with the coefficients of k² as parameters (-36 and 63).
+/// Bodies of the paper's Example 2, Eqs. (30), (31), with the coefficients of k² (-36 and 63) as
+/// parameters.
 #[derive(Clone, Copy)]
 pub struct Body2<T> {
     pub along: T,

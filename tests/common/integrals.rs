@@ -1,11 +1,11 @@
-//! Integrals over a pressure by a rule that shares nothing with the crate: tanh-sinh, between the
-//! places where the pressure is not smooth.
+//! Integrals over a pressure by tanh-sinh quadrature between the points where the pressure is not
+//! smooth; shares no code with the crate.
 
 use linecontact::Interval;
 use std::f64::consts::PI;
 
-/// An integral over the contact in θ, from panels that end at the edges, the breakpoints and the pole:
-/// by the rule of Takahasi and Mori (tanh-sinh) on each.
+/// Integrates over the contact in θ, by the tanh-sinh rule of Takahasi and Mori on panels that end
+/// at the edges, the breakpoints and the pole.
 pub fn integral(on: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64) -> f64 {
     let angle = |x: f64| 2.0 * (on.right - x).sqrt().atan2((x - on.left).sqrt());
     let inside = ends.iter().filter(|&&x| on.contains(x));
@@ -29,7 +29,7 @@ pub fn integral(on: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64)
         for i in -128i32..=128 {
             let t = STEP * f64::from(i);
             let u = PI / 2.0 * t.sinh();
-            // The distance from the nearer end of the panel.
+            // Distance from the nearer end of the panel.
             let distance = half * (-u.abs()).exp() / u.cosh();
             let theta = if i < 0 { panel[0] + distance } else { panel[1] - distance };
             let weight = half * STEP * PI / 2.0 * t.cosh() / u.cosh().powi(2);
@@ -42,12 +42,12 @@ pub fn integral(on: Interval<f64>, ends: &[f64], integrand: impl Fn(f64) -> f64)
     total
 }
 
-/// `P sin θ` times the half-width, of the place as it is rounded: what is integrated over θ.
+/// Returns `P sin θ` times the half-width at the rounded x: the integrand in θ.
 pub fn strength(on: Interval<f64>, pressure: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
     move |x| pressure(x) * (x - on.left).sqrt() * (on.right - x).sqrt()
 }
 
-/// `PV∫ P(s)/(x - s) ds`.
+/// Returns `PV∫ P(s)/(x - s) ds`.
 pub fn principal(
     on: Interval<f64>,
     breakpoints: &[f64],

@@ -1,4 +1,4 @@
-//! What the integration tests share: reference solutions and the scenes they belong to.
+//! Reference solutions, and the scenes they belong to, for all integration tests.
 #![allow(dead_code, missing_docs)] // Each test crate uses its own part.
 
 #[path = "../../examples/paper/curves.rs"]
@@ -19,15 +19,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub type Profile = Box<dyn ParametricProfile<f64>>;
 
-/// A solution to 25 digits, from `tests/data`.
+/// Solution to 25 digits, from `tests/data`.
 pub struct Reference {
     pub a: f64,
     pub b: f64,
     pub c: f64,
     pub kappa: f64,
-    /// x and P(x).
+    /// Pairs of x and P(x).
     pub points: Vec<[f64; 2]>,
-    /// By how much a relative error of the data is magnified in each pressure.
+    /// Amplification of a relative error of the data in each pressure.
     pub amplification: Vec<f64>,
 }
 
@@ -41,7 +41,7 @@ impl Reference {
     }
 }
 
-/// A file of `tests/data`.
+/// Reads a file of `tests/data`.
 fn data(name: &str) -> Value {
     let path = format!("{}/tests/data/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
@@ -65,17 +65,17 @@ pub fn reference(name: &str) -> Reference {
     }
 }
 
-/// The contacts of a solution, from left to right.
+/// Returns the contacts of a solution, from left to right.
 pub fn intervals<T: Real>(solution: &Solution<T>) -> Vec<Interval<T>> {
     solution.intervals().to_vec()
 }
 
-/// Contacts in several places, from `tests/data/several`.
+/// Reference solution with several contacts, from `tests/data/several`.
 pub struct Several {
     pub contacts: Vec<Interval<f64>>,
-    /// What each bears.
+    /// Load of each contact.
     pub loads: Vec<f64>,
-    /// x and P(x).
+    /// Pairs of x and P(x).
     pub points: Vec<[f64; 2]>,
 }
 
@@ -90,8 +90,8 @@ pub fn several(name: &str) -> Several {
     Several { contacts: contacts.collect(), loads, points: pairs("points") }
 }
 
-/// A scene with a reference solution: its name, its bodies, and the relative accuracy of the
-/// limits that its formulas allow in binary64.
+/// Scene with a reference solution: its name, its bodies, and the relative accuracy of the limits
+/// that its formulas allow in binary64.
 pub struct Scene {
     pub name: &'static str,
     pub lower: Profile,
@@ -106,7 +106,7 @@ impl Scene {
     }
 }
 
-/// y = f(x) and f'(x) over a range of x.
+/// Returns the graph of y = f(x) over a range of x, from f(x) and f'(x).
 pub fn graph(
     from: f64,
     to: f64,
@@ -124,7 +124,7 @@ pub fn parabola(reach: f64) -> Profile {
 
 type Found = Result<Root<f64>, SearchError<f64>>;
 
-/// A user's strategy: it may look somewhere, and then says what it likes.
+/// A user's search: may evaluate the function, and returns whatever it likes.
 pub struct Strategy(pub fn(&mut dyn FnMut(f64) -> f64, &Bracket<f64>) -> Found);
 
 impl LimitSearch<f64> for Strategy {
@@ -134,13 +134,13 @@ impl LimitSearch<f64> for Strategy {
 }
 
 impl Strategy {
-    /// Takes a point for the root, whatever the function is there.
+    /// Returns a point as the root, whatever the function value there.
     pub fn take(x: f64, f: &mut dyn FnMut(f64) -> f64, bracket: &Bracket<f64>) -> Found {
         Ok(Root { x, residual: f(x), bracket: [bracket.lo, bracket.hi], evaluations: 1 })
     }
 }
 
-/// Bisection, secant, Brent, Newton.
+/// Returns bisection, secant, Brent and Newton.
 pub fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
     [
         Box::new(Bisection { tolerance }),
@@ -150,12 +150,12 @@ pub fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4]
     ]
 }
 
-/// A body above a flat.
+/// Returns the contact of a body above a flat.
 pub fn on_flat<'b>(body: Profile) -> Contact<'b, f64> {
     Contact::owned(Arc::new(Flat), body.into()).unwrap()
 }
 
-/// A circle of radius 1 by its angle, from left to right for a sign of 1.
+/// Returns a circle of radius 1 by its angle, from left to right for a sign of 1.
 pub fn circle(from: f64, to: f64, sign: f64) -> Profile {
     Box::new(Curve::new([from, to], move |k: f64| {
         let (sin, cos) = k.sin_cos();
@@ -167,7 +167,7 @@ pub fn join(pieces: Vec<Profile>) -> Profile {
     Box::new(Piecewise::new(pieces).expect("the pieces meet"))
 }
 
-/// |x|^n/n, in two pieces.
+/// Returns |x|^n/n, in two pieces.
 pub fn power(n: f64) -> Profile {
     join(vec![
         graph(-2.0, 0.0, move |x| [(-x).powf(n) / n, -(-x).powf(n - 1.0)]),
@@ -273,7 +273,7 @@ pub fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Least-squares slope of log(error) against log(n), sign turned: the order of convergence.
+/// Returns the order of convergence: minus the least-squares slope of log(error) against log(n).
 pub fn order(errors: &[(usize, f64)]) -> f64 {
     let points: Vec<(f64, f64)> = errors.iter().map(|&(n, e)| ((n as f64).ln(), e.ln())).collect();
     let count = points.len() as f64;
@@ -284,13 +284,13 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
-/// Relative to the larger of the two.
+/// Compares two numbers, relative to the larger one.
 #[track_caller]
 pub fn assert_close(got: f64, want: f64, max_relative: f64) {
     approx::assert_relative_eq!(got, want, epsilon = 0.0, max_relative = max_relative);
 }
 
-/// Errors of which NaN is the largest: `max` would lose it.
+/// Maximum in which NaN exceeds every number; `max` would lose it.
 pub trait NanSafe: Real {
     fn nan_max(self, other: Self) -> Self {
         let is_nan = self.partial_cmp(&self).is_none();
@@ -300,22 +300,22 @@ pub trait NanSafe: Real {
 
 impl<T: Real> NanSafe for T {}
 
-/// The largest of all errors, 0 of none; NaN if one of them is.
+/// Returns the largest error, 0 if there are none; NaN if any error is NaN.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors.into_iter().fold(0.0, NanSafe::nan_max)
 }
 
-/// The exact pressure of the paper's Example 1.
+/// Returns the exact pressure of the paper's Example 1.
 pub fn example_1_exact(x: f64) -> f64 {
     -(2.0 * x + (1.0 - x * x) * ((1.0 + x) / (1.0 - x)).ln()) / (PI * PI * (1.0 - x * x).sqrt())
 }
 
-/// The exact pressure of the paper's Example 2.
+/// Returns the exact pressure of the paper's Example 2.
 pub fn example_2_exact(x: f64) -> f64 {
     16.0 * ((1.0 - x) * (0.6 + x)).sqrt()
 }
 
-/// Counts the calls of a curve.
+/// Wrapper that counts the evaluations of a curve.
 pub struct Counting<'c, P>(pub P, pub &'c AtomicUsize);
 
 impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
@@ -334,7 +334,7 @@ impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
     }
 }
 
-/// Evenly spread random numbers, the same everywhere.
+/// Uniform random numbers, the same on every platform.
 pub struct Shares(pub u64);
 
 impl Shares {

@@ -1,4 +1,4 @@
-//! Derivatives of the approach and by it, by dual numbers.
+//! Derivatives of the approach, and with respect to it, by dual numbers.
 
 use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::Parabola;
@@ -15,14 +15,14 @@ fn materials<T: Real>(contact: Contact<'_, T>) -> Contact<'_, T> {
     contact.materials(steel, soft, PlaneState::Strain)
 }
 
-/// δ by the radius, the load and the depth.
+/// Returns δ as a function of the radius, the load and the depth.
 fn approach<T: Real>([radius, load, depth]: [T; 3]) -> T {
     let body = Parabola::new(radius, [-T::one(), T::one()]).unwrap();
     let contact = materials(Contact::new(&Flat, &body).unwrap());
     contact.solve(Control::Load(load)).unwrap().approach(&references(depth)).unwrap().bodies
 }
 
-/// F by the radius, the approach and the depth.
+/// Returns F as a function of the radius, the approach and the depth.
 fn load<T: Real>([radius, approach, depth]: [T; 3]) -> T {
     let body = Parabola::new(radius, [-T::one(), T::one()]).unwrap();
     let contact = materials(Contact::new(&Flat, &body).unwrap());

@@ -1,4 +1,4 @@
-//! Curves without hand-written derivatives, against the same curves with them.
+//! Curves with automatic derivatives, against the same curves with derivatives written by hand.
 
 use crate::common;
 use crate::formulas;
@@ -13,7 +13,7 @@ const UNIT: [f64; 2] = [1.0; 2];
 const LOWER_3: Autodiff<Lower3<f64>> = Autodiff(Lower3 { coefficient: 8.0, scale: UNIT });
 const UPPER_3: Autodiff<Upper3<f64>> = Autodiff(Upper3 { scale: UNIT });
 
-/// Derivatives are those written by hand, to the rounding of the terms that cancel in them.
+/// Automatic derivatives equal those written by hand, to the rounding of the terms that cancel.
 #[test]
 fn derivatives_of_example_3_are_those_of_the_paper() {
     let by_hand = paper::three();
@@ -33,7 +33,7 @@ fn derivatives_of_example_3_are_those_of_the_paper() {
     }
 }
 
-/// The contact is that of the reference, and costs what it costs with derivatives written by hand.
+/// The contact matches the reference, at the cost of a solve with derivatives written by hand.
 #[test]
 fn example_3_is_solved_without_derivatives() {
     let reference = common::reference("paper_example_3_scale_one");
@@ -50,7 +50,7 @@ fn example_3_is_solved_without_derivatives() {
     assert!(solution.cost().evaluations <= evaluations + 10, "{evaluations}");
 }
 
-/// One flank of a wedge; single precision works alike.
+/// One flank of a wedge, in double or single precision.
 struct Flank<T> {
     slope: T,
     range: [T; 2],

@@ -17,7 +17,8 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// A number whose derivative is about as large, by another share for each.
+/// Returns a number with a derivative of about its own size, by a factor that varies with the
+/// value.
 fn seeded(value: f64) -> Dual64 {
     Dual64::new(value, value * (31.0 * value).sin())
 }
@@ -26,8 +27,8 @@ fn plain(value: f64) -> Dual64 {
     Dual64::from_re(value)
 }
 
-/// A smooth piece of a closed form's body between two abscissae, over a parameter from 0 to 1 that
-/// runs unevenly, by a bend that has a derivative too. Nothing may depend on that.
+/// Smooth piece of a closed form's body between two abscissae, by an uneven parameter from 0 to 1.
+/// Its bend has a derivative too; no result may depend on it.
 struct Bent<'f> {
     form: &'f dyn ClosedForm<Dual64>,
     ends: [Dual64; 2],
@@ -61,12 +62,12 @@ fn bent(form: &dyn ClosedForm<Dual64>, reach: Dual64) -> Piecewise<Dual64, Bent<
     Piecewise::new(ends.windows(2).map(piece).collect()).unwrap()
 }
 
-/// The larger of two errors, and NaN for NaN.
+/// Returns the larger of two errors, NaN if either is NaN.
 fn worse(max: f64, error: f64) -> f64 {
     if max.is_nan() || error.is_nan() { f64::NAN } else { max.max(error.abs()) }
 }
 
-/// The largest errors of value and derivative of the limits, as shares of the half-width.
+/// Returns the largest errors of value and derivative of the limits, as shares of the half-width.
 fn limits_off(solution: &Solution<'_, Dual64>, form: &dyn ClosedForm<Dual64>) -> [f64; 2] {
     let (got, want) = (solution.hull(), form.limits());
     let l = want.half_width().re;
@@ -75,8 +76,9 @@ fn limits_off(solution: &Solution<'_, Dual64>, form: &dyn ClosedForm<Dual64>) ->
         .fold([0.0; 2], |max, off| [worse(max[0], off.re / l), worse(max[1], off.eps / l)])
 }
 
-/// The same of the pressure, as shares of the mean pressure or a tenth of that here; the derivative
-/// times sin θ, since it is infinite at the edges.
+/// Returns the largest errors of value and derivative of the pressure, relative to the local
+/// pressure or a tenth of the mean pressure. The derivative is multiplied by sin θ, since it is
+/// infinite at the edges.
 fn pressure_off(
     solution: &Solution<'_, Dual64>,
     form: &dyn ClosedForm<Dual64>,
@@ -97,8 +99,8 @@ fn pressure_off(
     largest
 }
 
-/// Every parameter of every closed form has a derivative, and so has κ: limits and pressure have those
-/// of the formulas.
+/// Limits and pressure have the derivatives of the formulas, by every parameter of every closed
+/// form and by κ.
 #[test]
 fn closed_forms() {
     let kappa = seeded(KAPPA);
@@ -110,7 +112,7 @@ fn closed_forms() {
         let body = bent(&*form, reach);
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).edges(left, right);
-        // That one has tension inside.
+        // This form has tension inside.
         let contact = contact.single_interval(name == "cosine 0.7");
         let solution = contact.solve(Control::Load(form.load(kappa))).expect(&name);
         let limits = limits_off(&solution, &*form);
@@ -118,13 +120,13 @@ fn closed_forms() {
         let [p, rate] = pressure;
         println!("{name:32} limits {:8.1e} {:8.1e}  P {p:8.1e} {rate:8.1e}", limits[0], limits[1]);
         assert!(limits[0] < 5e-15 && limits[1] < 2e-14, "{name}: {limits:?}");
-        // JKR pressures pass through zero, beside infinite ones.
+        // JKR pressures pass through zero, next to infinite ones.
         let allowed = if name.starts_with("JKR") { 1e-11 } else { 1e-12 };
         assert!(pressure[0] < 1e-12 && pressure[1] < allowed, "{name}: {pressure:?}");
     }
 }
 
-/// Searches of one unknown at a time, and a rule that knows no derivatives, give the same.
+/// Searches of one unknown at a time, and a quadrature without derivatives, give the same limits.
 #[test]
 fn every_way_to_the_limits() {
     let kappa = seeded(KAPPA);
@@ -164,7 +166,7 @@ fn every_way_to_the_limits() {
     }
 }
 
-/// The paper's rule: on its grid, off it, and next to one of its points.
+/// The paper's rule: on its grid, off it, and next to a grid point.
 #[test]
 fn pressure_by_the_papers_rule() {
     let form = Hertz::new(seeded(1.3), seeded(0.7)).unwrap();
@@ -205,8 +207,8 @@ fn a_given_peak() {
     );
 }
 
-/// The same where the peak is not in proportion to the width: for `g = c x³` it is `P = c L³ (3/2 s -
-/// s³)/π` with s = sin θ, largest at s² = 1/2, and `L³ = sqrt(2) π P₀/c`.
+/// Load for a given peak that is not proportional to the width: for `g = c x³` the pressure is
+/// `P = c L³ (3/2 s - s³)/π` with s = sin θ, largest at s² = 1/2, and `L³ = sqrt(2) π P₀/c`.
 #[test]
 fn a_given_peak_of_a_body_that_stiffens() {
     let (c, wanted) = (0.7f64, 0.31);
@@ -228,7 +230,7 @@ fn a_given_peak_of_a_body_that_stiffens() {
     }
 }
 
-/// The edges of the paper's Eq. (6), against differences of tight solutions.
+/// Edges by the paper's Eq. (6), against differences of solutions at a tight tolerance.
 #[test]
 fn given_pressures_at_the_edges() {
     let half_width = |radius: Dual64, load: Dual64| {
@@ -252,7 +254,7 @@ fn given_pressures_at_the_edges() {
     assert_relative_eq!(got, by_load, epsilon = 0.0, max_relative = 1e-4);
 }
 
-/// What comes of a scene: limits, pressures, moment, peak, stress below and gap beside.
+/// Returns limits, pressures, moment, peak, subsurface stress and the gap outside.
 fn answers(solution: &Solution<'_, Dual64>, x: [Dual64; 2]) -> Vec<Dual64> {
     let pressure = solution.pressure().unwrap();
     let half_width = solution.hull().half_width();
@@ -269,7 +271,8 @@ fn answers(solution: &Solution<'_, Dual64>, x: [Dual64; 2]) -> Vec<Dual64> {
     ]
 }
 
-/// Example 3 with its coefficient, the scales of X and Y, κ, C, and the places as parameters.
+/// Returns the answers for Example 3, with its coefficient, the scales of X and Y, κ, C, and the
+/// places as parameters.
 fn example_3(p: [Dual64; 7]) -> Vec<Dual64> {
     let [coefficient, sx, sy, kappa, c, x0, x1] = p;
     let scale = [sx, sy];
@@ -279,7 +282,7 @@ fn example_3(p: [Dual64; 7]) -> Vec<Dual64> {
     answers(&contact.solve(Control::Load(c / plain(PI))).unwrap(), [x0, x1])
 }
 
-/// Example 2, likewise.
+/// Returns the answers for Example 2, with the same parameters.
 fn example_2(p: [Dual64; 7]) -> Vec<Dual64> {
     let [coefficient, sx, sy, kappa, c, x0, x1] = p;
     let lower = Autodiff(Body2 { along: plain(2.0) * sx, across: coefficient * sy });
@@ -323,8 +326,8 @@ fn examples_of_the_paper_against_differences() {
     }
 }
 
-/// What must hold exactly: limits depend on κ and C by their quotient, and on heights likewise;
-/// lengths and load scale together; ∂P/∂F is known in closed form.
+/// Exact identities: limits depend on κ and C, and on heights and C, only by the quotient; lengths
+/// and load scale together; ∂P/∂F has a closed form.
 #[test]
 fn invariants() {
     let at = [8.0, 1.0, 1.0, 1.0, 300.0, 1e-4, 4e-4];
@@ -334,14 +337,14 @@ fn invariants() {
     let close = |got: f64, want: f64, size: f64| {
         assert!((got - want).abs() < 1e-12 * size.abs(), "{got:e} {want:e} {size:e}");
     };
-    // κ and C: pressures go with them. Heights and C.
+    // κ and C: pressures are proportional to both. Heights and C.
     for seed in [[0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0]] {
         let answers = dually(seed);
         for (got, power) in answers.iter().zip([0.0, 0.0, 1.0, 1.0]) {
             close(got.eps, power * got.re, got.re);
         }
     }
-    // All lengths and C: pressures stay.
+    // All lengths and C: pressures do not change.
     let answers = dually([0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0]);
     for (got, power) in answers.iter().zip([1.0, 1.0, 0.0, 0.0]) {
         close(got.eps, power * got.re, got.re);
@@ -361,7 +364,7 @@ fn invariants() {
     close(answers[1].eps, rates.b.re * at[4] / PI, answers[1].eps);
 }
 
-/// `a = sqrt(2 F R/κ)` of a parabola.
+/// Returns `a = sqrt(2 F R/κ)` of a parabola.
 fn hertz<T: Real>(radius: T, load: T, kappa: T) -> T {
     let parabola = Curve::new([-T::one(), T::one()], move |k: T| CurvePoint {
         x: k,
@@ -403,7 +406,7 @@ fn other_dual_numbers() {
     close(got.eps1eps2, a / (4.0 * r * f), 1e-14);
 }
 
-/// A dent of no depth yet: the derivative needs samples where the values need none. With
+/// A dent of zero depth: the derivative needs samples where the values need none. With
 /// `g = x/R + d h'(x)`, `∂m₁/∂d` is an integral of `h'`, and `a` moves by it.
 #[test]
 fn a_derivative_finer_than_the_values() {
@@ -427,7 +430,7 @@ fn a_derivative_finer_than_the_values() {
     }
 }
 
-/// The next load, and the next body, from what a solver has kept.
+/// A solver that is used again, for the next load and for the next body.
 #[test]
 fn again_and_again() {
     let kappa = seeded(KAPPA);
@@ -436,7 +439,7 @@ fn again_and_again() {
     let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa);
     let mut solver = Solver::new();
     for half_width in [0.5, 0.51, 0.3, 0.3] {
-        // The derivative differs each time, even where the value does not.
+        // The derivative changes from solve to solve, even if the value does not.
         for seed in [1.0, -2.0] {
             let half_width = Dual64::new(half_width, seed);
             let form = Ellipse::circle(seeded(1.0), half_width).unwrap();
@@ -469,8 +472,8 @@ fn a_limit_given_on_the_right() {
     }
 }
 
-/// The tilt of a parabola under a moment is -M/(F R), its centre at M/F. That of a wedge t|x|, E* = 1, is
-/// t (1 - 2θ₀/π) with cot θ₀ = -2 t M/F².
+/// The tilt of a parabola under a moment is -M/(F R), its centre at M/F. A wedge t|x| with E* = 1
+/// tilts by t (1 - 2θ₀/π) with cot θ₀ = -2 t M/F².
 #[test]
 fn a_tilt_by_the_moment() {
     let (load, m) = (0.2, 0.03);
@@ -508,7 +511,7 @@ fn a_tilt_by_the_moment() {
     assert_relative_eq!(tilt.eps, rate, epsilon = 0.0, max_relative = 1e-11);
 }
 
-/// Of two contacts, and of one that is held at a corner: against differences.
+/// Tilt of two contacts, and of a contact held at a corner, against differences.
 #[test]
 fn a_tilt_of_several_contacts_by_the_moment() {
     fn quartic<T: Real>() -> impl ParametricProfile<T> {

@@ -15,12 +15,13 @@ fn plain(value: f64) -> Dual64 {
     Dual64::from_re(value)
 }
 
-/// A number whose derivative is about as large, by another share for each.
+/// Returns a number with a derivative of about its own size, by a factor that varies with the
+/// value.
 fn seeded(value: f64) -> Dual64 {
     Dual64::new(value, value * (31.0 * value).sin())
 }
 
-/// `x⁴ - 2x²`, and what its coefficients become.
+/// Returns `x⁴ - 2x²` with coefficients as parameters.
 fn quartic<T: Real>(reach: f64, [fourth, second]: [T; 2]) -> impl ParametricProfile<T> {
     Curve::new([-reach, reach].map(T::of), move |k: T| {
         let square = k * k;
@@ -51,7 +52,7 @@ fn limits_by_the_load() {
             let width = outer - inner;
             for ((got, want), other) in limits.into_iter().zip([first.right, first.left]) {
                 assert!((got.eps + other.eps).abs() <= 1e-11 * near * want.abs(), "F = {load}");
-                // The width is what the load makes of it.
+                // The width follows from the load.
                 let error = (got.eps - want).abs() * load / width;
                 assert!(error < 1e-12 * near, "F = {load}: {} for {want}", got.eps);
             }
@@ -73,8 +74,8 @@ fn limits_by_the_load() {
     }
 }
 
-/// How far a solution on dual numbers is from a closed form on them: the derivatives of the limits and of the
-/// pressures, in terms of the size of each.
+/// Returns the relative errors of a solution on dual numbers against a closed form: derivatives of
+/// the limits and of the pressures.
 fn off(form: &dyn ClosedForm<Dual64>, solution: &Solution<Dual64>, kappa: Dual64) -> [f64; 2] {
     let want = form.contacts();
     assert_eq!(solution.intervals().len(), want.len());
@@ -123,7 +124,7 @@ fn by_all_parameters_of_closed_forms() {
             let form = PolynomialMap::new(hertz, count, seeded(0.3 * share), seeded(1.0)).unwrap();
             forms.push((format!("Hertz {count}, {share}"), Box::new(form), reach));
         }
-        // Kinks that stay where they are.
+        // Kinks that do not move.
         let form = PolynomialMap::new(wedge, count, seeded(0.7), plain(1.0)).unwrap();
         forms.push((format!("wedge {count}"), Box::new(form), reach));
     }
@@ -211,7 +212,7 @@ fn by_the_height_of_a_wave() {
     }
 }
 
-/// Against the closed form on the same numbers.
+/// Second derivatives against the closed form on the same numbers.
 #[test]
 fn second_derivatives() {
     let hyper = |value: f64, first: f64, second: f64| HyperDual64::new(value, first, second, 0.0);
@@ -240,7 +241,8 @@ fn second_derivatives() {
     }
 }
 
-/// `P² = 4 u (u - α²)(β² - u)`, u = x²: half the digits of its place are not enough for the rate of a peak that moves.
+/// `P² = 4 u (u - α²)(β² - u)`, u = x²: the rate of a moving peak needs its place to more than half
+/// the digits.
 #[test]
 fn peak_by_the_load() {
     let body = quartic(2.5, [plain(1.0), plain(2.0)]);
@@ -251,7 +253,7 @@ fn peak_by_the_load() {
         let square: f64 = load / PI;
         let u = (2.0 + (1.0 + 3.0 * square).sqrt()) / 3.0;
         let pressure = 2.0 * (u * (square - (u - 1.0).powi(2))).sqrt();
-        // By s² alone, since it is flat in u.
+        // By s² alone, since P² is stationary in u.
         let rate = 2.0 * u / (pressure * PI);
         assert!((peak.pressure.re / pressure - 1.0).abs() < 1e-12, "{load}: {peak:?}, {pressure}");
         let off = (peak.pressure.eps / rate - 1.0).abs();

@@ -1,4 +1,5 @@
-//! Bodies, settings and results through JSON and back: the same, or refused as by the constructor.
+//! Bodies, settings and results through JSON and back: unchanged, or refused with the constructor's
+//! error.
 #![allow(missing_docs)]
 
 use linecontact::profile::{
@@ -23,7 +24,7 @@ fn is_kept<V: Serialize + DeserializeOwned + PartialEq + Debug>(value: V) {
     assert_eq!(there_and_back(&value), value);
 }
 
-/// The same points, bit for bit.
+/// Asserts that the body read back has the same points, bit for bit.
 fn is_the_same_body<P: ParametricProfile<f64> + Serialize + DeserializeOwned>(body: &P) {
     let read = there_and_back(body);
     assert_eq!((read.domain(), read.pieces()), (body.domain(), body.pieces()));
@@ -78,7 +79,7 @@ fn bodies_are_what_a_user_writes() {
     assert_eq!(read, Placed::new(circle, Placement::default().shifted(3.0, 0.0)).unwrap());
 }
 
-/// What is said of text that is no `V`.
+/// Returns the error for text that is not a valid `V`.
 fn refusal<V: DeserializeOwned>(json: &str) -> String {
     match serde_json::from_str::<V>(json) {
         Ok(_) => panic!("{json} was taken"),
@@ -272,7 +273,7 @@ fn a_report_reads_back_its_trials() {
     let report = bumps().report().attempts().to_vec();
     let many: Vec<_> = report.iter().copied().cycle().take(30).collect();
     let read: Report = serde_json::from_str(&serde_json::to_string(&many).unwrap()).unwrap();
-    // As many as a report keeps, and the last of them.
+    // The largest number of attempts that a report keeps, and the last attempt.
     assert_eq!(read.attempts().len(), 12);
     assert_eq!(read.attempts().last(), many.last());
     let none: Report = serde_json::from_str("[]").unwrap();

@@ -1,4 +1,4 @@
-//! What comes with the features `autodiff`, `rayon` and `serde`.
+//! Tests of the features `autodiff`, `rayon` and `serde`.
 #![allow(missing_docs)]
 
 #[path = "../common/mod.rs"]

@@ -1,11 +1,12 @@
-//! Many scenes at once: the same results whatever the threads, in order, failures alone.
+//! Many scenes at once: the same results for any number of threads, in order; a failure affects its
+//! own scene only.
 #![allow(missing_docs)]
 
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, Solver, sweep};
 use std::sync::Mutex;
 use thiserror::Error;
 
-/// A roller on a flat, by its radius and load.
+/// Radius and load of a roller on a flat.
 type Scene = (f64, f64);
 
 #[derive(Debug, Error, PartialEq)]
@@ -26,7 +27,8 @@ fn scenes(n: usize) -> Vec<Scene> {
     (0..n).map(scene).collect()
 }
 
-/// Limits and a pressure of each, and what progress was told, over some threads.
+/// Returns the limits and a pressure of each scene, and the reports of progress, for a number of
+/// threads.
 fn solve(scenes: &[Scene], threads: usize) -> (Vec<Result<[f64; 3], Fault>>, Vec<usize>) {
     let told = Mutex::new(Vec::new());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -79,7 +81,7 @@ fn a_scene_that_fails_fails_alone() {
             let (quantity, value) = ("load", load);
             assert_eq!(result, Err(Fault::Contact(ContactError::InvalidLoad { quantity, value })));
         } else {
-            // What is solved after others is what is solved alone.
+            // A scene solved after others gives the result of a scene solved alone.
             let arc = Curve::new([-1.5, 1.5], |k: f64| {
                 let (s, c) = k.sin_cos();
                 CurvePoint { x: radius * s, y: -radius * c, dx: radius * c, dy: radius * s }

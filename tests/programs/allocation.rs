@@ -1,7 +1,7 @@
 //! A solver that has been used before allocates nothing.
 //!
-//! The count is that of the whole program. So this is one without a test harness, which has threads
-//! that allocate when they like.
+//! The count is that of the whole process. The program therefore has no test harness, whose threads
+//! allocate at any time.
 
 // A program has one allocator.
 use super::cam_follower::ALLOCATOR;
@@ -10,7 +10,7 @@ use linecontact::{
 };
 use stats_alloc::Region;
 
-/// How often something allocates.
+/// Counts the allocations of some work.
 fn allocations(work: impl FnOnce()) -> usize {
     let region = Region::new(ALLOCATOR);
     work();
@@ -18,7 +18,7 @@ fn allocations(work: impl FnOnce()) -> usize {
     change.allocations + change.reallocations
 }
 
-/// A circle that rolls over x.
+/// Returns a circle that rolls over x.
 fn roller(x0: f64, radius: f64) -> impl ParametricProfile<f64> {
     Curve::new([-1.0, 1.0], move |k: f64| {
         let (sin, cos) = k.sin_cos();
@@ -31,7 +31,7 @@ fn roller(x0: f64, radius: f64) -> impl ParametricProfile<f64> {
     })
 }
 
-/// A blunt wedge, from three pieces: two flanks and an arc.
+/// Returns a blunt wedge of three pieces: two flanks and an arc.
 fn three_pieces() -> impl ParametricProfile<f64> {
     let piece = |from: f64, to: f64, bend: f64| {
         Curve::new([from, to], move |k: f64| {
@@ -48,7 +48,7 @@ fn three_pieces() -> impl ParametricProfile<f64> {
     Piecewise::new(pieces).expect("the pieces meet")
 }
 
-/// A scene from its two bodies to 101 pressures.
+/// Solves a scene from its two bodies, down to 101 pressures.
 fn solve(
     solver: &mut Solver<f64>,
     lower: &dyn ParametricProfile<f64>,
@@ -86,7 +86,7 @@ fn nothing_is_allocated_after_the_first_solve() {
     let on_three = Contact::new(&Flat, &blunt).unwrap();
     let mut solver = Solver::new();
 
-    // Warm up: as much as is to come.
+    // Warm-up: the largest buffers that follow.
     for load in [0.05, 0.01, 0.08] {
         pressures(&mut solver, &contact, load);
         pressures(&mut solver, &on_three, load);
@@ -122,7 +122,7 @@ fn nothing_is_allocated_after_the_first_solve() {
     assert_eq!(moved, 0, "a body of three pieces on one that moves");
 }
 
-/// While there are as many of them.
+/// Nothing is allocated while the number of contacts does not change.
 fn several_contacts() {
     let bumps = |reach: f64, shape: fn(f64) -> [f64; 2]| {
         Curve::new([-reach, reach], move |k: f64| {
@@ -131,7 +131,7 @@ fn several_contacts() {
         })
     };
     let two = bumps(1.6, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
-    // T₃²: bumps where T₃ is zero.
+    // T₃²: bumps at the zeros of T₃.
     let three = bumps(1.2, |x| {
         let [t, slope] = [4.0 * x.powi(3) - 3.0 * x, 12.0 * x * x - 3.0];
         [t * t, 2.0 * t * slope]
@@ -139,7 +139,8 @@ fn several_contacts() {
     let mut solver = Solver::new();
     for (count, body, [light, heavy]) in [(2, &two, [0.5, 2.5]), (3, &three, [0.1, 0.5])] {
         let contact = Contact::new(&Flat, body).unwrap().contact_modulus(1.0);
-        // Down and up again. The panels are not those of the cycle before: after some there is room for all.
+        // Down and up again. Every cycle has other panels than the one before; after some cycles
+        // all of them fit.
         let cycle = |solver: &mut Solver<f64>, [light, heavy]: [f64; 2]| {
             for i in 0..=20 {
                 let share = f64::from(10i32.abs_diff(i)) / 10.0;
@@ -154,7 +155,7 @@ fn several_contacts() {
     }
 }
 
-/// Solves, and takes pressures in each of so many contacts.
+/// Solves, and evaluates pressures in each of `count` contacts.
 fn in_each(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64, count: usize) {
     let solution = solver.solve(contact, Control::Load(load));
     let solution = solution.unwrap_or_else(|error| panic!("{count} contacts, F = {load}: {error}"));
@@ -168,7 +169,8 @@ fn in_each(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64, count: u
     }
 }
 
-/// Half a minute: `cargo test --release --test allocation -- --ignored`.
+/// Memory does not grow over a million solves; takes half a minute:
+/// `LINECONTACT_PROGRAM=allocation cargo test --release --test programs -- --ignored`.
 fn nothing_grows_over_a_million_solves() {
     let (blunt, below) = (three_pieces(), roller(0.1, -2.0));
     let contact = Contact::new(&below, &blunt).unwrap();

@@ -1,4 +1,4 @@
-//! How accurate limits and pressures are, what the library says of that, and what it costs.
+//! Accuracy of limits and pressures, its estimates, and its cost.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -13,7 +13,7 @@ use linecontact::{
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A contact and pressures in it that are known otherwise.
+/// Contact with limits and pressures that are known independently.
 struct Known {
     name: &'static str,
     lower: common::Profile,
@@ -31,8 +31,8 @@ fn from_reference(name: &'static str, lower: common::Profile, upper: common::Pro
     Known { name, lower, upper, load: want.c / PI, limits, points }
 }
 
-/// A circle of radius 1 on a flat, with the half-width 1/2: `g = tan(asin x)`, of which the
-/// Fourier coefficients in θ come from the trapezoidal rule, and the pressure from these.
+/// Returns a circle of radius 1 on a flat, with the half-width 1/2: `g = tan(asin x)`. The
+/// trapezoidal rule gives the Fourier coefficients in θ, and these give the pressure.
 fn circle() -> Known {
     const N: usize = 256;
     let l = 0.5;
@@ -67,7 +67,8 @@ fn known() -> [Known; 3] {
     ]
 }
 
-/// What a contact costs at tolerances of 1e-12, 1e-9, 1e-6, 1e-3, which it keeps.
+/// Returns the evaluations of each contact at tolerances of 1e-12, 1e-9, 1e-6 and 1e-3, after
+/// checking that the errors stay within them.
 fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
     let of = |known: Known| {
         let tolerances = [1e-12, 1e-9, 1e-6, 1e-3];
@@ -80,7 +81,7 @@ fn at_tolerances() -> Vec<(&'static str, [usize; 4])> {
             let pressure = solution.pressure().unwrap();
             let largest = known.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
             let mut worst = 0.0f64;
-            // At x = 0, a breakpoint, see below.
+            // x = 0 is a breakpoint, see below.
             for &[x, exact] in known.points.iter().filter(|[x, _]| *x != 0.0) {
                 let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
                 worst = worst.nan_max((got - exact).abs() / largest);
@@ -159,7 +160,7 @@ fn pressures_keep_their_relative_accuracy_next_to_an_edge() {
     for power in 10..=40 {
         let d = 0.5f64.powi(power);
         for x in [0.5 - d, d - 0.5] {
-            // x, a and b are 1/2 each, in a difference of d: so much is one part of it.
+            // d is a difference of x, a and b, 1/2 each: amplification of their relative errors.
             let amplification = 1.0 + 0.5 * (1.0 / d + 1.0);
             let exact = (d * (1.0 - d)).sqrt() / PI;
             let got = pressure.estimate(x, &mut Cost::default()).unwrap().value;
@@ -194,7 +195,7 @@ fn many_at_once_are_the_same_as_one_by_one() {
         let contact = scene.contact();
         let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
         let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
-        // Any number, in any order, also outside.
+        // Any number of places, in any order, also outside.
         for count in [0, 1, 2, 7, 8, 9, 101] {
             let x: Vec<f64> = (0..count)
                 .map(|i| on.at_angle(PI * (0.5 + (i * 37 % 101) as f64) / 102.0))
@@ -215,7 +216,7 @@ fn many_at_once_are_the_same_as_one_by_one() {
         assert_eq!(many[1..3], [0.0, 0.0], "{}", scene.name);
         let one = pressure.estimate(x[3], &mut Cost::default()).unwrap().value;
         assert!((many[3] - one).abs() <= 4.0 * f64::EPSILON * one.abs());
-        // Limits and places beyond them among so many that they are taken row by row.
+        // Limits and places beyond them, among enough places to be evaluated row by row.
         let x: Vec<f64> = (0..700)
             .map(|i| on.centre() + on.half_width() * (f64::from(i) / 349.5 - 1.0))
             .chain([on.left, on.right, outside])
@@ -244,7 +245,7 @@ fn the_two_quadratures_agree() {
         assert_relative_eq!(panels.a(), midpoint.a(), epsilon = 0.0, max_relative = 4e-14);
         assert_relative_eq!(panels.b(), midpoint.b(), epsilon = 0.0, max_relative = 4e-14);
         let [panels, midpoint] = [&panels, &midpoint].map(|solution| solution.pressure().unwrap());
-        // Clear of the outermost segments, where the rule is not good.
+        // Away from the outermost segments, where the rule is inaccurate.
         for i in 8..43 {
             let x = known.limits.at_angle(PI * f64::from(i) / 50.0);
             let [panels, midpoint] = [&panels, &midpoint].map(|p| p.at(x).unwrap());
@@ -309,7 +310,7 @@ fn single_precision_has_its_digits() {
         assert!((f64::from(solution.a()) - on.right).abs() <= close, "{}", solution.a());
         assert!((f64::from(-solution.b()) - on.left).abs() <= close, "{}", solution.b());
         let pressure = solution.pressure().unwrap();
-        // Closer to an edge the rounding of x alone takes more.
+        // Closer to an edge the rounding of x alone exceeds the tolerance.
         for i in 4..37 {
             let x = on.at_angle(PI * f64::from(i) / 40.0) as f32;
             let (got, exact) = (f64::from(pressure.at(x).unwrap()), exact(f64::from(x)));
@@ -333,6 +334,6 @@ fn a_flat_body_is_never_evaluated() {
     let cost = solution.cost();
     let calls = calls.load(Ordering::Relaxed) - before;
     assert_eq!(calls, cost.evaluations + cost.heights, "the count is exact");
-    // x = k, so that one evaluation inverts it; only the flat could have doubled that.
+    // x = k, so that one evaluation inverts it; only the flat could have doubled the count.
     assert!(cost.evaluations <= cost.samples + 4, "{cost:?}");
 }

@@ -1,5 +1,5 @@
-//! How far bodies come together, and how stiff they are: against strains of Hertz's contact that are integrated,
-//! formulas of the field, own sums over the pressure, and differences of solves.
+//! Approach and stiffness of bodies, against integrated strains of Hertz's contact, formulas of the
+//! field, independent sums over the pressure, and differences of solves.
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, worst};
@@ -15,7 +15,7 @@ use std::f64::consts::{E, PI};
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
 const SOFT: Material<f64> = Material::Elastic { youngs_modulus: 0.7, poisson_ratio: 0.45 };
 
-/// (1 - ν²)/(π E).
+/// Returns (1 - ν²)/(π E).
 fn share(material: Material<f64>) -> f64 {
     match material {
         Material::Elastic { youngs_modulus, poisson_ratio } => {
@@ -29,12 +29,12 @@ fn deep(x: f64, depth: f64) -> References<f64> {
     References { x, lower: Reference::Depth(depth), upper: Reference::Depth(depth) }
 }
 
-/// x⁴ - 2x².
+/// Returns x⁴ - 2x².
 fn quartic() -> Profile {
     graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
 }
 
-/// The displacement towards a depth by the definition, from values of the pressure alone.
+/// Returns the displacement towards a depth by its definition, from values of the pressure alone.
 fn by_definition(solution: &Solution<f64>, material: Material<f64>, x: f64, depth: f64) -> f64 {
     let Material::Elastic { poisson_ratio: ratio, .. } = material else { return 0.0 };
     let pressure = solution.pressure().unwrap();
@@ -114,7 +114,7 @@ fn the_reference_decides_between_the_values_of_verification_case_191() {
         let references = References { x: 0.0, lower: of(10.0), upper: of(13.0) };
         solution.approach(&references).unwrap().bodies
     };
-    // Johnson's discs, and Roark's formula, whose constant is another.
+    // Johnson's discs, and Roark's formula with its different constant.
     assert!((approach(&Reference::Disc) - 0.3995).abs() < 5e-5);
     assert!((approach(&|r| Reference::Length(r * (-1.0f64 / 6.0).exp())) - 0.4174).abs() < 1.5e-4);
     assert!((approach(&|r| Reference::Length(2.0 * r / E)) - 0.3995).abs() < 5e-5);
@@ -127,7 +127,8 @@ fn it_is_the_integral_of_the_pressure_at_any_place() {
     let quartic = quartic();
     let edges = [Edge::Free, Edge::Free];
     let punch = [Edge::Fixed(-0.3), Edge::Free];
-    // The sum cannot come nearer to the infinite pressure at a corner than the rounding of s, and its root goes in.
+    // The sum cannot approach the infinite pressure at a corner closer than the rounding of s; the
+    // error is of the order of its root.
     let scenes = [
         (&lopsided, edges, 0.1, [0.0, 0.1, -0.3, 0.9, -1.2], 2e-12),
         (&lopsided, punch, 0.2, [0.0, 0.3, -0.29, 0.9, -0.4], 1e-7),
@@ -150,13 +151,13 @@ fn it_is_the_integral_of_the_pressure_at_any_place() {
                 let upper = by_definition(&solution, STEEL, x, depth);
                 errors.push((found.lower - lower) / lower.abs());
                 errors.push((found.upper - upper) / upper.abs());
-                // What is left open beside a contact.
+                // Gap outside the contact.
                 let open = solution.gap_at(x).unwrap_or(0.0);
                 let height = body.at(x).y - least;
                 let size = upper.abs() + height.abs();
                 errors.push((found.bodies - (lower + upper + height - open)) / size);
             }
-            // So deep it does not matter below which place.
+            // At this depth the place hardly matters.
             errors.push(solution.approach(&deep(x, 1e9)).unwrap().bodies / far - 1.0);
         }
         let worst = worst(errors.into_iter().map(f64::abs));
@@ -187,7 +188,7 @@ fn stiffness_is_the_derivative_of_load_by_approach() {
             SOFT,
             PlaneState::Strain,
         );
-        // Where a limit passes x the derivative is that of a root.
+        // When a limit passes x, the derivative behaves like a root.
         let places = if body.at(0.5).dy > 1.2 { [0.05, 0.9, 0.5] } else { [0.05, 0.9, 0.2] };
         for (lower, upper) in [
             (Reference::Depth(0.01), Reference::Depth(5.0)),
@@ -228,7 +229,7 @@ fn a_flat_punch_is_as_stiff_under_any_load() {
             let solution = contact.solve(Control::Load(load)).unwrap();
             let found = solution.approach(&deep(0.0, depth)).unwrap().bodies;
             let stiffness = solution.stiffness(&deep(0.0, depth)).unwrap();
-            // Shares of the integral of the logarithm.
+            // Relative to the integral of the logarithm.
             let allowed = 1e-12 * 2.0 * share * depth.asinh();
             assert!((found / load - exact).abs() < allowed, "{depth} {load} {found}");
             assert!((1.0 / stiffness - exact).abs() < allowed, "{depth} {load} {stiffness}");
@@ -236,7 +237,7 @@ fn a_flat_punch_is_as_stiff_under_any_load() {
     }
 }
 
-/// Squares of the depth are beyond the numbers, or below them.
+/// Squares of these depths overflow or underflow.
 #[test]
 fn no_depth_is_too_small_or_too_large() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
@@ -244,11 +245,11 @@ fn no_depth_is_too_small_or_too_large() {
         Contact::new(&Flat, &body).unwrap().materials(Material::Rigid, STEEL, PlaneState::Strain);
     let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     for x in [0.0, 0.05, 0.3] {
-        // From afar 2 ln(2d/L) - 1/(1 - ν), with L = 0.1.
+        // Far away 2 ln(2d/L) - 1/(1 - ν), with L = 0.1.
         let exact = share(STEEL) * (2.0 * (20.0f64.ln() + 300.0 * 10.0f64.ln()) - 1.0 / 0.7);
         let stiffness = solution.stiffness(&deep(x, 1e300)).unwrap();
         assert!((stiffness * exact - 1.0).abs() < 1e-13, "{x}: {stiffness}");
-        // Under the contact nothing moves; beside it the gap closes.
+        // Under the contact nothing moves; outside it the gap closes.
         for depth in [1e-150, 1e-200, 1e-300] {
             let stiffness = solution.stiffness(&deep(x, depth)).unwrap();
             assert!(stiffness > if x > 0.1 { 0.1 } else { 1e100 }, "{x} {depth}: {stiffness}");
@@ -256,7 +257,7 @@ fn no_depth_is_too_small_or_too_large() {
     }
 }
 
-/// The largest height of a body in its contacts.
+/// Returns the largest height of a body in its contacts.
 fn highest(body: &dyn linecontact::ParametricProfile<f64>, solution: &Solution<f64>) -> f64 {
     let heights = solution.intervals().iter().map(|on| body.y(on.centre()).abs());
     worst(heights)
@@ -287,7 +288,7 @@ fn the_load_of_an_approach_is_that_which_has_it() {
                 for found in
                     [contact.solve(control).unwrap(), solver.solve(&contact, control).unwrap()]
                 {
-                    // Heights of 1 are rounded, and with them the approach under next to no load.
+                    // Heights of 1 are rounded, and so is the approach under a tiny load.
                     let off = found.load() / load - 1.0;
                     let rounding = 1e-16 * highest(&**body, &solution) / approach;
                     errors.push((off.abs() - rounding).max(0.0));
@@ -432,7 +433,7 @@ fn what_cannot_be_answered_is_refused() {
         let error = solution.approach(&deep(0.0, depth)).unwrap_err();
         assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
     }
-    // The formula of a disc is for contacts that are small beside it.
+    // The formula of a disc holds for contacts much smaller than the disc.
     let disc = |radius| References { lower: Reference::Disc(radius), ..deep(0.0, 1.0) };
     let error = solution.approach(&disc(0.99 * solution.a())).unwrap_err();
     assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
@@ -468,7 +469,8 @@ fn an_approach_that_the_bodies_do_not_bear_is_refused_with_the_largest() {
     assert!(contact.solve(control).unwrap().a() < 0.2);
 }
 
-/// The surface beside a contact may move away from a point close below it. The bodies do not: the gap closes.
+/// Next to a contact the surface may move away from a point close below it. The bodies do not: the
+/// gap closes.
 #[test]
 fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
     let parabola: Profile = Box::new(Parabola::new(1.0, [-3.0, 3.0]).unwrap());
@@ -495,7 +497,8 @@ fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
     assert!(lifted > 10, "{lifted}");
 }
 
-/// `[w, a, phase, F/κ]` of x²/2 + a cos(w x + phase): one or three contacts, and a lowest gap that lies between nodes.
+/// Parameters `[w, a, phase, F/κ]` of x²/2 + a cos(w x + phase): one or three contacts, and a
+/// lowest gap between nodes.
 const WAVES: [[f64; 4]; 4] = [
     [80.80260641686415, 0.001721908468471409, 6.183185815255985, 0.12782336085816706],
     [202.4333852216777, 0.00031982018516524664, 2.5301362929552536, 0.004726301162679326],
@@ -503,7 +506,7 @@ const WAVES: [[f64; 4]; 4] = [
     [40.60496642778215, 0.008443102511219413, 1.3734004202307304, 0.11400674544746076],
 ];
 
-/// The approach counts from first touch. Where a piece ends there the lowest gap is at a point that is known.
+/// The approach counts from first touch. If a piece ends there, the lowest gap is at a known point.
 #[test]
 fn first_touch_of_wavy_bodies_is_at_the_lowest_gap() {
     for [w, a, phase, load] in WAVES {

@@ -1,5 +1,5 @@
-//! Everything that a user can get wrong, function by function: each row has the error expected, with
-//! its place and values, and how many evaluations of the curves it may take.
+//! Invalid input, function by function: each row has the expected error, with its place and values,
+//! and the number of evaluations of the curves that it may take.
 #![allow(missing_docs)]
 #![allow(clippy::type_complexity)] // Rows of a table hold functions.
 
@@ -36,7 +36,7 @@ thread_local! {
     static EVALUATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// A curve whose evaluations are counted.
+/// Returns a curve whose evaluations are counted.
 fn curve(domain: [f64; 2], at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'static) -> Profile {
     Box::new(Curve::new(domain, move |k| {
         EVALUATIONS.set(EVALUATIONS.get() + 1);
@@ -44,7 +44,7 @@ fn curve(domain: [f64; 2], at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + '
     }))
 }
 
-/// A parabola that is not quite one, so that it is inverted: x = k + k³/5, y = x²/2.
+/// Returns a point of a curve that has to be inverted: x = k + k³/5, y = x²/2.
 fn point(k: f64) -> CurvePoint<f64> {
     let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
     CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
@@ -130,7 +130,7 @@ impl Table {
             Err(_) => self.wrong.push(format!("{row}: panics")),
             Ok(outcome) if !expected(&outcome) => self.wrong.push(format!("{row}: {outcome:?}")),
             Ok(_) if took > most => self.wrong.push(format!("{row}: {took} evaluations")),
-            // What an error says is said in a line or three.
+            // A message takes one to three lines.
             Ok(Err(wrong)) if message(&wrong).len() > 500 => {
                 self.wrong.push(format!("{row}: {}", message(&wrong)));
             }
@@ -152,7 +152,7 @@ fn message(wrong: &Wrong) -> String {
     }
 }
 
-/// The numbers are the same, or both NaN.
+/// Tells whether two numbers are equal, or both NaN.
 fn same(one: f64, other: f64) -> bool {
     one == other || one.is_nan() && other.is_nan()
 }

@@ -1,4 +1,4 @@
-//! Certificates: contacts pass, and what is none is refused at the right place with the right value.
+//! Certificates: contacts pass; anything else is refused at the right place with the right value.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -12,7 +12,7 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// x²/2 + ε cos wx, on [-3, 3].
+/// Returns x²/2 + ε cos wx, on [-3, 3].
 fn wavy(eps: f64, w: f64) -> Profile {
     graph(-3.0, 3.0, move |x| {
         let (s, c) = (w * x).sin_cos();
@@ -20,7 +20,7 @@ fn wavy(eps: f64, w: f64) -> Profile {
     })
 }
 
-/// J_n by its integral, which the trapezoidal rule gives to all digits.
+/// Returns J_n from its integral, which the trapezoidal rule gives to all digits.
 fn bessel(n: i32, x: f64) -> f64 {
     let m = 400;
     let term = |i: i32| {
@@ -30,7 +30,7 @@ fn bessel(n: i32, x: f64) -> f64 {
     (0..=m).map(term).sum::<f64>() / f64::from(m)
 }
 
-/// The closed form for such a wave: P(x) for |x| < l, the load, and the gap outside.
+/// Closed form for such a wave: P(x) for |x| < l, the load, and the gap outside.
 struct Wave {
     eps: f64,
     w: f64,
@@ -49,7 +49,7 @@ impl Wave {
         self.l * self.l / 2.0 - self.eps * self.w * self.l * self.odd[0]
     }
 
-    /// The coefficients c_k, k = 1, 3, ..., of the slope.
+    /// Returns the coefficients c_k, k = 1, 3, ..., of the slope.
     fn c(&self, n: usize) -> f64 {
         let first = if n == 0 { self.l } else { 0.0 };
         let sign = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
@@ -62,7 +62,7 @@ impl Wave {
         (0..60).map(term).sum::<f64>() / PI
     }
 
-    /// The gap, with x = l cosh t: Σ c_k u^k, u = exp(-t), integrated term by term.
+    /// Returns the gap, with x = l cosh t: Σ c_k u^k, u = exp(-t), integrated term by term.
     fn gap(&self, x: f64) -> f64 {
         let body = |x: f64| x * x / 2.0 + self.eps * (self.w * x).cos();
         let t = (x / self.l).acosh();
@@ -77,7 +77,7 @@ impl Wave {
     }
 }
 
-/// The least value on a fine grid, refined.
+/// Returns the least value on a fine grid, refined.
 fn least(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> [f64; 2] {
     let mut best = [from, f64::INFINITY];
     for _ in 0..8 {
@@ -93,7 +93,7 @@ fn least(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> [f64; 2] {
     best
 }
 
-/// The amplitude at which f, which is positive for small ones, becomes zero.
+/// Returns the amplitude at which f, positive for small amplitudes, becomes zero.
 fn margin(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     assert!(f(low) > 0.0 && f(high) < 0.0);
     for _ in 0..60 {
@@ -140,7 +140,7 @@ fn tension_in_a_wave_on_both_sides_of_the_margin() {
                 "{value:e} {pressure:e}"
             );
             assert!((x.abs() - place).abs() < 1e-5 * l, "{x} for {place}");
-            // It is there for who wants it.
+            // The solution is still available without the certificate.
             assert!((contact.solve(load).unwrap().a() / l - 1.0).abs() < 1e-12);
         }
     }
@@ -148,8 +148,8 @@ fn tension_in_a_wave_on_both_sides_of_the_margin() {
 
 #[test]
 fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
-    // A contact on the crest of the wave at zero would not do: it lies in the middle of a trough, and
-    // the next crest comes closer as the amplitude grows.
+    // A contact on the crest of the wave at zero would not do: it lies in the middle of a trough,
+    // and the next crest comes closer as the amplitude grows.
     let (w, l) = (16.0, 0.380_560_682_395_248_3);
     let deepest = |eps: f64| {
         let wave = Wave::new(eps, w, l);
@@ -161,7 +161,8 @@ fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
             let eps = at * (1.0 + sign * off);
             let body = wavy(eps, w);
             let contact = Contact::new(&Flat, &*body).unwrap();
-            // Of the contacts under one load it is one of three. Where they overlap the solver may see it too.
+            // It is one of three contacts under one load. If they overlap, the solver may see it
+            // too.
             let contact = contact.single_interval(sign > 0.0);
             let plain = contact.solve(Control::HalfWidth(l)).unwrap();
             assert!((plain.load() / Wave::new(eps, w, l).load() - 1.0).abs() < 1e-12);
@@ -190,8 +191,8 @@ fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
 
 #[test]
 fn a_narrow_asperity_far_away() {
-    // Hertz with L = 0.2, whose gap outside is L²/2 (cosh t sinh t - t) for x = L cosh t, and a bump of
-    // 8e-4 of the domain just high enough to touch.
+    // Hertz with L = 0.2, whose gap outside is L²/2 (cosh t sinh t - t) for x = L cosh t, and a
+    // bump of 8e-4 of the domain just high enough to touch.
     let gap = |x: f64| {
         let t = (x / 0.2).acosh();
         0.02 * (t.cosh() * t.sinh() - t)
@@ -200,8 +201,8 @@ fn a_narrow_asperity_far_away() {
     for (at, width) in
         [(7.123_456_7, 8e-4 * domain), (-3.3, 8e-4 * domain), (0.2345, 1e-3), (9.99, 0.015)]
     {
-        // The gap between the bump and the flat rises over the bump: where it is least, and at what
-        // height it touches.
+        // The gap between the bump and the flat rises over the bump: place of the least gap, and
+        // height at which the bump touches.
         let shape = move |x: f64| {
             let s = (x - at) / (width / 2.0);
             if s.abs() < 1.0 { (1.0 - s * s).powi(4) } else { 0.0 }
@@ -274,13 +275,14 @@ fn an_asperity_on_both_sides_of_the_margin() {
     }
 }
 
-/// As narrow as is promised, anywhere, and far higher than the gap: found, and in no time.
+/// Asperities of the least promised width, anywhere, and far higher than the gap: found in a short
+/// time.
 #[test]
 fn tall_narrow_asperities() {
     let start = std::time::Instant::now();
     let width = 20.0 / 400.0 / 4.0;
     for i in 0..60 {
-        // Places that have nothing to do with each other.
+        // Unrelated places.
         let at = 0.5 + 9.4 * (0.618_033_988_75 * f64::from(i)).fract();
         let at = if i % 2 == 0 { at } else { -at };
         let body = graph(-10.0, 10.0, move |x| {
@@ -297,11 +299,11 @@ fn tall_narrow_asperities() {
         let Err(ContactError::Overlap { x, .. }) = found else { panic!("{at}: {found:?}") };
         assert!((x - at).abs() < width, "{at}: {found:?}");
     }
-    // It was seconds for each.
+    // It used to take seconds for each.
     assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
 }
 
-/// Where an asperity touches but for rounding, either answer is right; the gap it leaves is nothing.
+/// If an asperity touches to within rounding, either answer is right; the gap is zero to rounding.
 #[test]
 fn an_asperity_that_touches() {
     let l = (3.0 / PI).sqrt();
@@ -369,8 +371,8 @@ fn kinks_and_edges_that_lift() {
         let ContactError::Tension { x, pressure, .. } = error else { panic!("{error}") };
         assert_eq!([x, pressure], [0.0, f64::NEG_INFINITY]);
     }
-    // A tilted punch, F - m x: it lifts at the right edge once m l > F; and beyond its corners
-    // there is nothing to touch.
+    // A tilted punch, F - m x: it lifts at the right edge once m l > F; beyond its corners there is
+    // nothing to touch.
     for (m, lifts) in [(0.0, None), (3.9, None), (4.1, Some(0.5)), (-4.1, Some(-0.5))] {
         let body = graph(-1.0, 1.0, move |x| [m * x, m]);
         let contact = Contact::new(&Flat, &*body).unwrap();
@@ -388,12 +390,12 @@ fn kinks_and_edges_that_lift() {
 
 #[test]
 fn corners_end_a_body() {
-    // Behind its corner the formula of the body goes on, and turns down; the body does not.
+    // Beyond its corner the formula of the body continues and turns down; the body ends.
     let body = graph(-1.0, 2.0, |x: f64| [x * x / 2.0 - x.powi(4) / 4.0, x - x.powi(3)]);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let load = Control::Load(0.01);
     let error = contact.solve(load).map(|_| ()).unwrap_err();
-    // The gap is lowest there.
+    // The gap is lowest at that end.
     assert!(
         matches!(error, ContactError::DomainTooShort { end: 2.0, carried: 0.0, .. }),
         "{error}"
@@ -413,7 +415,7 @@ fn corners_end_a_body() {
 fn solvers_and_other_quadratures() {
     let (good, bad) = (wavy(1.0 / 1024.0, 16.0), wavy(1.0 / 64.0, 16.0));
     let first = Contact::new(&Flat, &*good).unwrap().certified(true);
-    // In more than one contact it passes.
+    // With several contacts it passes.
     let parted = Contact::new(&Flat, &*bad).unwrap().certified(true);
     let second = parted.clone().single_interval(true);
     let mut solver = Solver::new();
@@ -443,8 +445,8 @@ fn closed_forms_are_contacts() {
         let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
         let found = solution.certify();
         if name == "cosine 0.7" {
-            // On a body that ends where the wave has its trough, 0.3 from the edge: there the terms of
-            // 2 J_k of its slope leave a gap of 0.0411 - 0.0524.
+            // The body ends in the trough of the wave, 0.3 from the edge: there the terms 2 J_k of
+            // its slope leave a gap of 0.0411 - 0.0524.
             let error = found.unwrap_err();
             let ContactError::Overlap { x, gap, .. } = error else { panic!("{error}") };
             assert!((x.abs() - 1.0).abs() < 1e-12 && (gap + 0.0113).abs() < 1e-4, "{error}");
@@ -474,7 +476,7 @@ fn what_a_plain_certificate_takes() {
         println!("{solved:?}, with the certificate {:?}: {found:?}", start.elapsed());
     }
     assert!(certificate.cost.samples < 4_000, "{certificate:?}");
-    // Narrower features, where they are asked for.
+    // Narrower features, on request.
     let contact = Contact::new(&Flat, &*bodies[0]).unwrap().resolution(1e-4);
     let finer = contact.solve(Control::Load(0.02)).unwrap().certify().unwrap();
     assert_eq!(finer.spacing, 4e-4);
@@ -491,15 +493,15 @@ fn a_kink_that_nobody_declared() {
         let body = graph(-3.0, 3.0, move |x| [x * x / 2.0 - s * x.abs(), x - s * x.signum()]);
         let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
         let found = contact.solve(Control::Load(1.5 / PI)).unwrap().certify();
-        // The lesser one is negative only closer to the kink than numbers are.
+        // The pressure at the slighter kink is negative only at distances below rounding.
         assert_eq!(matches!(found, Err(ContactError::Tension { .. })), parts, "{found:?}");
     }
 }
 
 #[test]
 fn a_jump_that_nobody_declared_is_no_overlap() {
-    // The slope of the gap rises throughout. Beside the jump, panels are shorter than the rounding of x
-    // at the edges.
+    // The slope of the gap rises throughout. Next to the jump, panels are shorter than the rounding
+    // of x at the edges.
     let (kink, jump) = (-1.0604356397670964, 0.1901019206798418);
     let upper = Curve::new([-4.205813929637161, 4.305901873322346], move |k: f64| {
         let (ramp, step) = ((-k - kink).max(0.0), (-k - jump).max(0.0));
@@ -533,7 +535,7 @@ fn a_corner_without_adhesion_bears_no_tension_beside_an_adhesive_edge() {
     assert!(contact.solve(Control::Load(0.05)).unwrap().certify().is_ok());
 }
 
-/// A bump between two nodes, which the panels know nothing of: it is not certified.
+/// A bump between two nodes, unseen by the panels, is not certified.
 #[test]
 fn what_the_panels_have_missed_is_not_certified() {
     let mut missed = 0;
@@ -567,8 +569,8 @@ fn what_the_panels_have_missed_is_not_certified() {
     assert!(missed > 5, "{missed}");
 }
 
-/// A kink downwards far from x = 0, where a unit in the last place is much of what there is to be seen
-/// beside it: P tends to minus infinity there, and that is what is said.
+/// A kink downwards far from x = 0, where an ulp of x is large: P tends to minus infinity at the
+/// kink, and the error says so.
 #[test]
 fn a_kink_downwards_far_out() {
     let kink = |x: f64, s: f64| {
@@ -586,7 +588,7 @@ fn a_kink_downwards_far_out() {
     }
 }
 
-/// x²/2 with one smooth rise of the slope, of width w and height s, at x₀.
+/// Returns x²/2 with one smooth rise of the slope, of width w and height s, at x₀.
 fn risen(x0: f64, w: f64, s: f64) -> Profile {
     graph(-1.0, 1.0, move |x: f64| {
         let t = ((x - x0) / w).tanh();
@@ -594,8 +596,8 @@ fn risen(x0: f64, w: f64, s: f64) -> Profile {
     })
 }
 
-/// By how much limits under a load are off, as a share of the half-width, by c₀ and c₁ from so many
-/// points that they resolve the rise.
+/// Returns the error of limits under a load, as a share of the half-width, from c₀ and c₁ with
+/// enough points to resolve the rise.
 fn limits_off(on: linecontact::Interval<f64>, load: f64, slope: impl Fn(f64) -> f64) -> f64 {
     let (n, c, l) = (20_000, on.centre(), on.half_width());
     let (mut m0, mut m1) = (0.0, 0.0);
@@ -607,8 +609,8 @@ fn limits_off(on: linecontact::Interval<f64>, load: f64, slope: impl Fn(f64) -> 
     (m0.abs() + (load / l - m1).abs()) / l
 }
 
-/// Bumps that the panels of the solver may have missed, though those of the certificate have not: no
-/// limits are certified that are off by more than they say.
+/// Bumps that the panels of the solver may have missed, but not those of the certificate: no limits
+/// are certified whose error exceeds their estimate.
 #[test]
 fn limits_that_are_off_are_not_certified() {
     let load = 0.02;
@@ -644,7 +646,7 @@ fn limits_that_are_off_are_not_certified() {
     assert!(wrong == 0 && certified > 50, "{wrong} of {certified}");
 }
 
-/// A body that is another at each time it is looked at, as one in a cell may be.
+/// A body that changes between evaluations, as one with interior mutability may.
 #[test]
 fn a_body_that_has_changed_is_not_certified() {
     let half = std::sync::atomic::AtomicBool::new(false);
@@ -662,7 +664,7 @@ fn a_body_that_has_changed_is_not_certified() {
         half.store(true, std::sync::atomic::Ordering::Relaxed);
         match solution.certify() {
             Err(ContactError::FeatureMissed { .. }) if !midpoint => {}
-            // F/L - m₁ = (1 - 1/4) L/2, by π.
+            // F/L - m₁ = (1 - 1/4) L/2, divided by π.
             Err(ContactError::Unbalanced { strength, allowed, .. }) if midpoint => {
                 assert!((strength * PI / 0.075 - 1.0).abs() < 1e-6, "{strength}");
                 assert!(allowed < 1e-6, "{allowed}");
@@ -689,8 +691,8 @@ fn heights_that_are_no_numbers_are_not_certified() {
     }
 }
 
-/// Kinks that nobody declared, next to an edge and anywhere: between the last nodes of two cells, too, where the
-/// cells see nothing of them. The limits are right, and not denied.
+/// Undeclared kinks, next to an edge and elsewhere, also between the last nodes of two cells, where
+/// neither cell sees them. The limits are right, and are certified.
 #[test]
 fn a_kink_between_two_cells_is_no_doubt_of_the_limits() {
     let mut found = 0;
@@ -712,7 +714,8 @@ fn a_kink_between_two_cells_is_no_doubt_of_the_limits() {
     assert_eq!(found, 300);
 }
 
-/// A narrow step of the body, up or down, between two nodes of the solver: the heights tell of it, and it is resolved.
+/// A narrow step of the body, up or down, between two nodes of the solver: the heights show it, and
+/// it is resolved.
 #[test]
 fn a_step_between_two_nodes_is_resolved() {
     for sign in [1.0, -1.0] {

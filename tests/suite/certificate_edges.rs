@@ -1,4 +1,4 @@
-//! Adhesive edges and corners: what lies beside them, below them, and how they move.
+//! Adhesive edges and corners: gap outside, stress below, and rates of the limits.
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, Shares, graph, parabola, worst};
@@ -9,7 +9,7 @@ const KAPPA: f64 = 1.7;
 
 #[test]
 fn the_free_limit_beside_a_corner_moves_as_in_closed_form() {
-    // With a edge held at distance e from the middle F = κ L (3 L/2 - e): the other limit moves by
+    // With an edge held at distance e from the middle F = κ L (3 L/2 - e): the other limit moves by
     // 2/(κ (3 L - e)). Turned by a slope m, the middle of the parabola lies at -m.
     let body = |m: f64| graph(-2.0, 2.0, move |x| [x * x / 2.0 + m * x, x + m]);
     for tilt in [0.0, 0.07, -0.05] {
@@ -36,11 +36,11 @@ fn the_free_limit_beside_a_corner_moves_as_in_closed_form() {
     }
 }
 
-/// What a parabola of radius 1 leaves open beside its contact, both edges of the same strength:
-/// P = (κ/π) root - A/root with A = (κ L²/2 - F)/π, root² = L² - x².
+/// Parabola of radius 1 and its gap outside the contact, both edges of the same strength: P = (κ/π)
+/// root - A/root with A = (κ L²/2 - F)/π, root² = L² - x².
 struct Parabola {
     half_width: f64,
-    /// π A/κ.
+    /// Adhesion π A/κ.
     pull: f64,
 }
 
@@ -59,7 +59,8 @@ impl Parabola {
         let root = (x * x - self.half_width * self.half_width).sqrt();
         (root + self.pull / root).copysign(x)
     }
-    /// σ_x and σ_y below the middle: -(2 y/π) ∫ P s²/(s² + y²)² ds, -(2 y³/π) ∫ P/(s² + y²)² ds.
+    /// Returns σ_x and σ_y below the middle: -(2 y/π) ∫ P s²/(s² + y²)² ds, -(2 y³/π) ∫ P/(s² +
+    /// y²)² ds.
     fn stress(&self, y: f64) -> [f64; 2] {
         let l = self.half_width;
         let r = l.hypot(y);
@@ -84,8 +85,8 @@ fn the_gap_and_the_stress_beside_adhesive_edges() {
         let l = exact.half_width;
         let beside = [1e-9, 1e-4, 0.1, 0.5, 1.5].into_iter().flat_map(|d| [l + d, -l - d]);
         let beside: Vec<f64> = beside.filter(|x| x.abs() < 2.0).collect();
-        // Rounding of the heights and of the limits, which is magnified next to an edge; and very close to
-        // an edge the integral over the pressure: 1e-12 of its size.
+        // Rounding of the heights and of the limits, which is magnified next to an edge; very close
+        // to an edge also the integral over the pressure: 1e-12 of its size.
         let gaps = worst(beside.iter().map(|&x| {
             let rounding = 8.0 * f64::EPSILON * (exact.slope(x).abs() * l + x * x + l * l);
             let close = if x.abs() - l < 1e-6 { 2e-12 * l * l } else { 0.0 };
@@ -112,7 +113,7 @@ fn the_gap_and_the_stress_beside_adhesive_edges() {
     }
 }
 
-/// x²/2 from one end to another, less a hump on either side.
+/// Returns x²/2 from one end to another, less a hump on either side.
 fn humped(ends: [f64; 2], humps: [[f64; 3]; 2]) -> crate::common::Profile {
     graph(ends[0], ends[1], move |x| {
         let hump = |[height, at, width]: [f64; 3]| {
@@ -125,7 +126,7 @@ fn humped(ends: [f64; 2], humps: [[f64; 3]; 2]) -> crate::common::Profile {
     })
 }
 
-/// Certified scenes, of those with a least gap.
+/// Returns the number of certified scenes, and of those with a least gap.
 fn least_gaps(seed: u64, edges: [bool; 2], corners: [bool; 2]) -> [usize; 2] {
     let (mut shares, mut certified, mut with_gap) = (Shares(seed), 0, 0);
     for scene in 0..30 {
@@ -164,7 +165,7 @@ fn least_gaps(seed: u64, edges: [bool; 2], corners: [bool; 2]) -> [usize; 2] {
             (near[1] - known).abs() < 1e-9 * size + 1e-7 * known.abs(),
             "{scene}: {near:?} {known}"
         );
-        // No lower gap from which the bodies part again.
+        // There is no lower gap beyond which the bodies part again.
         for (i, sign) in [(0, -1.0), (1, 1.0)] {
             if corners[i] {
                 continue;
@@ -204,7 +205,8 @@ fn certified_gaps_are_those_of_the_pressure() {
 
 #[test]
 fn slight_bumps_between_the_nodes_are_not_certified() {
-    // A bump of the slope, a 3e-4 or so of its largest: too narrow for the panels, too slight to pull.
+    // A bump of the slope, about 3e-4 of the largest slope: too narrow for the panels, too slight
+    // for tension.
     let plain = parabola(1.0);
     let cost = |body: &dyn linecontact::ParametricProfile<f64>| {
         let contact = Contact::new(&Flat, body).unwrap();

@@ -1,5 +1,5 @@
-//! Certificates of several contacts: they pass, and what is missed in, between or beside them is refused at the
-//! right place with the right value.
+//! Certificates of several contacts: they pass, and features missed in, between or outside them are
+//! refused at the right place with the right value.
 #![allow(missing_docs)]
 
 use crate::common::NanSafe;
@@ -58,7 +58,7 @@ fn closed_forms_with_several_contacts_pass() {
             }
         };
         println!("{name:20} {:?} {certificate:?}", start.elapsed());
-        // Between two contacts the gap grows, and becomes less again; nowhere does it have a least value.
+        // Between two contacts the gap grows and then shrinks; it has no interior minimum.
         assert_eq!(certificate.gap, None, "{name}");
         let mut least = f64::INFINITY;
         for on in form.contacts() {
@@ -194,7 +194,8 @@ fn contacts_of_the_files_pass() {
     }
 }
 
-/// A hollow punch touches at its two corners, and a body with corners and a low middle in three places.
+/// A hollow punch touches at its two corners; a body with corners and a low middle touches in three
+/// places.
 #[test]
 fn two_corners() {
     let hollow = graph(-1.0, 1.0, |x| [-0.05 * x * x, -0.1 * x]);
@@ -229,7 +230,7 @@ fn in_single_precision() {
     }
 }
 
-/// `x⁴ - 2x²` under F = 1, E* = 1.
+/// Contacts of `x⁴ - 2x²` under F = 1, E* = 1.
 struct Pair {
     /// Half of β² - α².
     d: f64,
@@ -246,7 +247,7 @@ impl Pair {
         [(1.0 - self.d).sqrt(), (1.0 + self.d).sqrt()]
     }
 
-    /// The gap opens with the slope `4x sqrt((x² - α²)(x² - β²))`.
+    /// Returns the gap, which opens with the slope `4x sqrt((x² - α²)(x² - β²))`.
     fn gap(&self, x: f64) -> f64 {
         let t = (x * x - 1.0).abs();
         let s = (t * t - self.d * self.d).sqrt();
@@ -254,7 +255,7 @@ impl Pair {
     }
 }
 
-/// A bump of height 1 and width 1, and its slope.
+/// Returns a bump of height 1 and width 1, and its slope.
 fn bump(s: f64) -> [f64; 2] {
     let t = 1.0 - 4.0 * s * s;
     if t > 0.0 { [t.powi(4), -32.0 * s * t.powi(3)] } else { [0.0; 2] }
@@ -274,8 +275,8 @@ fn a_narrow_asperity_between_two_contacts_or_beside_them() {
     for (at, width) in
         [(0.0, 0.01), (0.1234, 0.01), (-0.301, 4e-3), (0.3, 2e-3), (1.9, 0.01), (-2.2, 0.005)]
     {
-        // Where a bump of some height is nearest to the flat, and the height at which it touches: the least of
-        // the ratio of the gap to the bump.
+        // Place at which a growing bump first touches the flat, and its height then: the least
+        // ratio of the gap to the bump.
         let steps = 20_000;
         let places = (1..steps).map(|i| at + width * (f64::from(i) / f64::from(steps) - 0.5));
         let ratio = |x: f64| pair.gap(x) / bump((x - at) / width)[0];
@@ -328,7 +329,8 @@ fn what_the_panels_of_one_contact_have_missed() {
     assert!(missed > 5, "{missed}");
 }
 
-/// One half of a body that has sunk since: its slopes are the same, and the gap does not close any more.
+/// One half of a body sinks after the solve: its slopes are unchanged, but the gap no longer
+/// closes.
 #[test]
 fn heights_that_do_not_go_with_the_contacts() {
     let sunk = AtomicBool::new(false);
@@ -346,7 +348,7 @@ fn heights_that_do_not_go_with_the_contacts() {
     let ContactError::Unbalanced { x, strength, allowed } = error else { panic!("{error}") };
     let [_, b] = Pair::new().limits();
     assert!((x - b).abs() < 1e-12 && allowed < 1e-3 * strength, "{error}");
-    // P = 2x sqrt((x² - α²)(β² - x²)) and a limit that is off by so much leave this strength.
+    // P = 2x sqrt((x² - α²)(β² - x²)); a limit with this error leaves this strength.
     let off = (contact.solve(Control::Load(Pair::LOAD)).unwrap().a() - solution.a()).abs();
     let half_width = solution.intervals()[1].half_width();
     let factor = 2.0 * b * (2.0 * Pair::new().d * 2.0 * b).sqrt();

@@ -1,4 +1,4 @@
-//! `check_derivatives`: finds what is wrong, and nothing where nothing is.
+//! `check_derivatives` finds every fault, and none in correct curves.
 
 use crate::common;
 
@@ -11,7 +11,7 @@ use linecontact::{
 
 type Profile = Box<dyn ParametricProfile<f64>>;
 
-/// A profile with its derivatives changed.
+/// Profile with changed derivatives.
 struct Changed<P, C> {
     of: P,
     change: C,
@@ -38,7 +38,7 @@ fn pieces(profile: &dyn ParametricProfile<f64>) -> Vec<Piece<'_, f64>> {
     }
 }
 
-/// Curves that are right: those of the paper, and some that are hard to differentiate.
+/// Returns correct curves: those of the paper, and some that are hard to differentiate.
 fn right() -> Vec<(String, Profile)> {
     let mut all: Vec<(String, Profile)> = Vec::new();
     for (i, example) in [paper::one(), paper::two(), paper::three(), paper::four(), paper::five()]
@@ -114,7 +114,7 @@ fn no_alarm_in_single_precision() {
     ));
 }
 
-/// The fault found, as quantity, k, and what the derivative is as a share of what it should be.
+/// Returns the fault found: quantity, k, and the derivative as a share of its correct value.
 fn fault(profile: &dyn ParametricProfile<f64>) -> Option<(&'static str, f64, f64)> {
     match check_derivatives(profile) {
         Ok(()) => None,
@@ -125,8 +125,8 @@ fn fault(profile: &dyn ParametricProfile<f64>) -> Option<(&'static str, f64, f64
     }
 }
 
-/// Wrong sign and wrong factors, in either derivative of every curve of the paper, except where noise
-/// or a height of zero hides them.
+/// Wrong sign and wrong factors, in either derivative of every curve of the paper, except where
+/// noise or a height of zero hides them.
 #[test]
 fn factors_and_signs_are_found_in_every_curve_of_the_paper() {
     for example in [paper::one(), paper::two(), paper::three(), paper::four(), paper::five()] {
@@ -171,7 +171,7 @@ fn a_fault_in_a_small_range_is_found_where_it_is() {
     }
 }
 
-/// An additive fault, where the right derivative vanishes.
+/// An additive fault, where the correct derivative vanishes.
 #[test]
 fn a_term_too_much_is_found() {
     let curve =
@@ -211,7 +211,7 @@ fn what_is_not_finite_is_reported() {
 
 #[test]
 fn a_slope_by_x_that_is_another() {
-    /// A parabola, with a factor in the slope that it gives by x.
+    /// Parabola with a factor in its slope by x.
     struct Given(f64);
     impl ParametricProfile<f64> for Given {
         fn domain(&self) -> [f64; 2] {
@@ -257,7 +257,7 @@ fn derivatives_that_are_wrong() {
         let error = Piece::checked(&body).map(|_| ()).unwrap_err();
         let ProfileError::Derivative { quantity, .. } = error else { panic!("{error}") };
         assert_eq!(quantity, name);
-        // Without that check the solver finds that slopes and heights do not go together.
+        // Without that check the solver finds that slopes and heights disagree.
         let error = solve(&body).unwrap_err();
         let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
         else {
@@ -269,7 +269,7 @@ fn derivatives_that_are_wrong() {
 
 #[test]
 fn slopes_that_are_a_third_off() {
-    // The slope of a parabola is x, whatever its parameter; heights may be counted from far away.
+    // The slope of a parabola is x, whatever its parameter; heights may have a large offset.
     let with = |factor: f64, sign: f64, falls: f64, height: f64| {
         Curve::new([-1.0, 1.0], move |k: f64| {
             let (x, dx) = (falls * (k + 0.2 * k * k * k), falls * (1.0 + 0.6 * k * k));
@@ -283,7 +283,7 @@ fn slopes_that_are_a_third_off() {
             let (left, right) = (Contact::new(&bodies[0], &Flat), Contact::new(&Flat, &bodies[1]));
             for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
                 let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
-                // What is less is seen in the rise of all of a panel.
+                // Smaller faults show in the rise over a whole panel.
                 let by_rise = matches!(error, ContactError::InconsistentHeights { .. });
                 assert_eq!(by_rise, !seen, "{factor}: {error:?}");
                 if by_rise {
@@ -303,7 +303,7 @@ fn slopes_that_are_a_third_off() {
     }
 }
 
-/// Many curves are no numbers beyond their ends, or another shape.
+/// Many curves are NaN, or another shape, beyond their ends.
 #[test]
 fn a_curve_is_not_looked_at_beyond_its_ends() {
     struct Bounded([f64; 2]);

@@ -1,4 +1,4 @@
-//! The closed forms of `linecontact::reference`: against the equations they solve, by a quadrature
+//! The closed forms of `linecontact::reference`, against the equations they solve, by a quadrature
 //! that shares nothing with the solver, and against solutions of 25 digits.
 #![allow(missing_docs)]
 
@@ -17,10 +17,10 @@ use linecontact::reference::{
 };
 use std::f64::consts::PI;
 
-/// The largest residuals of `PV∫ P(s)/(x - s) ds = κ g(x)`, in terms of the largest of either side,
+/// Returns the largest residuals of `PV∫ P(s)/(x - s) ds = κ g(x)`, relative to the larger side,
 /// and of `∫ P ds = F`.
 fn residuals(form: &dyn ClosedForm<f64>) -> [f64; 2] {
-    // At x = 0, above the poles of a hyperbola, whether or not it is a breakpoint.
+    // x = 0 lies above the poles of a hyperbola: a panel ends there, breakpoint or not.
     let (limits, mut breakpoints) = (form.limits(), form.breakpoints());
     if limits.contains(0.0) && !breakpoints.contains(&0.0) {
         breakpoints.push(0.0);
@@ -112,7 +112,7 @@ fn they_agree_with_solutions_of_25_digits() {
         let limits = form.limits();
         let (a, b) = (limits.right / want.a - 1.0, -limits.left / want.b - 1.0);
         let load = form.load(1.0) / (want.c / PI) - 1.0;
-        // In terms of what the rounding of x and of the limits makes of a pressure.
+        // In units of the effect of rounding x and the limits on the pressure.
         let [mut worst, mut steep] = [0.0f64; 2];
         for (&[x, exact], amplification) in want.points.iter().zip(&want.amplification) {
             if !limits.contains(x) || !exact.is_finite() {
@@ -123,7 +123,7 @@ fn they_agree_with_solutions_of_25_digits() {
             steep = steep.max(*amplification);
         }
         println!("{name:28} a {a:8.1e} b {b:8.1e} load {load:8.1e} P {worst:8.1e} of {steep:8.1e}");
-        // An ulp of a half-width next to the radius is an ulp of their difference 1e-7, too.
+        // An ulp of a half-width close to the radius is an ulp of their difference 1e-7, too.
         let stiff = if name.starts_with("circle") { 1e5 } else { 10.0 };
         assert!(a.abs() < 1e-15 && b.abs() < 1e-15, "{name}: {a} {b}");
         assert!(load.abs() < 1e-15 * stiff, "{name}: {load}");
@@ -131,7 +131,7 @@ fn they_agree_with_solutions_of_25_digits() {
     }
 }
 
-/// A form by its half-width.
+/// Constructor of a form from its half-width.
 type ByHalfWidth = fn(f64) -> Box<dyn ClosedForm<f64>>;
 
 #[test]
@@ -195,12 +195,12 @@ fn a_load_gives_the_limits_back() {
             assert!(error < 8e-15 * of, "{i}: {load} {}", form.load(kappa));
         }
     }
-    // Of one that could be flattened, only as long as it is not.
+    // Only loads that do not flatten the crowning.
     for load in [1e-12, 1e-3, 0.2, 5.0] {
         let form = Crowning::under_load(10.0, 0.3, load, kappa).unwrap();
         assert_relative_eq!(form.load(kappa), load, epsilon = 0.0, max_relative = 4e-15);
     }
-    // Down to pull-off, where L⁹ᐟ² goes as the root of what is left.
+    // Down to pull-off, where L⁹ᐟ² goes as the root of the remaining load.
     let work = 0.02;
     let narrowest = (work / kappa).cbrt();
     let least = -1.5 * kappa * narrowest * narrowest;
@@ -277,7 +277,7 @@ fn outside_and_at_the_edges() {
     }
 }
 
-/// Whether a parameter was refused.
+/// Asserts that a parameter was refused.
 fn refused<F>(form: Result<F, ReferenceError<f64>>, name: &str) {
     match form {
         Err(ReferenceError::Parameter { name: which, .. }) => assert!(which.contains(name)),
@@ -326,8 +326,8 @@ fn parameters_that_make_no_sense_are_refused() {
     assert_eq!(error, ReferenceError::PullOff { load: -1.6, least: -1.5 });
 }
 
-/// The same bodies in other units: everything goes with them, also where a power of a length is
-/// beyond the numbers.
+/// The same bodies in other units: all quantities scale, even if a power of a length overflows or
+/// underflows.
 #[test]
 fn other_units() {
     let forms = |u: f64| -> Vec<Box<dyn ClosedForm<f64>>> {

@@ -18,7 +18,7 @@ fn the_solver_agrees_with_them() {
         let body = body(&*form, -reach, reach).unwrap_or_else(|e| panic!("{name}: {e}"));
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).expect(&name).kappa(KAPPA).edges(left, right);
-        // Its body ends where the wave has its trough, and would touch there as well.
+        // The body ends in the trough of the wave, and would touch there as well.
         let contact = contact.single_interval(name == "cosine 0.7");
         let solution = contact.solve(Control::Load(load)).expect(&name);
         let (got, l) = (solution.hull(), want.half_width());
@@ -35,7 +35,7 @@ fn the_solver_agrees_with_them() {
             let size = exact.abs().max(0.1 * load.abs() / l);
             inside = inside.max((estimate(x) - exact).abs() / size - share);
         }
-        // Next to an edge, at the same distance from the limits of each.
+        // Next to an edge, at the same distance from the computed and from the exact limits.
         let distance = 1e-6 * l;
         let pairs = [
             (got.right - distance, want.right - distance),
@@ -45,7 +45,8 @@ fn the_solver_agrees_with_them() {
         for (got, exact) in pairs {
             let exact = form.pressure(exact, KAPPA);
             beside = beside.max((estimate(got) / exact - 1.0).abs());
-            // A pressure that hardly rises from the edge is more open to an error of the limits.
+            // A pressure that hardly rises from the edge is more sensitive to an error of the
+            // limits.
             let hertz = 2.0 * load / (PI * l) * (2.0 * distance / l).sqrt();
             open = open.max((hertz / exact).abs());
         }
@@ -61,7 +62,7 @@ fn the_solver_agrees_with_them() {
     }
 }
 
-/// The largest distance of the limits from those of a form, in terms of its half-width.
+/// Returns the largest error of the limits against those of a form, as a share of its half-width.
 fn off(got: Interval<f64>, form: &dyn ClosedForm<f64>) -> f64 {
     let want = form.limits();
     (got.left - want.left).abs().max((got.right - want.right).abs()) / want.half_width()
@@ -90,7 +91,7 @@ fn slopes_up_to_e_to_the_150th_do_not_hide_the_contact() {
 
 #[test]
 fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
-    // The bodies carry 151 on [-300, 3.4], and slopes of e^300 on the other side hide that.
+    // The bodies carry 151 on [-300, 3.4]; slopes of e^300 on the other side hide that.
     let form = Exponential::new(1.0, 1.0, 1.0).unwrap();
     let body = body(&form, -300.0, 300.0).unwrap();
     for strategy in [&Bisection::default() as &dyn LimitSearch<f64>, &Secant::default()] {
@@ -100,7 +101,8 @@ fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
         else {
             panic!("{refused:?}")
         };
-        // c₀ = 0 and F by e^{c} I_0(L) = 1, L e^{c} I_1(L) = F, with I_1/I_0 = 1 - 1/(2 L) - 1/(8 L²) - ...
+        // c₀ = 0 and F by e^{c} I_0(L) = 1, L e^{c} I_1(L) = F, with I_1/I_0 = 1 - 1/(2 L) - 1/(8
+        // L²) - ...
         let l = half_width;
         let ratio = 1.0 - 0.5 / l - 0.125 / (l * l) - 0.125 / (l * l * l);
         assert_relative_eq!(carried, l * ratio, epsilon = 0.0, max_relative = 1e-8);
@@ -136,7 +138,7 @@ fn a_slope_that_all_but_jumps() {
     }
 }
 
-/// A flat of half-width 1 with edges of radius 1 that take part with a hundred-millionth of it each. The
+/// A flat of half-width 1 with edges of radius 1, each touched on a hundred-millionth of it. The
 /// pressures are by tanh-sinh quadrature in 56 digits, of the limits for exactly this C.
 #[test]
 fn a_punch_whose_edges_take_part_with_next_to_nothing() {

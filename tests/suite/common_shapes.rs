@@ -1,4 +1,4 @@
-//! What both bodies have is in no gap, however they are bent or waved.
+//! A shape common to both bodies is not in the gap, however bent or wavy.
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, graph};
@@ -24,8 +24,8 @@ fn a_wave_that_both_bodies_have_is_in_no_gap() {
     }
 }
 
-/// A shape that both bodies have is no part of the gap, and where they have parameters of their own it
-/// must still be resolved.
+/// A shape common to both bodies is not in the gap, but must still be resolved if the bodies have
+/// different parameters.
 #[test]
 fn a_shape_common_to_both_bodies() {
     let solve = |common: f64| {

@@ -10,7 +10,8 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// The quartic x² (x² - 2) with E* = 1: two contacts up to F = π, from sqrt(1 - d/2) to sqrt(1 + d/2) with d = sqrt(4 F/π).
+/// Returns the quartic x² (x² - 2) with E* = 1: two contacts up to F = π, from sqrt(1 - d/2) to
+/// sqrt(1 + d/2) with d = sqrt(4 F/π).
 fn quartic<'b>() -> Contact<'b, f64> {
     let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
     on_flat(body).contact_modulus(1.0)
@@ -22,7 +23,8 @@ fn two_contacts_of_a_quartic_by_their_width_and_by_their_peak() {
     for load in [1e-4f64, 0.3, 2.0, 3.1] {
         let d = (4.0 * load / PI).sqrt();
         let [near, far] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
-        // P = 2 x sqrt((x² - near²)(far² - x²)) is largest where x² = u does: u (u - near²)(far² - u).
+        // P = 2 x sqrt((x² - near²)(far² - x²)) is largest at the maximum of u (u - near²)(far² -
+        // u), u = x².
         let [one, two] = [near * near, far * far];
         let u = ((one + two) + ((one + two).powi(2) - 3.0 * one * two).sqrt()) / 3.0;
         let peak = 2.0 * (u * (u - one) * (two - u)).sqrt();
@@ -39,13 +41,13 @@ fn two_contacts_of_a_quartic_by_their_width_and_by_their_peak() {
 
 #[test]
 fn a_value_in_a_jump_is_refused_with_both_sides() {
-    // Under the lightest load two equal hills are as wide as they are apart.
+    // Under the lightest load the hull already spans both equal hills.
     let error = quartic().solve(Control::HalfWidth(0.5)).unwrap_err();
     let ContactError::InJump { wanted, below, above, .. } = error else { panic!("{error}") };
     assert_eq!((wanted, below), (0.5, 0.0));
     assert!((1.0..1.1).contains(&above), "{above}");
 
-    // A hill beside the one that is touched first.
+    // A hill next to the one that is touched first.
     let body = graph(-1.0, 3.0, |x: f64| {
         let (bell, slope) = ((-2.0 * (x - 1.5).powi(2)).exp(), -4.0 * (x - 1.5));
         [x * x / 2.0 - 1.1 * bell, x - 1.1 * bell * slope]
@@ -94,12 +96,12 @@ fn what_a_load_gives_finds_the_load_again() {
     }
     assert!(several > 5, "{several}");
 }
-/// A graph of pieces that meet with a jump of the slope, or of the curvature.
+/// Returns pieces joined with jumps of the slope or of the curvature.
 fn joined(parts: Vec<Profile>) -> Profile {
     Box::new(Piecewise::new(parts).unwrap())
 }
 
-/// A convex polygon from -1 to 1.
+/// Returns a convex polygon from -1 to 1.
 fn polygon(shares: &mut Shares) -> Profile {
     let pieces = 3 + shares.between(0.0, 9.99) as usize;
     let mut sorted = |count: usize, most: f64| {
@@ -122,7 +124,7 @@ fn polygon(shares: &mut Shares) -> Profile {
     joined(xs.windows(2).zip(&slopes).map(part).collect())
 }
 
-/// A flat from -1 to 1 between arcs of unlike radii, with a crown and a tilt or without.
+/// Returns a flat from -1 to 1 between arcs of different radii, with or without crown and tilt.
 fn punch(shares: &mut Shares) -> Profile {
     let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
     let radii = [power(-2.5, -0.5), power(-2.5, -0.5)];
@@ -145,7 +147,7 @@ fn punch(shares: &mut Shares) -> Profile {
     ])
 }
 
-/// A flat between two parabolas, tilted.
+/// Returns a flat between two parabolas, tilted.
 fn roller(shares: &mut Shares) -> Profile {
     let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
     let [tilt, depth, flat] = [power(-5.0, -2.0), power(-3.0, -0.5), power(-1.0, -0.1)];
@@ -165,7 +167,7 @@ fn wave(shares: &mut Shares) -> Profile {
     })
 }
 
-/// Two hills; where they are as high as each other a width less than their distance is that of no load.
+/// Returns two hills; if they are equally high, a width below their distance needs no load.
 fn hills(shares: &mut Shares) -> Profile {
     let lean = 10f64.powf(shares.between(-6.0, -0.5));
     graph(-1.2, 1.2, move |x: f64| {
@@ -180,7 +182,7 @@ fn value(solution: &Solution<f64>, control: Control<f64>) -> Result<f64, Contact
     })
 }
 
-/// Tells what is wrong with the answer for a value, by the contacts under loads.
+/// Describes the fault of the answer for a value, if any, by the contacts under loads.
 fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<String> {
     let under = |load: f64| {
         let solution = contact.solve(Control::Load(load))?;
@@ -195,7 +197,7 @@ fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<S
                 && again.as_ref().is_ok_and(|&(again, _)| is_near(again, wanted, 1e-6));
             (!is_right).then(|| format!("{}: {is:?}, again {again:?}", solution.load()))
         }
-        // Of bodies that are all but flat no height tells by which of their places they touch first.
+        // On almost flat bodies, rounded heights do not show which place touches first.
         Err(ContactError::InJump { load, .. }) if load < 1e-13 => None,
         Err(error @ ContactError::InJump { load, below, above, .. }) => {
             let sides = [below == 0.0, above.is_infinite()];
@@ -218,8 +220,9 @@ fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<S
     }
 }
 
-/// Values of random bodies: those of a load, and any. (By number those that were wrong or refused once: jumps that were not
-/// seen at a corner, flats, edges narrower than the places at which the pressure is looked at.)
+/// Values of random bodies, both of some load and arbitrary. (The seeds by number were wrong or
+/// refused once: jumps unseen at a corner, flats, edges narrower than the spacing of pressure
+/// samples.)
 #[test]
 fn random_bodies_by_half_width_and_peak() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(60);

@@ -10,7 +10,7 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// Limits and a pressure.
+/// Returns the limits and a pressure.
 fn key(contact: Contact<f64>, load: Control<f64>) -> [f64; 4] {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
     let x = solution.hull().at_angle(1.0);
@@ -39,7 +39,7 @@ fn a_contact_is_free_up_to_a_corner_and_fixed_from_then_on() {
         }
     }
     // Corners on both sides: 0.3 is reached first, then, under F = L (3 L/2 - 0.3) with 2 L = 0.8,
-    // that at -0.5.
+    // the corner at -0.5.
     let critical = 0.4 * (0.6 - 0.3);
     for load in [0.01, 0.044, 0.046, 0.99 * critical, 1.01 * critical, 0.5] {
         let right = if load > 0.045 { Edge::Fixed(0.3) } else { free };
@@ -67,7 +67,7 @@ fn a_corner_may_be_the_end_of_the_body() {
 
 #[test]
 fn a_corner_far_away_does_not_matter() {
-    // A contact held at the corner would have to reach beyond the other end of the body.
+    // A contact held at the corner would have to extend beyond the other end of the body.
     let contact = on_flat(graph(-0.25, 1.0, |x| [x * x / 2.0, x]));
     let load = Control::Load(0.005);
     let got = key(contact.clone().edges(Edge::Free, Edge::FreeUntil(0.9)), load);
@@ -108,7 +108,7 @@ fn corners_on_both_sides_serve_every_control() {
 
 #[test]
 fn a_corner_is_let_go_under_adhesion_too() {
-    // At no load, and under a pull, as under the least one that presses.
+    // At no load, and under a pull, as under the least load that presses.
     let body = parabola(1.0);
     let (corner, glued) = (Edge::FreeUntil(-0.1), Edge::Adhesive(1e-3));
     for load in [1e-9, 0.0, -1e-9, -1e-3] {
@@ -137,7 +137,8 @@ fn an_edge_may_be_fixed_close_to_the_end_of_the_bodies() {
     }
 }
 
-/// The double well `(x² - 1)²` touches at `sqrt(1 ± sqrt(F/(2κ)))` until the outer limits are at the corners.
+/// The double well `(x² - 1)²` touches at `sqrt(1 ± sqrt(F/(2κ)))` until the outer limits are at
+/// the corners.
 #[test]
 fn two_contacts_grow_to_their_corners_and_leave_them() {
     let well = Curve::new([-1.5, 1.5], |k: f64| {

@@ -1,4 +1,4 @@
-//! What bodies declare of their convexity, and what the solve says of it.
+//! Declared convexity of bodies, and how a solve checks it.
 
 use crate::random_scenes::Dice;
 use linecontact::profile::{Crowning, Ellipse, Involute, Parabola, Placed, Placement};
@@ -9,7 +9,7 @@ use linecontact::{
 
 type Body<T> = Box<dyn ParametricProfile<T>>;
 
-/// Pieces that declare as a whole that they are convex.
+/// Pieces that are declared convex as a whole.
 struct Declared<P>(Piecewise<f64, P>);
 
 impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Declared<P> {
@@ -34,14 +34,14 @@ fn declared(half: f64, at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'stat
     Box::new(Curve::new([-half, half], at).with_convexity(Convexity::Convex))
 }
 
-/// The error names places where the slope falls.
+/// Asserts that the error names places where the slope falls.
 fn is_refused(body: &dyn ParametricProfile<f64>, control: Control<f64>, case: &str) {
     let error = Contact::new(&Flat, body).unwrap().solve(control).map(|_| ()).unwrap_err();
     let ContactError::NotConvex { between, slopes } = error else { panic!("{case}: {error}") };
     assert!(between[0] <= between[1] && slopes[0] > slopes[1], "{case}: {error}");
 }
 
-/// A wave of a curvature 1.5 on a body of curvature 1.
+/// A wave of curvature 1.5 on a body of curvature 1.
 #[test]
 fn a_wavy_body_declared_convex_is_refused() {
     for wave_number in [8.0, 15.0, 20.0, 50.0, 200.0] {
@@ -57,7 +57,7 @@ fn a_wavy_body_declared_convex_is_refused() {
             let ((sin, cos), [y, dy]) = (k.sin_cos(), wave(k));
             CurvePoint { x: sin, y: 1.0 - cos + y, dx: cos, dy: sin + dy }
         });
-        // A curve whose X is no multiple of k.
+        // A curve whose X is not proportional to k.
         let bent = declared(0.8, move |k| {
             let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
             let [y, dy] = wave(x);
@@ -90,7 +90,7 @@ fn joints_where_the_slope_falls_are_seen() {
     }
 }
 
-/// Two valleys, with a crest where the search starts.
+/// Two valleys, with a crest at the start of the search.
 #[test]
 fn two_valleys_are_refused() {
     let body = declared(2.0, |k| {
@@ -100,7 +100,7 @@ fn two_valleys_are_refused() {
     is_refused(&*body, Control::Load(1e-3), "a quartic");
 }
 
-/// A body of random shape that bulges upwards or downwards as it declares.
+/// Returns a body of random shape that bulges upwards or downwards as it declares.
 fn bulging<T: Real>(dice: &mut Dice) -> Body<T>
 where
     Placement<T>: Copy,
@@ -131,7 +131,7 @@ where
             let angles = [of(0.5 * origin), of(1.5 * origin)];
             Box::new(Involute::new(of(radius), of(origin), angles).unwrap())
         }
-        // A power of |x|, whose curvature may be infinite or none in the middle.
+        // A power of |x|, whose curvature may be infinite or zero in the middle.
         4 => {
             let power = dice.within(1.2, 6.0);
             curve(
@@ -173,7 +173,7 @@ where
             }
             Box::new(Piecewise::with_tolerance(parts, of(1e-5)).unwrap())
         }
-        // Kinks up that are no breakpoints.
+        // Kinks up that are not breakpoints.
         _ => {
             let (kink, place) = (of(dice.power_of_ten(-3.0, 0.0)), of(dice.within(-0.2, 0.2)));
             curve(
@@ -187,7 +187,7 @@ where
     }
 }
 
-/// Returns how many of some random scenes were solved; none may be refused for what its bodies declare.
+/// Returns the number of random scenes solved; none may be refused for its declared convexity.
 fn right_words<T: Real>(scenes: u64) -> usize {
     let mut solved = 0;
     for seed in 0..scenes {

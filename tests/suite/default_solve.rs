@@ -1,4 +1,4 @@
-//! Evaluations of the default solve, as docs/speed.md and README say.
+//! Evaluations of the default solve, as stated in docs/speed.md and the README.
 #![allow(missing_docs)]
 
 use crate::common::speed_scenes::{SCENES, Scene, scene};

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 #[test]
 fn edge_pressures_of_the_exact_solution_give_its_limits() {
-    // Eq. (6) with A and B that the exact pressure has at these distances.
+    // Eq. (6) with the A and B of the exact pressure at these distances.
     let example = paper::two();
     let (eps_a, eps_b) = (0.05, 0.02);
     let wanted = EdgePressure {
@@ -62,11 +62,11 @@ fn edge_pressures_approach_the_free_limits() {
 #[test]
 fn edge_pressures_that_cannot_be_met() {
     let body = parabola(1.0);
-    // A distance wider than the contact can ever be.
+    // A distance wider than any possible contact.
     let far = EdgePressure::zero(3.0, 1e-6);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(far);
     assert!(contact.solve(Control::Load(0.1)).is_err());
-    // A tolerance that rounding does not let be met: the error carries what was reached.
+    // A tolerance below rounding: the error carries the pressures reached.
     let strict = EdgePressure { at_a: 0.1, at_b: 0.1, ..EdgePressure::zero(0.05, 1e-30) };
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(strict);
     match contact.solve(Control::Load(0.1)) {
@@ -81,7 +81,8 @@ fn edge_pressures_that_cannot_be_met() {
 
 #[test]
 fn edge_pressures_that_take_a_wider_contact_than_the_bodies() {
-    // Of a parabola with both limits given, P = κ sqrt(L² - x²)/π + (F - κ L²/2)/(π sqrt(L² - x²)).
+    // For a parabola with both limits given, P = κ sqrt(L² - x²)/π + (F - κ L²/2)/(π sqrt(L² -
+    // x²)).
     let (load, distance) = (2.0, 0.01);
     let body = parabola(1.0);
     let wanted = EdgePressure::zero(distance, 1e-3);

@@ -1,6 +1,6 @@
 //! Free, fixed and adhesive edges on either side, against closed forms.
 //!
-//! On bodies whose slope is a polynomial everything is closed. With `x = c + L cos θ` and
+//! Bodies with a polynomial slope have closed forms. With `x = c + L cos θ` and
 //! `κ g = c₀/2 + c₁ cos θ + c₂ cos 2θ`,
 //!
 //! ```text
@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 pub const KAPPA: f64 = 1.7;
 pub const WORK: f64 = 1e-3;
 
-/// The slope g₀ + g₁ x + g₂ x².
+/// Slope g₀ + g₁ x + g₂ x².
 #[derive(Clone, Copy)]
 pub struct Quadratic(pub [f64; 3]);
 
@@ -34,13 +34,13 @@ impl Quadratic {
         g0 + x * (g1 + x * g2)
     }
 
-    /// c₀/2, c₁ and c₂, for κ = 1.
+    /// Returns c₀/2, c₁ and c₂, for κ = 1.
     pub fn coefficients(self, on: Interval<f64>) -> [f64; 3] {
         let (Self([g0, g1, g2]), c, l) = (self, on.centre(), on.half_width());
         [g0 + g1 * c + g2 * c * c + g2 * l * l / 2.0, l * (g1 + 2.0 * g2 * c), g2 * l * l / 2.0]
     }
 
-    /// K_b and K_a.
+    /// Returns K_b and K_a.
     pub fn strengths(self, load: f64, on: Interval<f64>) -> [f64; 2] {
         let [mean, first, _] = self.coefficients(on);
         let alpha = (load / on.half_width() - KAPPA * first / 2.0) / PI;
@@ -56,7 +56,7 @@ impl Quadratic {
     }
 }
 
-/// The strength that an edge asks for; `None` at a fixed one, which takes what comes.
+/// Returns the strength required by an edge; `None` for a fixed edge, whose strength is a result.
 pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
     match edge {
         Edge::Free => Some(0.0),
@@ -65,9 +65,9 @@ pub fn wanted(edge: Edge<f64>, half_width: f64) -> Option<f64> {
     }
 }
 
-/// What the pressure is for: the bodies as they are, and the load. By the rule of Gauss and
-/// Chebyshev, which with the weight of the edges is exact here (Erdogan and Gupta, *Q. Appl. Math.*
-/// 29, 1972).
+/// Checks that the pressure solves the equation of the bodies and carries the load, by the
+/// Gauss-Chebyshev rule. With the weight of the edges it is exact here (Erdogan and Gupta, *Q.
+/// Appl. Math.* 29, 1972).
 fn check_integrals(solution: &Solution<f64>, slope: impl Fn(f64) -> f64, kappa: f64) {
     const N: usize = 12;
     let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
@@ -92,7 +92,7 @@ fn check_integrals(solution: &Solution<f64>, slope: impl Fn(f64) -> f64, kappa: 
 }
 
 fn points(on: Interval<f64>) -> impl Iterator<Item = (f64, f64)> {
-    // Angles that are those of the x as it is rounded, from the distance to the nearer edge.
+    // Angles of the rounded x, from the distance to the nearer edge.
     (1..40).map(move |i| {
         let x = on.at_angle(PI * f64::from(i) / 40.0);
         (x, 2.0 * ((on.right - x) / (x - on.left)).sqrt().atan())
@@ -136,7 +136,7 @@ fn all_nine_pairs_of_edges_meet_their_conditions() {
     }
 }
 
-/// A parabola of radius R with its lowest point at x = 0, and the edges.
+/// Solves a parabola of radius R with its lowest point at x = 0, with these edges.
 fn on_parabola(load: f64, radius: f64, left: Edge<f64>, right: Edge<f64>) -> [f64; 4] {
     let body = Quadratic([0.0, 1.0 / radius, 0.0]).body(-4.0, 4.0);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).edges(left, right);
@@ -251,7 +251,7 @@ fn two_adhesive_edges_give_the_line_contact_of_johnson_kendall_and_roberts() {
     assert!(load(at_zero).abs() < 1e-15);
     for l in [at_zero, 1.02 * least, 1.2 * least, 1.5 * least, 1.3 * at_zero, 5.0] {
         let solution = contact.solve(Control::Load(load(l))).unwrap();
-        // Near pull-off dF/dL vanishes, and a rounded load leaves L more open.
+        // Near pull-off dF/dL vanishes, and a rounded load leaves L more uncertain.
         let stiffness = kappa * l / radius - (kappa * work / l).sqrt();
         let open = 1e-15 * (1.0 + (kappa * work / l).sqrt() / stiffness * 4.0);
         assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 4.0 * open);

@@ -1,4 +1,4 @@
-//! Every way in which a scene can be wrong ends in an error that says where and why.
+//! Every invalid scene ends in an error with its place and its reason.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -36,7 +36,7 @@ fn of_a_known_interval_any_finite_load_makes_sense() {
 
 #[test]
 fn a_load_too_large_for_the_domain() {
-    // A parabola that reaches to x = ±1 carries F = 1/2 at most.
+    // A parabola that extends to x = ±1 carries F = 1/2 at most.
     for load in [0.51, 2.0, 1e10, 1e300] {
         let ContactError::DomainTooShort { end, carried, load: asked, .. } =
             error(&Flat, &*parabola(1.0), load)
@@ -73,15 +73,15 @@ fn a_load_too_large_for_the_domain() {
         assert_eq!(end, if x0 < 0.0 { 1.0 } else { -1.0 });
         assert!((carried / (l * (1.5 * l + x0)) - 1.0).abs() < 1e-13, "{carried}");
     }
-    // Exactly as large as it may be.
+    // Exactly the largest load.
     let contact = on_flat(parabola(1.0));
     assert!((contact.solve(Control::Load(0.5 * (1.0 - 1e-12))).unwrap().a() - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn a_load_too_large_on_the_gentle_side() {
-    // A wedge on one side of 0: g = x, less by s at x < 0. With cos θ₀ = -c/L it is in balance where
-    // π c = s (π - θ₀), and carries F = L²/2 + s L sin θ₀/π. It reaches x = 1 first: c = 1 - L.
+    // A wedge on one side of 0: g = x, less by s at x < 0. With cos θ₀ = -c/L it is in balance if π
+    // c = s (π - θ₀), and carries F = L²/2 + s L sin θ₀/π. It reaches x = 1 first: c = 1 - L.
     let steep_side = |s: f64| graph(-1.0, 0.0, move |x| [x * x / 2.0 - s * x, x - s]);
     let mirrored = |s: f64| graph(0.0, 1.0, move |x| [x * x / 2.0 + s * x, x + s]);
     let gentle = |from, to| graph(from, to, |x| [x * x / 2.0, x]);
@@ -168,7 +168,7 @@ fn an_inversion_that_gives_up() {
     assert!(matches!(error, ContactError::Inversion { source: SearchError::Budget { .. }, .. }));
 }
 
-/// Whatever one of the numbers is: no panic, no endless loop, and Hertz's contact, or an error.
+/// Any value of any number: no panic, no endless loop, and Hertz's contact or an error.
 #[test]
 fn no_input_is_fatal() {
     let any = prop::num::f64::ANY;
@@ -186,7 +186,7 @@ fn no_input_is_fatal() {
             let (l, bend, kappa) = (two(width), two(curvature), two(stiffness));
             let reach = l * (1.1 + 9.0 * share);
             let load = kappa * bend * l * l / 2.0;
-            // So much, and one of them anything.
+            // Parameters of Hertz's contact, one of them replaced by any value.
             let mut scene = [load, kappa, bend, reach, -2.0 * l * share, l, 0.01 * l, 1e-6 * kappa];
             scene[which] = any;
             let [load, kappa, bend, reach, left, right, distance, tolerance] = scene;
@@ -351,7 +351,7 @@ fn a_spent_budget_of_a_peak_carries_the_best_limits() {
     assert!((best.half_width() / exact - 1.0).abs() < 0.5, "{best:?} {exact}");
 }
 
-/// Where the numbers are at fault, and not the contact.
+/// Failures of the floating-point range, not of the contact.
 #[test]
 fn distances_and_loads_that_numbers_cannot_hold() {
     let contact = on_flat(parabola(1.0));
@@ -368,7 +368,7 @@ fn distances_and_loads_that_numbers_cannot_hold() {
         let error = held.solve(Control::Load(load)).map(|_| ()).unwrap_err();
         assert!(matches!(error, ContactError::Overflow { .. }), "{error}");
     }
-    // P = F/(π sqrt(L² - x²)), next to which the parabola is nothing.
+    // P = F/(π sqrt(L² - x²)), next to which the effect of the parabola is negligible.
     let pressure = held.solve(Control::Load(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
     let exact = 1e300 / (std::f64::consts::PI * 0.08);
     assert!((pressure / exact - 1.0).abs() < 1e-14, "{pressure:e}");

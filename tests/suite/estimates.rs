@@ -1,4 +1,4 @@
-//! What the library says of its own errors.
+//! Error estimates of the library.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -10,7 +10,7 @@ use linecontact::search::Brent;
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise};
 use std::f64::consts::PI;
 
-/// Estimate and error, and what rounding alone makes of it.
+/// Estimate and error, and the effect of rounding alone.
 struct Judged {
     what: String,
     estimate: f64,
@@ -18,7 +18,7 @@ struct Judged {
     floor: f64,
 }
 
-/// Everything that the library says of its errors.
+/// Collects all error estimates of the library.
 fn judged() -> Vec<Judged> {
     let mut all = Vec::new();
     for scene in scenes() {
@@ -58,7 +58,7 @@ fn the_estimates_cover_the_errors_and_are_no_idle_doubt() {
     let (mut failures, mut idlest) = (0, 0.0f64);
     let all = judged();
     for (i, Judged { what, estimate, error, floor }) in all.iter().enumerate() {
-        // That of one point may vanish by luck, but not those of its neighbours as well.
+        // The error at one point may vanish by chance, but not at its neighbours as well.
         let around = &all[i.saturating_sub(1)..(i + 2).min(all.len())];
         let largest = worst(around.iter().map(|near| near.error));
         let idle = estimate / largest.nan_max(*floor);
@@ -73,9 +73,9 @@ fn the_estimates_cover_the_errors_and_are_no_idle_doubt() {
     assert_eq!(failures, 0);
 }
 
-/// The largest error of the pressure over x²⁰/20, as a share of the largest pressure, and the
-/// largest error as a multiple of its estimate. The slope is `x¹⁹`, and `cos¹⁹θ` is a sum of binomials
-/// times `cos kθ`.
+/// Returns the largest error of the pressure over x²⁰/20, as a share of the largest pressure, and
+/// the largest error as a multiple of its estimate. The slope is `x¹⁹`, and `cos¹⁹θ` is a sum of
+/// binomials times `cos kθ`.
 fn scan_power_20<T: linecontact::Real>(to_f64: fn(T) -> f64) -> [f64; 2] {
     let want = reference("power_n_20");
     let half = |from: f64, to: f64, sign: f64| {
@@ -150,7 +150,8 @@ fn a_cusp_of_the_pressure_at_a_breakpoint() {
 
 #[test]
 fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
-    // Where dF/dL = 0, at L³ = R² w/κ, the limits are as uncertain as the root of the load's rounding.
+    // At dF/dL = 0, where L³ = R² w/κ, the limits are as uncertain as the root of the load's
+    // rounding.
     let work: f64 = 0.01;
     let least = work.cbrt();
     for beyond in [1e-1, 1e-2, 1e-3, 1e-4, 1e-6] {
@@ -163,10 +164,10 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
         for share in [0.0, -0.5, 0.9, -0.999] {
             let x = share * solution.a();
             let exact = form.pressure(share * form.limits().right, 1.0);
-            // Where x is in the contact is as uncertain as its edges.
+            // The position of x in the contact is as uncertain as the edges.
             let got = pressure.estimate(x, &mut Cost::default()).unwrap();
             let error = (got.value - exact).abs();
-            // What rounding of the load makes of the limits, and they of P.
+            // Effect of rounding the load on the limits, and through them on P.
             let rounding = f64::EPSILON / beyond * exact.abs() / (1.0 - share * share);
             assert!(error <= got.error, "{beyond} {share}: {error:e}, said to be {:e}", got.error);
             assert!(
@@ -179,7 +180,7 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
 
 #[test]
 fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
-    // Hertz, from limits that are only nearly right. P = κ sqrt(L² - x²)/(π R).
+    // Hertz, from inexact limits. P = κ sqrt(L² - x²)/(π R).
     use linecontact::search::{Brent, StoppingCriteria};
     for (length, kappa) in [(1.0, 1.0), (1e-4, 1e-3), (1e3, 1e4)] {
         let reach = 2.0 * length;
@@ -204,9 +205,9 @@ fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
     }
 }
 
-/// The load says nothing of the forces at work where adhesion or a corner bears most of them: the share
-/// that a search has left of the conditions is one of those. Closed forms of a parabola: F = L²/2 -
-/// 2 sqrt(w L) with adhesion at both edges, and F = L²/2 + L c with the left edge held.
+/// With adhesion or a corner, forces may far exceed the load: the residual of a search is a share
+/// of these forces. Closed forms of a parabola: F = L²/2 - 2 sqrt(w L) with adhesion at both edges,
+/// and F = L²/2 + L c with the left edge held.
 #[test]
 fn a_load_next_to_nothing_leaves_no_doubt() {
     let (body, brent) = (parabola(2.0), Brent::default());
@@ -248,7 +249,7 @@ fn a_load_next_to_nothing_leaves_no_doubt() {
     }
 }
 
-/// The pressure at a breakpoint, and the error that is said of it.
+/// Returns the pressure at a breakpoint, and its error estimate.
 fn at_breakpoint(left: common::Profile, right: common::Profile, load: f64, x: f64) -> [f64; 3] {
     let contact = on_flat(common::join(vec![left, right]));
     let solution = contact.solve(Control::Load(load / PI)).unwrap();
@@ -259,15 +260,15 @@ fn at_breakpoint(left: common::Profile, right: common::Profile, load: f64, x: f6
 
 #[test]
 fn the_estimate_covers_the_error_at_a_breakpoint() {
-    // A root on one side, of which the last 1e-16 before x = 1/4 are lost in rounding. The pressure
-    // by tanh-sinh quadrature of the slope's derivative, with 56 digits.
+    // A root on one side, whose last 1e-16 before x = 1/4 are lost in rounding. The pressure by
+    // tanh-sinh quadrature of the slope's derivative, with 56 digits.
     let root = graph(-9.0, 0.25, |x| [(0.25 - x).powf(1.5), -1.5 * (0.25 - x).sqrt()]);
     let bowl = graph(0.25, 9.0, |x| [(x - 0.25).powi(2), 2.0 * (x - 0.25)]);
     let [value, error, _] = at_breakpoint(root, bowl, 1.0, 0.25);
     let missed = (value - 0.467_876_579_739_101_6).abs();
     assert!(missed <= error && error <= 1e-7, "{missed:e} {error:e}");
 
-    // A kink so slight that it may be rounding: no peak is shown there, but it may be one.
+    // A kink so slight that it may be rounding: the peak may be there, but is not reported.
     let kink = 1e-9;
     let left = graph(-9.0, 0.25, |x| [x * x / 2.0, x]);
     let right = graph(0.25, 9.0, move |x| [x * x / 2.0 + kink * (x - 0.25), x + kink]);
@@ -276,8 +277,8 @@ fn the_estimate_covers_the_error_at_a_breakpoint() {
     assert!(peak > 0.0 && peak <= error && error <= 100.0 * kink, "{peak:e} {error:e}");
 }
 
-/// Panels of 32 nodes each hold three waves, so that no polynomial reaches far beyond its own: where two meet the pressure is
-/// as smooth as elsewhere.
+/// Panels of 32 nodes each hold three waves, so that no polynomial is accurate far beyond its own
+/// panel: at a joint of two panels the pressure is as smooth as elsewhere.
 #[test]
 fn the_pressure_of_waves_is_smooth_where_panels_meet() {
     for [w, a, phase, load] in [
@@ -295,7 +296,7 @@ fn the_pressure_of_waves_is_smooth_where_panels_meet() {
         let x: Vec<f64> = (0..count).map(|i| on.at_angle(angle(i))).collect();
         let mut p = vec![0.0; count];
         solution.pressure().unwrap().at_many(&x, &mut p).unwrap();
-        // The fourth difference of an analytic function.
+        // Fourth difference, small for an analytic function.
         let rough = |p: &[f64]| (p[0] + p[4] - 4.0 * (p[1] + p[3]) + 6.0 * p[2]).abs();
         let worst = p.windows(5).map(rough).fold(0.0, f64::max);
         assert!(worst < 1e-11, "{w}: {worst:e}");

@@ -1,5 +1,5 @@
-//! Flanks of gear teeth as they come: involutes by formulas that cancel, so that X has a noise of its own, and loads
-//! beyond what a flank bears. A contact this narrow is Hertz's but for a share (a/ρ)².
+//! Flanks of gear teeth, as given by users: involutes by formulas that cancel, so that X is noisy,
+//! and loads beyond the capacity of a flank. A contact this narrow is Hertz's to a share (a/ρ)².
 #![allow(missing_docs)]
 
 use crate::common::{Counting, Profile, Strategy};
@@ -9,10 +9,10 @@ use linecontact::search::SearchError;
 use linecontact::{Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Evaluations of a solve under half the load that are not worth counting: a look at heights took as many.
+/// Least count of evaluations under half the load: a survey of the heights once took as many.
 const LEAST_TAKEN: usize = 124;
 
-/// A flank of a base circle of this radius, that touches where the angle `at` has been rolled off.
+/// Flank of a base circle of this radius that touches at the roll angle `at`.
 #[derive(Clone, Copy, Debug)]
 struct Flank {
     radius: f64,
@@ -21,7 +21,7 @@ struct Flank {
 }
 
 impl Flank {
-    /// The radius of curvature where it touches.
+    /// Returns the radius of curvature at the point of touch.
     fn curvature_radius(&self) -> f64 {
         self.radius * self.at
     }
@@ -32,8 +32,8 @@ impl Flank {
         if upper { Box::new(involute) } else { Box::new(Placed::new(involute, turned).unwrap()) }
     }
 
-    /// The same with X by coordinates about the centre of the circle, which is far off, and Y as well or without
-    /// noise.
+    /// Returns the flank with X from coordinates about the distant centre of the circle; Y has the
+    /// same noise, or none.
     fn noisy(&self, upper: bool, centre: f64, in_y: bool) -> Profile {
         let (Self { radius: r, at, angles }, exact) = (*self, self.exact(upper));
         let (sin, cos) = at.sin_cos();
@@ -48,8 +48,8 @@ impl Flank {
     }
 }
 
-/// A pair of flanks, or one on a flat: the bodies, the radius of curvature of the gap, and the length over which
-/// that changes.
+/// Returns a pair of flanks, or one on a flat: the bodies, the radius of curvature of the gap, and
+/// the length over which the radius changes.
 fn pair(dice: &mut Dice, in_y: bool) -> ([Profile; 2], f64, f64) {
     let mut flank = || {
         let (radius, at) = (dice.power_of_ten(1.3, 2.0), dice.power_of_ten(-1.7, -0.2));
@@ -68,7 +68,7 @@ fn pair(dice: &mut Dice, in_y: bool) -> ([Profile; 2], f64, f64) {
     (bodies, 1.0 / sum, length(upper).min(length(lower)))
 }
 
-/// `SCENES=n` in the environment solves n scenes.
+/// Solves and certifies random flanks; `SCENES=n` in the environment sets their number.
 fn solve_and_certify(in_y: bool) {
     let scenes = std::env::var("SCENES").map_or(300, |n| n.parse().unwrap());
     let (mut refused, mut wrong) = (Vec::new(), Vec::new());
@@ -98,19 +98,19 @@ fn random_flanks_with_noise_in_x_are_solved_and_certified() {
     solve_and_certify(false);
 }
 
-/// Contacts that are no deeper than the noise of the heights.
+/// Contacts no deeper than the noise of the heights.
 #[test]
 fn random_flanks_with_noise_in_x_and_y_are_solved_and_certified() {
     solve_and_certify(true);
 }
 
-/// Noise in X is no excuse for a strategy that does not do its work.
+/// Noise in X does not excuse a search that stops early.
 #[test]
 fn a_strategy_that_stops_in_the_middle_is_refused_beside_noise() {
     let middle = Strategy(|f, b| Strategy::take(0.5 * b.lo + 0.5 * b.hi, f, b));
     let flank = Flank { radius: 47.0, at: 0.03, angles: [0.0, 0.9] };
     let body = flank.noisy(true, 90.0, false);
-    // Where a start is given no height is known, by which points would be found without it.
+    // With a given start, no heights are known that would locate the points without the search.
     let start = Interval { left: -3e-6, right: 3e-6 };
     let contact = Contact::new(&Flat, &*body).unwrap().inversion(&middle).start(start);
     let error = contact.solve(Control::Load(1e-12)).map(|_| ()).unwrap_err();
@@ -123,8 +123,8 @@ fn a_strategy_that_stops_in_the_middle_is_refused_beside_noise() {
     );
 }
 
-/// Loads a flank of which one end is 1.5 half-widths from where it touches: what it bears, and what it takes to find
-/// that out, in evaluations of a solve at half of that.
+/// Overloads a flank that has one end 1.5 half-widths from the point of touch. Checks the capacity
+/// and returns the cost of the error, relative to a solve at half the capacity.
 fn overloaded(dice: &mut Dice, radius: f64, noisy: bool, times: f64) -> Result<f64, String> {
     let at = dice.power_of_ten(-1.7, -0.2);
     let half_width = radius * at * dice.power_of_ten(if noisy { -6.0 } else { -7.0 }, -2.0);
@@ -149,7 +149,7 @@ fn overloaded(dice: &mut Dice, radius: f64, noisy: bool, times: f64) -> Result<f
         }
         other => return Err(format!("{flank:?}: {other:?}")),
     }
-    // A gap that is soon proved convex costs half the load next to nothing.
+    // Half the load costs almost nothing if the gap is soon proved convex.
     Ok(count.load(Ordering::Relaxed) as f64 / taken.max(LEAST_TAKEN) as f64)
 }
 
@@ -160,7 +160,7 @@ fn random_flanks_loaded_beyond_their_end_are_refused_at_once() {
         for times in [3.0, 1000.0] {
             for noisy in [false, true] {
                 match overloaded(&mut Dice::new(seed), 47.0, noisy, times) {
-                    // Where the bodies are noisy panels are split before the noise is measured.
+                    // Panels of noisy bodies are split before the noise is measured.
                     Ok(ratio) if ratio <= if noisy { 60.0 } else { 20.0 } => {
                         worst = worst.max(ratio);
                     }

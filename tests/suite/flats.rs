@@ -1,15 +1,16 @@
-//! Punches whose flat leans or bulges by next to nothing, or is joined from arcs by running sums: which of its
-//! corners is the lowest is chance, and the contact spans it.
+//! Punches with a flat that is tilted or bulges by rounding only, or is joined from arcs by running
+//! sums: the lowest corner is a matter of chance, and the contact spans the flat.
 //!
-//! With the slope g = s + b x on the flat, and what a parabola or an arc adds to that beyond its corners, the two
-//! conditions of a contact about c are sums of integrals over the overhangs alone:
+//! With the slope g = s + b x on the flat, and `more` the slope added by a parabola or an arc
+//! beyond its corners, the two conditions of a contact about c are sums of integrals over the
+//! overhangs alone:
 //!
 //! ```text
 //! balance:  s + b c + (1/π) (right - left) = 0           right, left = ∫ more dθ
 //! load:     b L²/2 + (L/π) (right + left) = F/κ         right, left = ∫ more |cos θ| dθ
 //! ```
 //!
-//! The slope never falls, so that what meets them is the contact.
+//! The slope never falls, so that any interval that meets both conditions is the contact.
 #![allow(missing_docs)]
 
 use crate::common::{Shares, graph};
@@ -19,7 +20,7 @@ use std::f64::consts::PI;
 
 type Part = Box<dyn ParametricProfile<f64>>;
 
-/// A flat with two corners.
+/// Flat with two corners.
 struct Punch {
     body: Piecewise<f64, Part>,
     corners: [f64; 2],
@@ -30,7 +31,7 @@ struct Punch {
 }
 
 impl Punch {
-    /// Corners that are parabolas, a flat that bulges.
+    /// Returns a bulging flat with parabolic corners.
     fn new(half: f64, radii: [f64; 2], slope: f64, bow: f64) -> Self {
         let reach = half.max(0.3);
         let flat = move |x: f64| [slope * x + bow * x * x / 2.0, slope + bow * x];
@@ -46,7 +47,8 @@ impl Punch {
         Self::of(parts, 1, radii, slope, bow, false)
     }
 
-    /// Corners of so many arcs each, which turn by `turn` in all, joined by running sums.
+    /// Returns a flat with corners of `arcs` arcs each, which turn by `turn` in all, joined by
+    /// running sums.
     fn joined(half: f64, radii: [f64; 2], slope: f64, [turn, arcs]: [f64; 2]) -> Self {
         let mut heading = slope - turn;
         let mut at = [-half - radii[0] * turn.sin(), 0.0];
@@ -78,8 +80,9 @@ impl Punch {
         Self::of(parts, arcs, radii, flat.tan(), 0.0, true)
     }
 
-    /// Corners that are parabolas, in a frame that leans: heights near zero are the rounding of what is taken off for
-    /// that, and added by running sums. The slopes have no noise.
+    /// Returns a bulging flat with parabolic corners in a tilted frame: the tilt is subtracted from
+    /// heights that are running sums, so that heights near zero are rounding. The slopes have no
+    /// noise.
     fn leaning(half: f64, radii: [f64; 2], slope: f64, bow: f64, tilt: f64) -> Self {
         let reach = half.max(0.3);
         let [from, to] = [-half - reach, half + reach];
@@ -114,19 +117,19 @@ impl Punch {
         Self { body, corners, radii, slope, bow, is_round }
     }
 
-    /// How far a contact misses its two conditions under a load, relative to the terms of each, in units of what the
-    /// rounding of the limits explains.
+    /// Returns the residual of the two conditions of a contact under a load, relative to the terms
+    /// of each, in units of the effect of rounding the limits.
     fn missed(&self, Interval { left, right }: Interval<f64>, load: f64) -> f64 {
         let (centre, half) = ((right + left) / 2.0, (right - left) / 2.0);
         let mut allowed = 1e-9 + 4.0 * f64::EPSILON * (left.abs() + right.abs()) / half;
-        // Of an arc the sine of its angle grows evenly, from that of the flat on.
+        // On an arc the sine of its angle grows linearly, from the angle of the flat on.
         let mut overhang = |over: f64, radius: f64, slope: f64| {
             if over <= 0.0 {
                 return [0.0; 2];
             }
             allowed += 8.0 * f64::EPSILON * (left.abs() + right.abs()) / over;
             let end = 2.0 * (over / (2.0 * half)).min(1.0).sqrt().asin();
-            // By Simpson's rule.
+            // Simpson's rule.
             const STEPS: usize = 1024;
             (0..=STEPS).fold([0.0; 2], |[balance, load], i| {
                 let at = end * i as f64 / STEPS as f64;
@@ -153,7 +156,8 @@ impl Punch {
         (balance.abs() / terms).max((carried / load - 1.0).abs()) / allowed
     }
 
-    /// Whether a load is more than it bears, as an error says: the contact that reaches the end bears less.
+    /// Tells whether an overload error is right: the contact that reaches the end carries less than
+    /// the load.
     fn is_too_short(&self, error: &ContactError<f64>) -> bool {
         let ContactError::DomainTooShort { end, carried, load, half_width, .. } = *error else {
             return false;
@@ -192,7 +196,7 @@ fn the_contact_spans_a_flat_that_leans_by_rounding() {
     }
 }
 
-/// Cold, as after a heavier load.
+/// Cold, and after a heavier load.
 #[test]
 fn random_flats() {
     let mut shares = Shares(28);
@@ -234,7 +238,7 @@ fn random_flats() {
     assert_eq!(refused, 0);
 }
 
-/// `SCENES=n` in the environment solves n scenes.
+/// `SCENES=n` in the environment sets the number of scenes.
 #[test]
 fn random_flats_with_heights_that_are_rounding_are_solved_and_certified() {
     let scenes = std::env::var("SCENES").map_or(300, |n| n.parse().unwrap());

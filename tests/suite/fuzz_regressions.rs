@@ -1,4 +1,4 @@
-//! What random scenes have found, as single cases with an oracle.
+//! Faults found by random scenes, as single cases with an oracle.
 #![allow(missing_docs, clippy::excessive_precision)]
 
 use crate::common;
@@ -14,13 +14,13 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The slope t + c x, and j more to the right of x₀.
+/// Returns the slope t + c x, larger by j to the right of x₀.
 fn with_jump(j: f64, x0: f64, c: f64, t: f64) -> Profile {
     let y = move |x: f64, more: f64| [t * x + c * x * x / 2.0 + more * (x - x0), t + c * x + more];
     join(vec![graph(-4.0, x0, move |x| y(x, 0.0)), graph(x0, 4.0, move |x| y(x, j))])
 }
 
-/// From 40 digits, by the two equations in closed form.
+/// Expected values from 40 digits, by the two equations in closed form.
 #[test]
 fn an_edge_just_beyond_a_jump_of_the_slope() {
     let cases = [
@@ -54,7 +54,7 @@ fn an_edge_just_beyond_a_jump_of_the_slope() {
     }
 }
 
-/// A panel of many nodes has only noise left, its halves with fewer nodes have more.
+/// A panel of many nodes has only noise left; its halves with fewer nodes have more.
 #[test]
 fn halves_of_a_panel_that_is_all_but_resolved() {
     let (one, two) = (
@@ -79,7 +79,7 @@ fn halves_of_a_panel_that_is_all_but_resolved() {
     }
 }
 
-/// A wave on both bodies is not in the gap; few nodes do for that, but not for the wave.
+/// A wave on both bodies is not in the gap; few nodes resolve the gap, but not the wave.
 #[test]
 fn a_wave_on_both_bodies_is_no_wrong_derivative() {
     let wave = |x: f64| {
@@ -104,8 +104,8 @@ fn a_wave_on_both_bodies_is_no_wrong_derivative() {
     }
 }
 
-/// A loose tolerance, and a slope whose largest part is a straight line: four nodes see a huge fall
-/// of the coefficients, which does not go on.
+/// A loose tolerance, and a slope whose largest part is a straight line: four nodes show a steep
+/// fall of the coefficients, which does not continue.
 #[test]
 fn a_steep_line_before_a_series() {
     let at = |x: f64| {
@@ -126,8 +126,8 @@ fn a_steep_line_before_a_series() {
     }
 }
 
-/// m₀ and m₁ of a slope without breakpoints, by the midpoint rule in θ: to rounding, if it is smooth on
-/// the scale of the contact.
+/// Returns m₀ and m₁ of a slope without breakpoints, by the midpoint rule in θ: to rounding, if the
+/// slope is smooth on the scale of the contact.
 fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
     const N: usize = 4000;
     let mut sums = [0.0; 2];
@@ -139,7 +139,7 @@ fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
     sums
 }
 
-/// c tanh((x - x₀)/w) and its integral.
+/// Returns c tanh((x - x₀)/w) and its integral.
 fn tanh(c: f64, w: f64, x0: f64) -> impl Fn(f64) -> [f64; 2] + Copy + Send + Sync {
     move |x: f64| {
         let t = (x - x0) / w;
@@ -147,8 +147,8 @@ fn tanh(c: f64, w: f64, x0: f64) -> impl Fn(f64) -> [f64; 2] + Copy + Send + Syn
     }
 }
 
-/// A corner, and right of it a step of the slope as narrow as the contact, of bodies a million times
-/// as wide: panels over all of them do not see it, and must not be believed.
+/// A corner, and right of it a step of the slope as narrow as the contact, of bodies a million
+/// times as wide: panels over all of them miss the step and must not be accepted.
 #[test]
 fn a_step_of_a_millionth_of_the_bodies() {
     let cases = [
@@ -177,8 +177,8 @@ fn a_step_of_a_millionth_of_the_bodies() {
     }
 }
 
-/// A loose tolerance of the slope must not hide that the search is not there yet: beyond the contact
-/// the body is a million times as stiff, and from there Newton's steps are short.
+/// A loose tolerance of the slope must not hide that the search has not converged: beyond the
+/// contact the body is a million times as stiff, and from there Newton's steps are short.
 #[test]
 fn from_a_stiff_stretch_with_a_loose_tolerance() {
     // The slope c (x - x₀), and k more beyond x₁: with a corner at -b, F = L (c (c₀ - x₀) + c L/2).
@@ -207,8 +207,8 @@ fn from_a_stiff_stretch_with_a_loose_tolerance() {
     }
 }
 
-/// Where nobody has declared them, a kink or a jump between a corner and the first sample show in
-/// the slope at the corner alone.
+/// An undeclared kink or jump between a corner and the first sample shows only in the slope at the
+/// corner.
 #[test]
 fn a_kink_beside_a_corner() {
     let (left, l) = (-0.4, 0.7);
@@ -242,8 +242,8 @@ fn a_kink_beside_a_corner() {
     }
 }
 
-/// The load of a given width has the error of the edge integrals, and so has the pressure: by the
-/// midpoint rule no less than by panels.
+/// Under a given width, load and pressure have the error of the edge integrals, by the midpoint
+/// rule no less than by panels.
 #[test]
 fn pressures_of_a_given_width_by_the_midpoint_rule() {
     let rule = Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfInteger };
@@ -259,8 +259,8 @@ fn pressures_of_a_given_width_by_the_midpoint_rule() {
         let solution = contact.solve(Control::HalfWidth(l)).unwrap();
         assert!((solution.load() / (l * first) - 1.0).abs() < 1e-7);
         let pressure = solution.pressure().unwrap();
-        // Gauss's rule of the first kind, at the nodes of the second: exact for polynomials, poles
-        // and all.
+        // Gauss's rule of the first kind, at the nodes of the second: exact for polynomials, even
+        // with poles.
         const N: usize = 6000;
         for i in (300..N - 300).step_by(500) {
             let z = (PI * i as f64 / N as f64).cos();
@@ -281,7 +281,7 @@ fn pressures_of_a_given_width_by_the_midpoint_rule() {
     }
 }
 
-/// The midpoint rule's estimates where a kink, which nobody has declared, is anywhere.
+/// Estimates of the midpoint rule with an undeclared kink at any place.
 #[test]
 fn limits_by_the_midpoint_rule_with_a_kink() {
     let rule = Midpoint::default();
@@ -303,8 +303,8 @@ fn limits_by_the_midpoint_rule_with_a_kink() {
     }
 }
 
-/// A curve with hundreds of kinks, which nobody has declared, takes panel after panel; a search for a
-/// width on top of that has a budget. With dozens of them a width is found.
+/// A curve with hundreds of undeclared kinks takes panel after panel; a search for a width on top
+/// of it has a budget. With dozens of kinks the width is found.
 #[test]
 fn a_search_spends_no_more_than_its_budget() {
     let taken = Arc::new(AtomicUsize::new(0));
@@ -334,7 +334,7 @@ fn a_search_spends_no_more_than_its_budget() {
 }
 
 /// Seed 405059: bodies too short for the adhesion at one edge. The search goes down to the smallest
-/// numbers, and once kept the panels of all widths on its way, without end.
+/// numbers; it used to keep the panels of all widths on its way, without end.
 #[test]
 fn a_search_down_to_the_smallest_numbers_ends() {
     let calls = AtomicUsize::new(0);
@@ -352,8 +352,8 @@ fn a_search_down_to_the_smallest_numbers_ends() {
     assert!(calls.load(Ordering::Relaxed) < 200_000, "{calls:?}");
 }
 
-/// Seed 7378: where the slope jumps down two contacts meet but for a gap that is far narrower than the rounding of
-/// x. Where it closes is known to rounding only, and need not be at the jump.
+/// Seed 7378: at a jump down of the slope two contacts meet but for a gap far narrower than the
+/// rounding of x. The gap closes at a place known to rounding only, which need not be the jump.
 #[test]
 fn a_gap_closes_a_rounding_beside_its_jump() {
     let (x0, jump, load) = (-0.014543507431082459, -0.013670611063160134, 0.07732947815439567);
@@ -375,9 +375,9 @@ fn a_gap_closes_a_rounding_beside_its_jump() {
     }
 }
 
-/// Seeds 12951 and 19634: a jump that nobody has declared, on a panel that cannot be halved. What it rises by is
-/// part of the derivatives by the limits: without it Newton's steps fall by a thousandth each, and are believed
-/// to fall faster.
+/// Seeds 12951 and 19634: an undeclared jump on a panel that cannot be halved. The rise of the jump
+/// is part of the derivatives by the limits: without it each of Newton's steps falls by a
+/// thousandth only, but the search assumes a faster fall.
 #[test]
 fn limits_beside_a_jump_that_is_not_declared() {
     let l = 0.7;
@@ -404,8 +404,8 @@ fn limits_beside_a_jump_that_is_not_declared() {
     }
 }
 
-/// Seed 1537: an edge a little beyond a breakpoint, a loose tolerance and a given width. The pressure is worked out on
-/// panels that end at the breakpoint, the load is that of the panels before.
+/// Seed 1537: an edge a little beyond a breakpoint, a loose tolerance and a given width. The
+/// pressure uses panels that end at the breakpoint, the load those before them.
 #[test]
 fn pressures_on_better_panels_than_the_load() {
     let (stiff, breakpoint, left, l) =
@@ -450,8 +450,8 @@ fn pressures_on_better_panels_than_the_load() {
     }
 }
 
-/// Seed 13762: a kink between a corner and the first node that only a loose tolerance lets pass. The slope at the
-/// corner tells by how much the panel is off.
+/// Seed 13762: a kink between a corner and the first node that only a loose tolerance lets pass.
+/// The slope at the corner shows the error of the panel.
 #[test]
 fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
     for (tolerance, share) in [(1e-3, 0.03), (1e-3, 0.01), (1e-4, 0.003), (1e-2, 0.03)] {
@@ -482,8 +482,8 @@ fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
     }
 }
 
-/// Seeds 950, 2336, 3735 and 6520: steps of the slope that a sketch of the bodies does not see. By symmetry the contact
-/// is around the step; its load is `κ (L/π) ∫ g cos θ dθ`, by 4000 nodes.
+/// Seeds 950, 2336, 3735 and 6520: steps of the slope missed by a coarse survey of the bodies. By
+/// symmetry the contact is around the step; its load is `κ (L/π) ∫ g cos θ dθ`, by 4000 nodes.
 #[test]
 fn a_narrow_step_far_from_the_middle_of_the_bodies() {
     for (height, width, slope) in [(7.0, 3e-4, 2.0), (0.02, 1e-5, 3.0), (5.0, 1e-6, 0.0)] {
@@ -526,8 +526,8 @@ fn a_narrow_step_far_from_the_middle_of_the_bodies() {
     }
 }
 
-/// Rounded where the search began, the half-width stayed so. (Seed 152203: limits off by 1.7e-11 of it at an
-/// estimate of 9.6e-15.)
+/// The half-width used to be rounded at the start of the search and stay so. (Seed 152203: error of
+/// the limits 1.7e-11 of the half-width, at an estimate of 9.6e-15.)
 #[test]
 fn a_half_width_is_what_was_given_however_far_the_start() {
     for half_width in [1e-6, 1.0999302512625333e-5, 7.790386094239691e-5, 1e-3] {

@@ -1,4 +1,4 @@
-//! Punches that are held at both corners: both must press, and nothing may pull between them.
+//! Punches held at both corners: both must press, without tension between them.
 #![allow(missing_docs)]
 
 use crate::common::{Profile, Shares, graph, intervals, on_flat};
@@ -15,13 +15,13 @@ fn fixed<'b>(contact: &Contact<'b, f64>, half: f64) -> Contact<'b, f64> {
     contact.clone().edges(Edge::Fixed(-half), Edge::Fixed(half))
 }
 
-/// Three crests between two corners.
+/// Returns three crests between two corners.
 fn wavy() -> Contact<'static, f64> {
     let k = 4.0 * PI;
     on_flat(graph(-1.5, 1.5, move |x| [-0.01 * (k * x).cos(), 0.01 * k * (k * x).sin()]))
 }
 
-/// Hertz: the contact is far narrower than the corners are apart.
+/// Hertz: the contact is far narrower than the distance of the corners.
 #[test]
 fn a_roller_held_beyond_its_contact_lifts_off() {
     let roller = Ellipse::circle(10.0, [-1.0, 1.0]).unwrap();
@@ -53,12 +53,12 @@ fn a_wavy_punch_touches_in_several_places_between_its_corners() {
             assert_relative_eq!(found.left, known.left, epsilon = 1e-12);
             assert_relative_eq!(found.right, known.right, epsilon = 1e-12);
         }
-        // As one it would be a solution of the equation that pulls.
+        // As a single interval it would solve the equation with tension.
         let alone = fixed(&contact, 0.5).single_interval(true).solve(load).unwrap();
         let pressure = alone.pressure().unwrap();
         assert!(pressure.at(0.25).unwrap() < 0.0 && !alone.report().is_checked());
         assert_eq!(alone.report().attempts().last().unwrap().outcome, Outcome::Unchecked);
-        // The paper's rule, and a strategy of one's own, know but one contact.
+        // The paper's rule, and a user's search, know only one contact.
         let (rule, brent) = (Midpoint::DEFAULT, Brent::DEFAULT);
         for one in
             [fixed(&contact, 0.5).quadrature(&rule), fixed(&contact, 0.5).limit_search(&brent)]
@@ -109,7 +109,7 @@ fn only_a_load_that_presses_makes_sense_unless_one_interval_is_asked_for() {
     }
 }
 
-/// A solver that has several contacts at hand takes no corner beyond the bodies for their end.
+/// A solver that holds several contacts refuses corners beyond the bodies as well.
 #[test]
 fn corners_beyond_the_bodies_are_named_by_a_solver_too() {
     let contact = wavy();
@@ -124,7 +124,7 @@ fn corners_beyond_the_bodies_are_named_by_a_solver_too() {
     }
 }
 
-/// The next load takes no evaluation of the curves, of several contacts neither.
+/// The next load takes no evaluation of the curves, for several contacts too.
 #[test]
 fn a_second_solve_takes_no_evaluations() {
     let tilted = on_flat(graph(-1.0, 1.0, |x| {
@@ -140,7 +140,7 @@ fn a_second_solve_takes_no_evaluations() {
     }
 }
 
-/// A punch between two corners: flat, tilted, crowned or hollow, wavy.
+/// Punch between two corners: flat, tilted, crowned or hollow, wavy.
 struct Punch {
     tilt: f64,
     crown: f64,
@@ -191,7 +191,7 @@ impl Punch {
     }
 }
 
-/// What became of a scene.
+/// Outcome of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     Right,
@@ -199,12 +199,13 @@ pub enum Verdict {
     Wrong,
 }
 
-/// What contacts push: of each its interval, and the coefficients of `P sin θ L` as a cosine
-/// series.
+/// Pressure of several contacts: for each its interval, and the coefficients of `P sin θ L` as a
+/// cosine series.
 struct Pushed(Vec<(Interval<f64>, Vec<f64>)>);
 
 impl Pushed {
-    /// ∫ P ln|x - s| ds, by ∫ cos nφ ln|z - cos φ| dφ = -(π/n) ρⁿ with z = (ρ + 1/ρ)/2, |ρ| <= 1.
+    /// Returns ∫ P ln|x - s| ds, by ∫ cos nφ ln|z - cos φ| dφ = -(π/n) ρⁿ with z = (ρ + 1/ρ)/2, |ρ|
+    /// <= 1.
     fn potential(&self, x: f64) -> f64 {
         let of = |(on, series): &(Interval<f64>, Vec<f64>)| {
             let l = on.half_width();
@@ -231,7 +232,7 @@ impl Pushed {
     }
 }
 
-/// Whether a solution is the contact, which is the only one that presses everywhere, bears the
+/// Describes a violated condition, if any. Only the contact has pressure everywhere, carries the
 /// load, closes the gap to one height in all contacts, and leaves more of it elsewhere.
 fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> {
     const COUNT: usize = 512;
@@ -281,7 +282,7 @@ fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> 
     let nothing = |x| Interval { left: x, right: x };
     let all = [vec![nothing(left)], contacts, vec![nothing(right)]].concat();
     for pair in all.windows(2).filter(|pair| pair[0].right < pair[1].left) {
-        // Squared: close to one another where the gap opens. Next to a limit the potential has half
+        // Squared, for a high density where the gap opens. Next to a limit the potential has half
         // of its digits.
         for i in 10..=200 {
             let share = (f64::from(i) / 200.0).powi(2);
@@ -299,7 +300,7 @@ fn fault(punch: &Punch, solution: &Solution<f64>, held: bool) -> Option<String> 
     None
 }
 
-/// The same contacts, to a share of the narrowest.
+/// Tells whether the contacts are the same, to a share of the narrowest.
 fn alike(one: &Solution<f64>, other: &Solution<f64>) -> bool {
     let [one, other] = [one, other].map(intervals);
     let narrowest = one.iter().map(Interval::half_width).fold(f64::INFINITY, f64::min);
@@ -309,8 +310,8 @@ fn alike(one: &Solution<f64>, other: &Solution<f64>) -> bool {
     one.len() == other.len() && one.iter().zip(&other).all(both)
 }
 
-/// What is wrong with other ways to a contact that is right: corners that may be let go, the load
-/// where it acts, and the paper's rule, which knows but one contact.
+/// Returns the faults of other ways to a correct contact: corners that may be let go, the load at
+/// its point of action, and the paper's rule, which knows only one contact.
 fn other_ways(
     punch: &Punch,
     held: &Contact<'static, f64>,
@@ -337,7 +338,7 @@ fn other_ways(
     }
 }
 
-/// Judges a random punch by what makes a contact, with a word on it: where a corner lifts, the
+/// Judges a random punch by the conditions of contact, with a remark; if a corner lifts, judges the
 /// contact without it.
 pub fn judge(seed: u64) -> (Verdict, String) {
     let punch = Punch::random(seed);
@@ -373,7 +374,7 @@ pub fn judge(seed: u64) -> (Verdict, String) {
 #[test]
 fn random_punches_between_two_corners() {
     let mut counts = [0; 3];
-    // The last are of gaps that fall to a corner, and of contacts that are nothing.
+    // The last seeds have gaps that fall to a corner, and contacts of almost no width.
     for seed in (0..100).chain([3550, 4562, 4740]) {
         let (verdict, word) = judge(seed);
         counts[verdict as usize] += 1;

@@ -8,8 +8,8 @@ use linecontact::search::Brent;
 use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval, Midpoint, Panels, Solver};
 use std::f64::consts::PI;
 
-/// One limit and the width give the other, and K = 0 at the free edge the load: F = L²/2 - L c with
-/// that edge on the left, c the centre of the contact.
+/// One limit and the width give the other limit, and K = 0 at the free edge gives the load: F =
+/// L²/2 - L c with the free edge on the left, c the centre of the contact.
 #[test]
 fn a_width_beside_a_fixed_edge() {
     let (body, brent) = (parabola(1.0), Brent::default());
@@ -37,8 +37,9 @@ fn a_width_beside_a_fixed_edge() {
     }
 }
 
-/// Nothing is sought where one limit and the width are given: the limits are what they are, even at a
-/// breakpoint, and the load is F = L (m₁ + m₀), by Gauss-Chebyshev sums. (A wedge up to its tip: m₁ = 0.)
+/// With one limit and the width given, nothing is searched for: the limits are exact, even at a
+/// breakpoint, and the load is F = L (m₁ + m₀), by Gauss-Chebyshev sums. (A wedge up to its tip:
+/// m₁ = 0.)
 #[test]
 fn a_width_beside_a_fixed_edge_is_exact() {
     let tip = wedge([-0.25, 1.75], 1.0).unwrap();
@@ -76,7 +77,7 @@ fn a_corner_is_not_passed() {
     assert!(contact.solve(Control::HalfWidth(0.3)).is_err());
 }
 
-/// Two tips with a hollow between them: no narrow contact presses anywhere.
+/// Two tips with a hollow between them: no narrow contact has pressure everywhere.
 #[test]
 fn a_peak_of_a_hollow_tip() {
     let contact = on_flat(graph(-1.0, 1.0, |x| {
@@ -90,7 +91,8 @@ fn a_peak_of_a_hollow_tip() {
     assert_relative_eq!(found.load(), 0.1, epsilon = 0.0, max_relative = 1e-7);
 }
 
-/// Peaks by a rule of a few points are off, and so is the width. Next to an edge such a rule has no digit.
+/// Peaks by a rule of a few points are inaccurate, and so is the width. Next to an edge such a rule
+/// has no correct digit.
 #[test]
 fn a_doubtful_peak_is_a_doubtful_width() {
     let body = parabola(1.0);
@@ -104,7 +106,7 @@ fn a_doubtful_peak_is_a_doubtful_width() {
         let (peak, last) = (solution.peak().unwrap(), 2e-14);
         assert!((peak.pressure / 0.1 - 1.0).abs() < last && peak.x.abs() < 1e-6, "{peak:?}");
     }
-    // Fewer leave nothing to judge them by.
+    // Fewer segments leave no way to judge them.
     for segments in [1, 2, 3] {
         let rule = Midpoint { segments, ..Midpoint::DEFAULT };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&rule);
@@ -115,8 +117,8 @@ fn a_doubtful_peak_is_a_doubtful_width() {
     }
 }
 
-/// Pulled at one edge, K = 0 at the other: c = sqrt(w/L) towards the pull, and F = L²/2 - L c. With c
-/// beyond L the contact sits beside the lowest point of the parabola.
+/// Pulled at one edge, K = 0 at the other: c = sqrt(w/L) towards the pull, and F = L²/2 - L c. With
+/// c beyond L the contact lies next to the lowest point of the parabola.
 #[test]
 fn a_width_pulled_at_one_edge() {
     let (body, brent) = (parabola(2.0), Brent::default());
@@ -142,7 +144,7 @@ fn a_width_pulled_at_one_edge() {
     }
 }
 
-/// Beside so narrow a contact there is no balance within many widths: the error says so.
+/// Around so narrow a contact there is no balance within many widths: the error says so.
 #[test]
 fn a_width_pulled_far_away_ends() {
     let (body, brent) = (parabola(2.0), Brent::default());
@@ -162,8 +164,8 @@ fn a_width_pulled_far_away_ends() {
     }
 }
 
-/// A width after another one that a corner has held is the same as from nothing, and takes about as many
-/// evaluations. Held: F = L²/2 - L c, the free edge on the left; let go: F = L²/2.
+/// A width after another one that a corner has held gives the result of a cold solve, at about the
+/// same number of evaluations. Held: F = L²/2 - L c, the free edge on the left; let go: F = L²/2.
 #[test]
 fn a_width_after_one_held_by_a_corner() {
     let evaluations = |steep: f64, corner: f64, half_widths: [f64; 2]| {

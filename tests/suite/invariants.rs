@@ -1,5 +1,5 @@
-//! What must not change, or must change in a known way, when the same contact is given differently:
-//! random scenes, always the same ones.
+//! Results that must not change, or must change in a known way, if the same contact is given
+//! differently: random scenes, the same in every run.
 #![allow(missing_docs)]
 
 use crate::common::NanSafe;
@@ -14,15 +14,15 @@ use scene::{Bodies, Body, Part, Scene, Term, scenes};
 
 const EPSILON: f64 = f64::EPSILON;
 
-/// A solved contact, with what it says of its errors.
+/// Solved contact with its error estimates.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
     left: f64,
     right: f64,
     load: f64,
-    /// Absolute, of the limits.
+    /// Absolute error of the limits.
     error: f64,
-    /// At five places along the contact, with their errors.
+    /// Pressures at five places along the contact, with their errors.
     pressures: [[f64; 2]; PLACES.len()],
 }
 
@@ -64,7 +64,7 @@ impl Answer {
         Self { left: self.left + by, right: self.right + by, ..self }
     }
 
-    /// The same bits.
+    /// Tells whether both answers have the same bits.
     fn is_exactly(&self, other: &Self) -> bool {
         let bits = |a: &Self| {
             [a.left, a.right, a.load, a.pressures[1][0], a.pressures[4][0]].map(f64::to_bits)
@@ -72,7 +72,7 @@ impl Answer {
         bits(self) == bits(other)
     }
 
-    /// The same within the errors that both of them own up to, and rounding of the limits.
+    /// Checks that both limits agree within their estimates and the rounding of the limits.
     fn agrees(&self, other: &Self) -> Result<(), String> {
         let half_width = 0.5 * (self.right - self.left);
         let rounding = 4.0 * EPSILON * (self.left.abs().max(self.right.abs()) + half_width);
@@ -92,14 +92,14 @@ impl Answer {
         Ok(())
     }
 
-    /// So do the pressures.
+    /// Checks that limits and pressures agree.
     fn agrees_all(&self, other: &Self) -> Result<(), String> {
         self.agrees(other)?;
         let half_width = 0.5 * (self.right - self.left);
         let moved = EPSILON * (self.left.abs().max(self.right.abs()) / half_width + 1.0);
         for (i, z) in PLACES.into_iter().enumerate() {
             let ([one, e_one], [two, e_two]) = (self.pressures[i], other.pressures[i]);
-            // The places are those of either's own limits.
+            // The places depend on the limits of each answer.
             let steep = self.load / half_width / (1.0 - z * z);
             let limits = (self.error + other.error) / half_width;
             let allowed = 2.0 * (e_one + e_two) + 4.0 * steep * (moved + limits);
@@ -116,8 +116,8 @@ fn base(scene: &Scene) -> Answer {
     Answer::of(scene.bodies(), scene.kappa, Control::HalfWidth(scene.half_width))
 }
 
-/// The same, where the slopes are rounded anew: with what rounding them all the same way can do to the
-/// limits, which no solver can see.
+/// Returns the base answer with a wider error, for slopes that are rounded anew. A common rounding
+/// of all slopes shifts the limits, which no solver can detect.
 fn rounded(scene: &Scene, common: f64) -> Answer {
     let wanted = base(scene);
     let size = common + scene.size(wanted.left).max(scene.size(wanted.right));
@@ -127,7 +127,7 @@ fn rounded(scene: &Scene, common: f64) -> Answer {
     Answer { error: wanted.error + 2.0 * EPSILON * size * off / tilt, ..wanted }
 }
 
-/// The scene under the load that its half-width takes, changed.
+/// Solves changed bodies under the load of the scene's half-width.
 fn changed(scene: &Scene, load: f64, bodies: [Body<f64>; 2]) -> Answer {
     Answer::of(bodies, scene.kappa, Control::Load(load))
 }
@@ -286,7 +286,7 @@ proptest! {
     }
 }
 
-/// A piece by a parameter in which x runs unevenly, rising or falling.
+/// Returns a piece with an uneven parameter, along which x rises or falls.
 fn by_sinh(part: Part<f64>, bend: f64, falling: bool) -> Part<f64> {
     let [from, to] = part.domain;
     let (half, sign) = (0.5 * (to - from), if falling { -1.0 } else { 1.0 });

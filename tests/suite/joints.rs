@@ -8,18 +8,18 @@ use linecontact::{Control, Curve, CurvePoint, Piecewise, PiecewiseError};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A body in pieces.
+/// Body in pieces.
 struct Body {
-    /// Of each piece `[Y, Y']` by x.
+    /// Height and slope `[Y, Y']` of each piece by x.
     height: Box<dyn Fn(usize, f64) -> [f64; 2] + Send + Sync>,
-    /// The ends of each.
+    /// Ends of each piece.
     ends: Vec<[f64; 2]>,
-    /// How high it is.
+    /// Height of the body.
     size: f64,
 }
 
-/// Scallops, waves cut at their zeros, and wedges, at x = 0 or far from it. A piece ends where the next starts but
-/// for rounding: the one place is a sum, the other a product.
+/// Returns scallops, waves cut at their zeros, or wedges, at x = 0 or far from it. Neighbouring
+/// ends differ by rounding: one is a sum, the other a product.
 fn body(dice: &mut Dice) -> Body {
     let pieces = 2 + (6.0 * dice.uniform()) as usize;
     let [size, period] = [dice.power_of_ten(-6.0, 3.0), dice.power_of_ten(-3.0, 2.0)];
@@ -50,7 +50,7 @@ fn body(dice: &mut Dice) -> Body {
     Body { height, ends: ends.collect(), size }
 }
 
-/// A body with X and Y scaled, and lifted from one piece on.
+/// Returns a body with X and Y scaled, and lifted from one piece on.
 fn built(
     body: &Arc<Body>,
     [wide, high]: [f64; 2],
@@ -67,8 +67,8 @@ fn built(
     Piecewise::new(body.ends.iter().enumerate().map(piece).collect())
 }
 
-/// In any unit of X and of Y pieces are joined that meet at Y = 0 but for rounding, and none that has a step a
-/// thousand times as high as the rounding of Y, and of X where it is steep.
+/// In any unit of X and Y, pieces that meet at Y = 0 to within rounding are joined. A step a
+/// thousand times the rounding of Y, or of X on a steep piece, is refused.
 #[test]
 fn random_joints_at_height_zero() {
     let (mut refused, mut passed, scenes) = (Vec::new(), Vec::new(), 2000);
@@ -91,7 +91,7 @@ fn random_joints_at_height_zero() {
     assert!(passed.is_empty(), "{:?}", passed[0]);
 }
 
-/// What is long and level has no height by which a step could be nothing.
+/// A long, level body has no height by which a step could be negligible.
 #[test]
 fn steps_on_long_flat_bodies_are_refused() {
     let level = |from: f64, to: f64, up: f64| graph(from, to, move |_| [up, 0.0]);
@@ -109,7 +109,7 @@ fn steps_on_long_flat_bodies_are_refused() {
     }
 }
 
-/// Nor does a step pass where the pieces are upright.
+/// A step is also refused where the pieces are upright.
 #[test]
 fn steps_beside_upright_ends_are_refused() {
     let arc = |from: f64, to: f64, up: f64| -> Profile {
@@ -125,7 +125,8 @@ fn steps_beside_upright_ends_are_refused() {
     assert!(matches!(error, PiecewiseError::Jump { .. }), "{error}");
 }
 
-/// `|T₃|/3`, cut at the zeros of the polynomial, touches on the preimages of a wedge's contact, `|v| ≤ π F/2`.
+/// `|T₃|/3`, cut at the zeros of the polynomial, touches on the preimages of a wedge's contact,
+/// `|v| ≤ π F/2`.
 #[test]
 fn a_polynomial_cut_at_its_zeros() {
     let zeros: Vec<f64> = (0..3).map(|i| -(PI * (2.0 * f64::from(i) + 1.0) / 6.0).cos()).collect();

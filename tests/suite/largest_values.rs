@@ -1,16 +1,17 @@
-//! Largest pressures and stresses of random bodies, against places that crowd at all that could hide a larger one.
+//! Largest pressures and stresses of random bodies, against values at places that crowd wherever a
+//! larger one could hide.
 //!
-//! Scene i is the same wherever it is run. `SCENES=n` in the environment runs n scenes of each test.
+//! Scene i is the same in every run. `SCENES=n` in the environment runs n scenes of each test.
 #![allow(missing_docs)]
 
 use crate::common::{self, Profile, Shares, graph, join};
 use linecontact::profile::Spline;
 use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, Solution};
 
-/// Places at which a pressure is compared with the largest.
+/// Number of places at which a pressure is compared with the largest.
 const PLACES: usize = 10_000;
 
-/// A body, the places where its pieces meet, and a load.
+/// Body, joints of its pieces, and a load.
 struct Body {
     family: &'static str,
     profile: Profile,
@@ -22,8 +23,8 @@ fn power_of_ten(dice: &mut Shares, from: f64, to: f64) -> f64 {
     10f64.powf(dice.between(from, to))
 }
 
-/// Parabolas of these curvatures that meet at `joints`, where the slope jumps up by `jumps`; height and slope are
-/// zero at 0.
+/// Returns parabolas of these curvatures that meet at `joints`, where the slope jumps up by
+/// `jumps`; height and slope are zero at 0.
 fn pieces([from, to]: [f64; 2], joints: &[f64], curvatures: &[f64], jumps: &[f64]) -> Profile {
     let ends: Vec<f64> = [from].into_iter().chain(joints.iter().copied()).chain([to]).collect();
     let middle = ends[1..].iter().position(|&end| end > 0.0).expect("0 lies on a piece");
@@ -31,7 +32,8 @@ fn pieces([from, to]: [f64; 2], joints: &[f64], curvatures: &[f64], jumps: &[f64
         let t = x - x0;
         [x, y + t * (dy + 0.5 * c * t), dy + c * t]
     };
-    // A point of each piece: the middle one starts at 0, the others where they meet the one before.
+    // A point of each piece: the middle one starts at 0, the others at the joint with their
+    // neighbour.
     let mut starts = vec![[0.0; 3]; curvatures.len()];
     for i in middle + 1..curvatures.len() {
         let [x, y, dy] = at(starts[i - 1], curvatures[i - 1], ends[i]);
@@ -68,7 +70,7 @@ fn arcs(dice: &mut Shares) -> Body {
     Body { family: "arcs", profile, joints, load: power_of_ten(dice, -4.0, 0.0) }
 }
 
-/// A polygon with rounded faces: infinite at each corner.
+/// Returns a polygon with rounded faces: the pressure is infinite at each corner.
 fn polygon(dice: &mut Shares) -> Body {
     let count = 2 + dice.between(0.0, 5.0) as usize;
     let mut joints: Vec<f64> = (1..count).map(|_| dice.between(-1.0, 1.0)).collect();
@@ -104,7 +106,8 @@ fn body(number: u64) -> Body {
     [punch, arcs, polygon, waves, spline][(number % 5) as usize](&mut dice)
 }
 
-/// Places inside a contact, half of them even in the angle and half graded to the limits and joints.
+/// Returns places inside a contact, half of them uniform in the angle and half graded to the limits
+/// and joints.
 fn places(on: Interval<f64>, joints: &[f64], count: usize) -> Vec<f64> {
     let inside = joints.iter().copied().filter(|&joint| on.contains(joint));
     let ends: Vec<f64> = [on.left].into_iter().chain(inside).chain([on.right]).collect();
@@ -125,7 +128,8 @@ fn places(on: Interval<f64>, joints: &[f64], count: usize) -> Vec<f64> {
     places
 }
 
-/// By how much of the peak a pressure lies above it, beyond its own error.
+/// Returns the largest excess of a pressure over the peak, beyond its error, as a share of the
+/// peak.
 fn pressure_above(solution: &Solution<f64>, body: &Body) -> f64 {
     let pressure = solution.pressure().unwrap();
     let contacts: Vec<Interval<f64>> = common::intervals(solution);
@@ -150,7 +154,7 @@ fn pressure_above(solution: &Solution<f64>, body: &Body) -> f64 {
     above
 }
 
-/// Shows the solutions of the first scenes, and counts them; what is refused is printed.
+/// Passes the solutions of the first scenes to `look` and counts them; prints refused scenes.
 fn scenes(count: u64, mut look: impl FnMut(u64, &Body, &Solution<f64>)) -> u64 {
     let count = std::env::var("SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(count);
     let mut solved = 0;
@@ -181,7 +185,7 @@ fn no_pressure_is_above_the_peak() {
     assert!(wrong.is_empty(), "{} of {solved}: {wrong:#?}", wrong.len());
 }
 
-/// Places and depths graded to the limits, the joints and the surface.
+/// Returns places and depths graded to the limits, the joints and the surface.
 fn graded(on: Interval<f64>, joints: &[f64]) -> Vec<[f64; 2]> {
     let (half_width, inside) =
         (on.half_width(), joints.iter().filter(|&&joint| on.contains(joint)));
@@ -204,7 +208,7 @@ fn graded(on: Interval<f64>, joints: &[f64]) -> Vec<[f64; 2]> {
 fn no_stress_is_above_the_largest() {
     let mut wrong = Vec::new();
     let solved = scenes(8, |number, body, solution| {
-        // An integral over so many pieces takes long.
+        // An integral over so many pieces takes too long.
         if body.family == "spline" {
             return;
         }

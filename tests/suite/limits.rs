@@ -1,5 +1,5 @@
-//! The limits a and b: against 25-digit references, from poor starts, under the symmetries of
-//! the problem, and by every strategy.
+//! The limits a and b: against 25-digit references, from poor starts, under the symmetries of the
+//! problem, and by every search.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -39,7 +39,8 @@ fn every_strategy_serves_for_either_search() {
             for contact in
                 [scene.contact().limit_search(strategy), scene.contact().inversion(strategy)]
             {
-                // Bisection of a curve with its zero at k = 0 goes on to the smallest number.
+                // Bisection of a curve with its zero at k = 0 continues down to the smallest
+                // number.
                 let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
                 assert_close(solution.a(), want.a, scene.accuracy);
                 assert_close(solution.b(), want.b, scene.accuracy);
@@ -48,7 +49,7 @@ fn every_strategy_serves_for_either_search() {
     }
 }
 
-/// A pair of bodies without any symmetry, and their limits.
+/// Returns a pair of bodies without any symmetry, and their limits.
 fn lopsided() -> (impl Fn(f64) -> [f64; 2] + Copy, f64) {
     (|x: f64| [x * x / 2.0 + x * x * x / 5.0 + x.powi(4), x + 0.6 * x * x + 4.0 * x.powi(3)], 0.03)
 }
@@ -75,7 +76,7 @@ fn mirror_swap_shift_and_scale() {
     });
     assert_pair(limits_of(&Flat, &*mirrored), [a, b], 4e-15);
 
-    // The gap decides, not which body is curved: turned upside down it is the lower one.
+    // Only the gap matters, not which body is curved: upside down it is the lower one.
     let below = graph(-0.8, 0.8, move |x| f(x).map(|v| -v));
     assert_pair(limits_of(&*below, &Flat), [b, a], 4e-15);
 
@@ -87,7 +88,7 @@ fn mirror_swap_shift_and_scale() {
     });
     assert_pair(limits_of(&Flat, &other), [b, a], 4e-15);
 
-    // A common tilt and bend changes nothing.
+    // A common tilt and bend has no effect.
     let bent = |x: f64| [0.3 * x - x * x, 0.3 - 2.0 * x];
     let sum = move |x: f64| [f(x)[0] + bent(x)[0], f(x)[1] + bent(x)[1]];
     let both = limits_of(&*graph(-0.8, 0.8, bent), &*graph(-0.8, 0.8, sum));
@@ -138,7 +139,7 @@ fn single_precision() {
 
 #[test]
 fn units_do_not_decide() {
-    // A flat bottom with parabolic shoulders carries nothing until it reaches them.
+    // A flat bottom with parabolic shoulders carries nothing until the contact reaches them.
     let shoulder = |x: f64, at: f64| [(x - at).powi(2) / 2.0, x - at];
     let body = join(vec![
         graph(-3.0, -1.0, move |x| shoulder(x, -1.0)),

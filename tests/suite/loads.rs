@@ -1,4 +1,4 @@
-//! The four ways to say how hard the bodies are pressed together lead to the same contact.
+//! The four ways to prescribe the pressing lead to the same contact.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -9,7 +9,7 @@ use linecontact::search::Brent;
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
 use std::f64::consts::PI;
 
-/// What is known of a contact: C, the half-width, the largest pressure.
+/// Known values of a contact: limits, C, and the largest pressure.
 struct Known {
     a: f64,
     b: f64,
@@ -23,7 +23,7 @@ fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
     let ways = [
         (Control::Load(c / PI), 1.0),
         (Control::HalfWidth(half_width), 1.0),
-        // The peak is known to rounding, and so is the half-width that goes with it.
+        // The peak is known to rounding, and so is the resulting half-width.
         (Control::PeakPressure(peak), 10.0),
     ];
     for (load, factor) in ways {
@@ -47,7 +47,7 @@ fn hertz_by_each_of_them() {
         let c = PI * kappa * l * l / (2.0 * radius);
         let known = Known { a: l, b: l, c, peak: kappa * l / (PI * radius) };
         check(&contact, &known, 2e-15);
-        // Whatever the start.
+        // From any start.
         for reach in [1e-3, 2.0] {
             let start = Interval { left: -reach, right: 0.3 * reach };
             check(&contact.clone().start(start), &known, 4e-15);
@@ -67,7 +67,7 @@ fn the_papers_example_3_by_each_of_them() {
 
 #[test]
 fn a_pressure_that_is_largest_beside_the_middle() {
-    // |x|⁶/6 has two peaks. The peak that a contact turns out to have leads back to it.
+    // |x|⁶/6 has two peaks. The computed peak of a contact leads back to it.
     let body = power(6.0);
     let want = reference("power_n_6");
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(want.kappa);
@@ -133,7 +133,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     let load = l * l / 2.0 - 2.0 * (work * l).sqrt();
     assert_relative_eq!(solution.load(), load, epsilon = 0.0, max_relative = 1e-14);
     assert_relative_eq!(solution.a(), l, epsilon = 0.0, max_relative = 1e-15);
-    // Also where it is not the one that grows with the load.
+    // Also for a contact that does not grow with the load.
     let narrow = adhesive.solve(Control::HalfWidth(0.1)).unwrap();
     let load = 0.005 - 2.0 * (work * 0.1).sqrt();
     assert_relative_eq!(narrow.load(), load, epsilon = 0.0, max_relative = 1e-14);
@@ -141,8 +141,8 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     assert_eq!(error, ContactError::PeakEdge { edge: Edge::Adhesive(work) });
 }
 
-/// The load that a given width takes, found by a search of one unknown at a time: with an adhesive edge
-/// it is less by the pull, with a fixed one it is what the other edge asks for.
+/// Load of a given width, by a search of one unknown at a time: an adhesive edge lowers it by the
+/// pull, a fixed edge leaves it to the condition at the other edge.
 #[test]
 fn a_width_by_a_search_takes_the_load_of_its_edges() {
     let contact = on_flat(parabola(1.0)).limit_search(&SEARCH);
@@ -178,7 +178,7 @@ fn the_error_says_that_the_bodies_are_too_short() {
         assert_relative_eq!(load, 0.5, epsilon = 0.0, max_relative = 1e-14);
         assert_relative_eq!(peak, 1.0 / PI, epsilon = 0.0, max_relative = 1e-14);
         too_high(&contact, value / PI, 1.0, 1.0 / PI);
-        // Where the contact reaches the shorter side, or a corner.
+        // The contact reaches the shorter side, or a corner.
         let short = graph(-3.0, 0.7, |x| [x * x / 2.0, x]);
         too_high(&Contact::new(&Flat, &*short).unwrap(), value / PI, 0.7, 0.7 / PI);
         for edges in
@@ -202,7 +202,7 @@ fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
 
 #[test]
 fn a_peak_too_high_is_measured_against_the_widest_contact_there_is_room_for() {
-    // No closed form: a little narrower there is a contact, a little wider none.
+    // No closed form: slightly below this half-width there is a contact, slightly above none.
     for sign in [1.0, -1.0] {
         let contact = on_flat(graph(-0.5, 0.5, move |x| {
             [x * x / 2.0 + sign * x.powi(3) / 5.0, x + sign * 0.6 * x * x]
@@ -233,7 +233,7 @@ fn half_widths_up_to_the_ends_of_the_bodies() {
 
 #[test]
 fn a_contact_may_fill_the_bodies() {
-    // F = L²/2, whichever way it is looked for, and however the half-width is rounded.
+    // F = L²/2, by any search, and for any rounding of the half-width.
     let brent = Brent::default();
     for i in 0..200 {
         let l = 0.3 + 0.017 * f64::from(i);

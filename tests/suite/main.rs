@@ -1,4 +1,4 @@
-//! All that is tested without features, as one program: the solver is compiled but once.
+//! All tests without features, as one program, so that the solver is compiled only once.
 #![allow(missing_docs)]
 
 #[path = "../common/boundary_elements.rs"]

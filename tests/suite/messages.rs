@@ -1,4 +1,4 @@
-//! Each message of an error names the values that it was given, and says what to do.
+//! Each error message names the values of the error, and suggests a remedy.
 #![allow(missing_docs)]
 
 use linecontact::profile::{Parabola, SplineError, rounded_punch, wedge};
@@ -13,7 +13,8 @@ use ErrorKind::{Evaluation, Input, Solve};
 
 const ON: Interval<f64> = Interval { left: -11.5, right: 12.5 };
 
-/// An error of each kind, whose numbers differ; what else its message has to say; and its kind.
+/// Returns an error of each variant with distinct numbers, further words of its message, and its
+/// kind.
 fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
     let not_finite = ProfileError::NotFinite { quantity: "Y'", k: 21.5, value: f64::NAN };
     let astray = SearchError::NotConverged { x: 22.5, residual: 23.5 };
@@ -211,7 +212,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
     ]
 }
 
-/// The numbers of at least so many characters that an error shows, without their signs.
+/// Returns the numbers of at least `least` characters that an error shows, without their signs.
 fn numbers(shown: &str, least: usize) -> impl Iterator<Item = f64> {
     let parts = shown.split(|c: char| !c.is_ascii_digit() && c != '.');
     parts.filter(move |part| part.len() >= least).filter_map(|part| part.parse().ok())
@@ -256,7 +257,7 @@ fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
     assert!(words.iter().all(|word| lifts.contains(word)), "{lifts}");
 }
 
-/// Six digits, more where two numbers differ only behind them, and all where one is to be copied.
+/// Six digits; more if two numbers differ only beyond them; all if the number is to be copied.
 #[test]
 fn messages_have_the_digits_that_tell_something() {
     let (half_width, end, peak) = (0.123_456_789, 0.987_654_321_012, 5.415_062_361_294_345);
@@ -279,7 +280,8 @@ fn messages_have_the_digits_that_tell_something() {
     assert!(message.contains("0 at x = -inf and 0 at x = inf"), "{message}");
 }
 
-/// Of what is asked for, what is found and what helps, in scenes that have such an error.
+/// Messages name the prescribed value, the value found and the remedy, in scenes with such an
+/// error.
 #[test]
 fn a_width_that_nobody_asked_for_is_said_to_be_one_that_was_tried() {
     let groove = Parabola::new(3.0, [-1.5, 1.5]).unwrap();

@@ -1,19 +1,20 @@
-//! Bumps in and beside a contact that are narrower than the distance of the points of a survey, or of nodes.
+//! Bumps in and next to a contact that are narrower than the spacing of survey points or nodes.
 
 use crate::random_scenes::Dice;
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
 
-/// The full width at half height of a bump, as a share of the contact.
+/// Full width at half height of a bump, as a share of the contact.
 const WIDTH: f64 = 0.02;
 
-/// The gap beside Hertz's contact under load, over the square of the half-width, at ξ half-widths: Johnson, *Contact
-/// Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
+/// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
+/// half-widths: Johnson, *Contact Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
 fn hertz_gap(xi: f64) -> f64 {
     let root = (xi * xi - 1.0).sqrt();
     0.5 * (xi * root - (xi + root).ln())
 }
 
-/// A body on [-1, 1], of a height and a slope, with a bump or a dent, cut into pieces at some places.
+/// Returns a body on [-1, 1] with this height and slope and a bump or a dent, cut into pieces at
+/// some places.
 fn dimpled(
     smooth: fn(f64) -> [f64; 2],
     place: f64,
@@ -32,8 +33,8 @@ fn dimpled(
     Piecewise::new(ends.windows(2).map(piece).collect()).unwrap()
 }
 
-/// The peak of a body with a bump, and of the same body in pieces that end on the flanks of the bump, which show it
-/// whatever their nodes.
+/// Returns the peak of a body with a bump, and of the same body in pieces that end on the flanks of
+/// the bump, which resolve it with any nodes.
 fn peaks(
     smooth: fn(f64) -> [f64; 2],
     [place, sigma, height]: [f64; 3],
@@ -48,12 +49,12 @@ fn peaks(
     Some([peak(&[])?, peak(&cuts)?])
 }
 
-/// A bump that is higher than the gap at its top touches.
+/// A bump higher than the gap at its top touches.
 #[test]
 fn no_bump_of_two_per_cent_beside_a_contact_is_missed() {
     let scenes = std::env::var("SCENES").map_or(300, |count| count.parse().unwrap());
     let (mut missed, mut refused) = (Vec::new(), 0);
-    // Those by name: a foot that is next to nothing, and a bump that begins at a limit.
+    // Seeds by number: a foot of almost no height, and a bump that begins at a limit.
     for seed in (0..scenes).chain([484, 878, 1175, 1573]) {
         let mut dice = Dice::new(seed);
         let half = dice.power_of_ten(-3.0, -0.4);
@@ -80,7 +81,7 @@ fn no_bump_of_two_per_cent_beside_a_contact_is_missed() {
     assert!(missed.is_empty(), "{} of {scenes}:\n{}", missed.len(), missed.join("\n"));
 }
 
-/// Bumps and dents of a height that moves the peak by 1 % or more.
+/// Bumps and dents that move the peak by 1 % or more.
 #[test]
 fn no_bump_of_two_per_cent_inside_a_contact_is_missed() {
     let scenes = std::env::var("SCENES").map_or(300, |count| count.parse().unwrap());
@@ -90,7 +91,7 @@ fn no_bump_of_two_per_cent_inside_a_contact_is_missed() {
         let half = dice.power_of_ten(-3.0, -0.4);
         let xi = dice.within(-1.0, 1.0);
         let sigma = WIDTH * 2.0 * half / (8.0 * 2f64.ln()).sqrt();
-        // A slope of 1 to 10 % of that at the limits.
+        // A slope of 1 to 10 % of the slope at the limits.
         let height = half * sigma * dice.power_of_ten(-2.0, -1.0);
         let height = if dice.uniform() < 0.5 { -height } else { height };
         let bump = [xi * half, sigma, height];

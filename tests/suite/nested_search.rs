@@ -1,5 +1,5 @@
-//! Limits by a search of one unknown at a time: every kind of edge and of load, against closed forms,
-//! what it takes, and what its errors say.
+//! Limits by a search of one unknown at a time: every kind of edge and of load against closed
+//! forms, evaluation counts, and error messages.
 #![allow(missing_docs)]
 
 use crate::edges::{KAPPA, Quadratic, WORK, wanted};
@@ -12,10 +12,10 @@ use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
 };
 
-/// First contact is at x = 0.2707, on bodies that reach farther to the right.
+/// Slope with first contact at x = 0.2707, for bodies that extend farther to the right.
 const BENT: Quadratic = Quadratic([-0.3, 1.0, 0.4]);
 
-/// The same turned round.
+/// Returns the mirror image.
 fn mirrored(Quadratic([g0, g1, g2]): Quadratic) -> Quadratic {
     Quadratic([-g0, g1, -g2])
 }
@@ -24,11 +24,11 @@ fn first_contact(Quadratic([g0, g1, g2]): Quadratic) -> f64 {
     -2.0 * g0 / (g1 + (g1 * g1 - 4.0 * g0 * g2).sqrt())
 }
 
-/// With it every contact tried takes evaluations of its own.
+/// Rule with which every trial contact takes evaluations of its own.
 const RULE: Midpoint =
     Midpoint { segments: 32, extrapolations: 2, exponents: Exponents::HalfInteger };
 
-/// Evaluations are those kept, in a table of lines for bisection, secant, Brent and Newton.
+/// Asserts the kept evaluation counts: rows for bisection, secant, Brent and Newton.
 fn check<const N: usize>(kept: &[[usize; 4]; N], found: &[[usize; 4]; N]) {
     let all = kept.as_flattened().iter().zip(found.as_flattened());
     let same = all.into_iter().all(|(&kept, &found)| counts_agree(kept as f64, found as f64));
@@ -142,8 +142,8 @@ const NOT_CONVEX: [[usize; 4]; 6] = [
 
 #[test]
 fn up_to_the_most_that_a_gap_bears() {
-    // g = u + 3 u²: c + 3 c² + 3 L²/2 = 0 and F = L² sqrt(1 - 18 L²)/2, at most 0.010692. No contact
-    // is in balance beyond L = sqrt(1/18).
+    // g = u + 3 u²: c + 3 c² + 3 L²/2 = 0 and F = L² sqrt(1 - 18 L²)/2, at most 0.010692. No
+    // contact is in balance beyond L = sqrt(1/18).
     let place = 0.3;
     let body = graph(place - 1.0, place + 1.0, move |x| {
         let u = x - place;
@@ -194,7 +194,7 @@ fn a_width_beyond_the_bodies_names_the_end() {
                     panic!("{error}")
                 };
                 assert_eq!(wanted, half_width);
-                // With that end as its limit, and c₀ = 0.
+                // The contact with that end as its limit, and c₀ = 0.
                 let way = if end < 0.0 { 1.0 } else { -1.0 };
                 let inner = end + way * 2.0 * room;
                 let on = Interval { left: end.min(inner), right: end.max(inner) };
@@ -274,7 +274,7 @@ const PRESSURES: [[usize; 4]; 4] = [
 
 #[test]
 fn pressures_wanted_at_a_distance() {
-    // Of Hertz: P = κ sqrt(L² - u²)/π. The rule of 32 segments adds an error of its own.
+    // Hertz: P = κ sqrt(L² - u²)/π. The rule of 32 segments adds an error of its own.
     let (place, l) = (0.3, 0.4f64);
     let load = KAPPA * l * l / 2.0;
     let body = graph(place - 0.9, place + 1.1, move |x| [(x - place).powi(2) / 2.0, x - place]);
@@ -309,7 +309,8 @@ fn pressures_wanted_at_a_distance() {
 
 #[test]
 fn pressures_missed_are_those_of_the_best_contact() {
-    // A search that stops early; the pressures at the two places are those between fixed limits.
+    // A search that stops early; the expected pressures at both places are those between fixed
+    // limits.
     let (load, distances) = (0.1, [0.07, 0.03]);
     let body = BENT.body(-0.5, 1.1);
     let [at_a, at_b] = [0.05, 0.04];
@@ -337,7 +338,7 @@ fn pressures_missed_are_those_of_the_best_contact() {
     let at = |x| pressure.estimate(x, &mut Default::default()).unwrap().value;
     let exact = [at(best.right - distances[0]) - at_a, at(best.left + distances[1]) - at_b];
     assert_relative_eq!(by[..], exact[..], epsilon = 0.0, max_relative = 1e-9);
-    // Either alone is enough to refuse it.
+    // Either residual alone is enough for a refusal.
     let [most_a, most_b] = by.map(|by| 2.0 * by.abs());
     let one = missed(EdgePressure { tolerance_a: most_a, ..wanted });
     let other = missed(EdgePressure { tolerance_b: most_b, ..wanted });

@@ -1,11 +1,11 @@
-//! What the rounding of formulas leaves: slopes with noise, and heights that are nothing but rounding.
+//! Rounding of formulas: slopes with noise, and heights that consist of rounding.
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, graph, on_flat};
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval, ParametricProfile};
 use std::f64::consts::PI;
 
-/// Between -1 and 1, at random but the same for the same k.
+/// Returns a number between -1 and 1, random but the same for the same k.
 fn hash(k: f64) -> f64 {
     let mut bits = k.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
     bits = (bits ^ (bits >> 32)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
@@ -13,8 +13,8 @@ fn hash(k: f64) -> f64 {
     (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Solves parabolas whose slope is noisy, at 40 levels a decade: what one of them takes, and how its error
-/// compares with its estimate, is a matter of luck.
+/// Solves parabolas with noisy slopes, at 40 levels a decade: the cost of one of them, and the
+/// ratio of its error to its estimate, are a matter of luck.
 fn check_noise(powers: std::ops::Range<i32>) {
     let l = 0.4;
     let levels = powers.clone().flat_map(|power| {
@@ -41,7 +41,7 @@ fn check_noise(powers: std::ops::Range<i32>) {
             let got = pressure.estimate(x, &mut Cost::default()).unwrap();
             let error = (got.value - exact).abs();
             assert!(error <= 20.0 * noise, "noise {noise:e}: P({x}) is off by {error:e}");
-            // Known from a few coefficients only.
+            // The noise is known from a few coefficients only.
             assert!(error <= 4.0 * got.error, "P({x}): {error:e}, said to be {:e}", got.error);
         }
     }
@@ -62,8 +62,8 @@ fn much_noise_is_seen_reported_and_not_followed() {
     check_noise(-8..-3);
 }
 
-/// The circle of radius 1 under F = L²/2, where its height `1 - cos k` keeps few digits or none;
-/// the slope, which counts, keeps all.
+/// Solves the circle of radius 1 under F = L²/2, where its height `1 - cos k` keeps few digits or
+/// none; the slope keeps all digits, and decides.
 fn touch_lightly<T: linecontact::Real>(half_widths: &[f64], tolerance: f64) {
     let circle = Curve::new([-T::one(), T::one()], |k: T| {
         let (sin, cos) = k.sin_cos();
@@ -89,7 +89,7 @@ fn a_circle_whose_height_has_few_digits_or_none() {
     touch_lightly::<f32>(&single, 1e-5);
 }
 
-/// The tooth of a gear, as the angle rolled off beyond the pitch point.
+/// Returns the tooth of a gear, as a function of the angle rolled off beyond the pitch point.
 fn flank(base_radius: f64, side: f64) -> impl ParametricProfile<f64> {
     let pitch = 93.0 / 256.0;
     let scale = side * base_radius;
@@ -104,7 +104,8 @@ fn flank(base_radius: f64, side: f64) -> impl ParametricProfile<f64> {
     })
 }
 
-/// The terms of X are a thousand times larger than the contact: coefficients fall fast and level off.
+/// The terms of X are a thousand times larger than the contact: coefficients fall fast and level
+/// off.
 #[test]
 fn the_rounding_of_involutes_is_not_followed_from_any_start() {
     let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));
@@ -122,7 +123,7 @@ fn the_rounding_of_involutes_is_not_followed_from_any_start() {
     }
 }
 
-/// As in a row of even places from -b to a, the last of which may be an ulp inside.
+/// As in a row of uniform places from -b to a, the last of which may be an ulp inside.
 #[test]
 fn a_pressure_at_a_limit_but_for_rounding_is_a_number() {
     let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));

@@ -1,4 +1,4 @@
-//! The boundary elements that other tests take for an oracle, against closed forms.
+//! The boundary elements used as an oracle by other tests, against closed forms.
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{Oracle, height, solve};
@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 
 const KAPPA: f64 = 1.7;
 
-/// The errors of the limits in units of what the oracle admits and of the width, and the largest error of
-/// a pressure in units of the peak, away from kinks and corners.
+/// Returns the errors of the limits, relative to the oracle's estimates and to the width, and the
+/// largest error of a pressure relative to the peak, away from kinks and corners.
 fn errors(form: &dyn ClosedForm<f64>, oracle: &Oracle) -> [f64; 3] {
     let contacts = form.contacts();
     assert_eq!(oracle.contacts.len(), contacts.len(), "{:?} {contacts:?}", oracle.contacts);
@@ -84,7 +84,7 @@ fn it_agrees_with_closed_forms() {
     }
 }
 
-/// Contacts without a closed form, found by other means: `tests/data/several`.
+/// Contacts without a closed form, from `tests/data/several`.
 #[test]
 fn it_agrees_with_files() {
     type Height = fn(f64) -> f64;
@@ -101,7 +101,7 @@ fn it_agrees_with_files() {
         let want = several(name);
         assert_eq!(oracle.contacts.len(), want.contacts.len(), "{name}");
         assert_eq!(oracle.disagreement(&want.contacts), None, "{name}");
-        // And it does not agree with what is beside the contact, too large or incomplete.
+        // The oracle disagrees with a contact that is displaced, too large or missing.
         for wrong in 0..want.contacts.len() {
             let mut contacts = want.contacts.clone();
             contacts[wrong].right += 2e-3 * contacts[wrong].half_width();

@@ -1,4 +1,4 @@
-//! What bodies bear: the same whatever is asked of them.
+//! Capacity of bodies: independent of the prescribed quantity.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -8,8 +8,8 @@ use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat,
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What a body bears on a flat, κ = 1: load, half-width, peak pressure and the end it reaches. Without a
-/// closed form, NaN.
+/// Body on a flat, κ = 1, with its capacity: load, half-width, peak pressure and the end reached.
+/// NaN without a closed form.
 struct Scene {
     name: String,
     body: Profile,
@@ -17,7 +17,7 @@ struct Scene {
     end: f64,
 }
 
-/// x^1.5 - s x on [0, 4]: c₀ = 0 with one limit at 0 where sqrt(2 L) = π s/3.
+/// Returns x^1.5 - s x on [0, 4]: c₀ = 0 with one limit at 0 if sqrt(2 L) = π s/3.
 fn steep(s: f64) -> Scene {
     let body = graph(0.0, 4.0, move |x: f64| [x * (x.sqrt() - s), 1.5 * x.sqrt() - s]);
     let l = PI * PI * s * s / 18.0;
@@ -25,10 +25,10 @@ fn steep(s: f64) -> Scene {
     Scene { name: format!("x^1.5 - {s} x"), body, bears, end: 0.0 }
 }
 
-/// Two slopes on [-1, 1]: π c₀/2 = m₂ θ₀ - m₁ (π - θ₀) = 0, F = L (m₁ + m₂) sin θ₀/π.
+/// Returns two slopes on [-1, 1]: π c₀/2 = m₂ θ₀ - m₁ (π - θ₀) = 0, F = L (m₁ + m₂) sin θ₀/π.
 fn tip(slopes: [f64; 2]) -> Scene {
     let [m1, m2] = [-slopes[0], slopes[1]];
-    // From the side that is steeper.
+    // From the steeper side.
     let (beta, end) = (PI * m1.min(m2) / (m1 + m2), if m1 > m2 { 1.0 } else { -1.0 });
     let l = 1.0 / (1.0 + beta.cos());
     let bears = [l * (m1 + m2) * beta.sin() / PI, l, f64::INFINITY];
@@ -67,7 +67,7 @@ fn scenes() -> Vec<Scene> {
             }
         })
     };
-    // ln(L (1 + cos θ)) = ln(L/2) - 2 Σ (-1)^k cos kθ/k: c₀ = 0 where L = 2 p, and c₁ = 2.
+    // ln(L (1 + cos θ)) = ln(L/2) - 2 Σ (-1)^k cos kθ/k: c₀ = 0 if L = 2 p, and c₁ = 2.
     let by_log = |p: f64| Scene {
         name: format!("k ln(k/{p}) - k"),
         body: logarithm(p),
@@ -102,7 +102,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Control, half-width, peak and end by the errors for more than that.
+/// Returns the largest control, half-width and peak, and the end, from the error of an overload.
 fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
     match contact.solve(load).map(|solution| (solution.hull(), solution.limits_error())) {
         Err(ContactError::DomainTooShort { carried, half_width, peak, end, .. }) => {
@@ -150,7 +150,7 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
             let _ = contact.solve(load);
             count.load(Ordering::Relaxed) - before
         };
-        // What presses may be a load; a peak takes several loads.
+        // The cost of half the load, or of half the peak, which takes several loads.
         let at_half = half(Control::Load(first[0] / 2.0));
         let at_half = at_half.max(half(Control::PeakPressure(first[2].min(1e300) / 2.0)));
         let mut worst = [0; 3];
@@ -177,7 +177,7 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
             }
         }
         println!("{name}: {first:?}; evaluations {worst:?}, at half of it {at_half}");
-        // A gap that is soon proved convex costs half the load next to nothing.
+        // Half the load costs almost nothing if the gap is soon proved convex.
         let at_half = at_half.max(200);
         if worst.iter().any(|&worst| worst > 20 * at_half) {
             faults.push(format!("{name}: {worst:?} > 20 {at_half}"));
@@ -186,7 +186,7 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
 }
 
-/// More than a body bears is never a contact, by how little or much it ever is.
+/// A load above the capacity never has a contact, however small the capacity or the excess.
 #[test]
 fn no_load_beyond_what_is_borne_has_a_contact() {
     for s in [1.0, 0.3, 0.1] {
@@ -209,13 +209,14 @@ fn no_load_beyond_what_is_borne_has_a_contact() {
 #[test]
 fn a_punch_in_a_groove_bears_nothing_in_one_place() {
     let groove = Parabola::new(3.0, [-1.5, 1.5]).unwrap();
-    // The widest contact in balance would carry -L²/6 by the groove and next to nothing by its edges.
+    // The widest contact in balance would carry -L²/6 by the groove and almost nothing by its
+    // edges.
     let punch = rounded_punch(1.0, 0.1, 1.05).unwrap();
     let contact = Contact::new(&groove, &punch).unwrap();
     // It touches with both of its edges.
     assert_eq!(contact.solve(Control::Load(1e-3)).unwrap().intervals().len(), 2);
     let contact = contact.single_interval(true);
-    // One edge alone is as good as a parabola of its radius, but the other would overlap.
+    // One edge alone has the contact of a parabola of its radius, but the other would overlap.
     let edge = contact.solve(Control::Load(1e-3)).unwrap();
     let half_width = (2.0 * 1e-3 / (1.0 / 0.1 - 1.0 / 3.0f64)).sqrt();
     assert!((edge.hull().half_width() / half_width - 1.0).abs() < 0.02, "{edge:?}");
@@ -227,7 +228,7 @@ fn a_punch_in_a_groove_bears_nothing_in_one_place() {
     }
 }
 
-/// Peaks of bodies with a flat, where they come from.
+/// Peaks of bodies with a flat lead back to their contacts.
 #[test]
 fn a_flat_has_the_contact_of_its_peak() {
     for (flat, radius) in [(1.0f64, 1.0), (1.0, 0.1), (0.1, 5.0)] {
@@ -246,8 +247,9 @@ fn a_flat_has_the_contact_of_its_peak() {
     }
 }
 
-/// Parabola x²/2 on [-1, 1], κ = 1, work of adhesion w at one edge: `P = (L sin θ)/π + (K/2) tan(θ/2)` with θ
-/// from the other edge and `K = -2 sqrt(w/L)/π`. The adhesive limit is at the end where `L + sqrt(w/L) = 1`.
+/// Parabola x²/2 on [-1, 1], κ = 1, work of adhesion w at one edge:
+/// `P = (L sin θ)/π + (K/2) tan(θ/2)` with θ from the other edge and `K = -2 sqrt(w/L)/π`. The
+/// adhesive limit is at the end if `L + sqrt(w/L) = 1`.
 #[test]
 fn the_peak_of_the_widest_contact_with_one_adhesive_edge() {
     let work: f64 = 0.01;

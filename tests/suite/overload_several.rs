@@ -1,4 +1,4 @@
-//! What bodies bear that touch in several places: the same whatever is asked of them.
+//! Capacity of bodies with several contacts: independent of the prescribed quantity.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -7,12 +7,12 @@ use linecontact::{Contact, ContactError, Control, Edge, Flat};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// x⁴ - 2 x² on the flat.
+/// Returns x⁴ - 2 x² on the flat.
 fn quartic(from: f64, to: f64) -> Profile {
     graph(from, to, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
 }
 
-/// Load, half-width, peak and end by the error for more than that.
+/// Returns load, half-width, peak and end from the error of an overload.
 fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {
     match contact.solve(Control::Load(load)).map(|solution| solution.intervals().to_vec()) {
         Err(ContactError::DomainTooShort {
@@ -35,7 +35,7 @@ fn two_contacts_bear_what_the_closed_form_says() {
             let d = 2.0 * (c * c - 1.0);
             let load = PI * d * d / 4.0;
             let p = |v: f64| 2.0 * v.sqrt() * ((d / 2.0).powi(2) - (v - 1.0).powi(2)).sqrt();
-            // 3 v² - 4 v + 1 = d²/4 where v P² is largest.
+            // 3 v² - 4 v + 1 = d²/4 at the maximum of v P².
             let v = (4.0 + (4.0 + 3.0 * d * d).sqrt()) / 6.0;
             let due = [load, c, p(v), if from == -c { -c } else { c }];
             for times in [1.0 + 1e-9, 1.1, 3.0, 1e3, 1e9] {
@@ -98,7 +98,7 @@ fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
         let contact = Contact::new(&Flat, &body).unwrap().edges(edges[0], edges[1]);
         let first = bears(&contact, 1e3);
         let [load, half_width, peak, end] = first;
-        // The load is one: just less has a contact, nearly up to there.
+        // The load is sharp: slightly less has a contact that almost reaches the end.
         body.1.store(0, Ordering::Relaxed);
         let half = contact.solve(Control::Load(load / 2.0)).unwrap();
         let at_half = body.1.load(Ordering::Relaxed);
@@ -131,7 +131,8 @@ fn several_contacts_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
 }
 
-/// Bodies of waves and of two valleys, with and without a corner, and turned by a load in a given line.
+/// Returns bodies of waves or with two valleys, with and without a corner, and turned by a load on
+/// a given line.
 fn random_scene(i: usize, shares: &mut Shares) -> ([f64; 2], Profile, Option<f64>) {
     let mut random = |from: f64, to: f64| shares.between(from, to);
     let [tall, wave, phase] = [random(0.1, 1.0), random(6.0, 30.0), random(0.0, 6.0)];
@@ -151,8 +152,8 @@ fn random_scene(i: usize, shares: &mut Shares) -> ([f64; 2], Profile, Option<f64
     ([from, to], body, (i % 5 == 4).then_some(at))
 }
 
-/// Bodies that are asked for too much: the load that they are said to bear is borne, and closes the gap at an end; a little
-/// more is refused with the same load.
+/// Overloaded bodies: the capacity named by the error is carried, and closes the gap at an end; a
+/// slightly larger load is refused with the same capacity.
 #[test]
 fn random_bodies_bear_what_the_error_says() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(150);
@@ -174,7 +175,7 @@ fn random_bodies_bear_what_the_error_says() {
             Err(ContactError::DomainTooShort { carried, end, .. }) if end == from || end == to => {
                 carried
             }
-            // The slopes tell that an end is the lowest place.
+            // The slopes show that an end is the lowest place.
             Err(ContactError::NoFirstContact { .. }) if at.is_none() => 0.0,
             other => {
                 faults.push(format!("{i}: {other:?}"));
@@ -209,7 +210,7 @@ fn random_bodies_bear_what_the_error_says() {
         match solve(carried * 1.001).map(|_| ()) {
             Err(ContactError::DomainTooShort { carried: again, .. })
                 if (again / carried - 1.0).abs() < 1e-9 => {}
-            // At that place no more than it bears.
+            // At that place at most its capacity.
             Err(ContactError::TiltNotFound { .. }) if at.is_some() => {}
             other => faults.push(format!("{i}: more than {carried}: {other:?}")),
         }

@@ -1,4 +1,4 @@
-//! Curves of a user's own: points in a batch, slopes by x, pieces; by themselves and through pointers.
+//! User-defined curves: points in a batch, slopes by x, pieces; by value and through pointers.
 #![allow(missing_docs)]
 
 use linecontact::profile::{Placed, Placement};
@@ -8,13 +8,13 @@ use linecontact::{Midpoint, Panels, ParametricProfile, Piece, Piecewise, Solutio
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// x = k + k³/5 on the parabola x²/2, so that x has to be inverted.
+/// Returns a point of x = k + k³/5 on the parabola x²/2, so that x has to be inverted.
 fn point(k: f64) -> CurvePoint<f64> {
     let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
     CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
 }
 
-/// The same curve, which takes its points in batches, and counts them.
+/// Curve of [`point`] that evaluates its points in batches, and counts them.
 #[derive(Default)]
 struct Batches {
     batches: AtomicUsize,
@@ -58,7 +58,7 @@ fn points_in_batches_are_those_one_by_one() {
         let alone = batches.alone.load(Relaxed) - alone;
         // F = L²/2
         assert!((solution.a() / 0.2 - 1.0).abs() < 4e-15, "{solution:?}");
-        // Every point that was asked for is counted, and most of those of the panels are in batches.
+        // Every point evaluated is counted, and most of those of the panels are in batches.
         let cost = solution.cost();
         assert_eq!(many + alone, cost.evaluations + cost.heights);
         assert!(many > 0 && (rule == 1 || 2 * many > alone), "{many} {alone}");
@@ -70,7 +70,7 @@ fn points_in_batches_are_those_one_by_one() {
     assert!(batches.batches.load(Relaxed) < batches.in_batches.load(Relaxed));
 }
 
-/// A profile that answers every question in a way of its own.
+/// Profile with its own implementation of every method.
 struct Odd {
     inner: Curve<f64, fn(f64) -> CurvePoint<f64>>,
 }
@@ -112,7 +112,8 @@ fn a_curve_that_is_put_elsewhere_or_joined_is_asked_in_batches_too() {
     assert_eq!(counts(), [before[0] + 1, before[1]]);
     assert_eq!(points, k.map(|k| placed.at(k)));
 
-    // Before it is joined a piece is looked at all along, in one batch, and for its derivatives.
+    // Before it is joined, a piece is checked over its whole length in one batch, and for its
+    // derivatives.
     let before = counts();
     Piecewise::new(vec![batches.clone()]).unwrap();
     let after = counts();

@@ -1,4 +1,4 @@
-//! A quadrature of a user's own: Gauss-Chebyshev sums, and the pressure by the series of the slope.
+//! A user-defined quadrature: Gauss-Chebyshev sums, and the pressure by the series of the slope.
 #![allow(missing_docs)]
 
 use crate::common::{graph, join, on_flat, parabola};
@@ -21,13 +21,13 @@ type Asked<R> = Result<R, ContactError<f64>>;
 #[derive(Default)]
 struct Rule {
     points: usize,
-    /// Integrators made.
+    /// Number of integrators made.
     made: AtomicUsize,
-    /// What the gap says of its breakpoints.
+    /// Breakpoints reported by the gap.
     breakpoints: Option<Arc<Mutex<Vec<Breakpoints>>>>,
 }
 
-/// The range of a gap, its breakpoints rising, and falling.
+/// Range of a gap, and its breakpoints in rising and in falling order.
 type Breakpoints = ([f64; 2], Vec<f64>, Vec<f64>);
 
 #[derive(Clone)]
@@ -35,7 +35,7 @@ struct Sums {
     points: usize,
     sampler: Sampler<f64>,
     on: Interval<f64>,
-    /// The coefficients of the slope.
+    /// Coefficients of the slope.
     series: Vec<f64>,
     breakpoints: Option<Arc<Mutex<Vec<Breakpoints>>>>,
 }
@@ -58,7 +58,7 @@ impl Quadrature<f64> for Rule {
 }
 
 impl Sums {
-    /// The coefficient of cos kθ in the slope over an interval.
+    /// Returns the coefficients of cos kθ, k < K, in the slope over an interval.
     fn coefficients<const K: usize>(
         &mut self,
         gap: &Gap<f64>,
@@ -94,7 +94,7 @@ impl Integrator<f64> for Sums {
         Ok(Moments { m0, m1, m2, l1_norm, error, inversion: 0.0, derivatives: None })
     }
     fn prepare(&mut self, gap: &Gap<f64>, on: Interval<f64>) -> Asked<()> {
-        // What is asked wrongly.
+        // Invalid arguments.
         let (range, mut panels) = (gap.range(), Panels::FULL.integrator()?);
         for x in [range[0] - 1.0, range[1] + 0.5, f64::NAN] {
             let beyond = Sampler::default().slope(gap, x).unwrap_err();
@@ -102,7 +102,7 @@ impl Integrator<f64> for Sums {
             let beyond = panels.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
             assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
         }
-        // An integrator that was not prepared knows nothing.
+        // An integrator that was not prepared has no samples.
         let load_case = LoadCase { kappa: 1.0, load: 1.0, free: Ends::both(true) };
         let unprepared = Midpoint::DEFAULT.integrator()?;
         let estimate = unprepared.estimate(gap, &load_case, on.centre(), &mut Cost::default())?;
@@ -125,7 +125,8 @@ impl Integrator<f64> for Sums {
         }
         Ok(())
     }
-    /// `PV∫ sqrt(1 - t²) U_{n-1}(t)/(z - t) dt = π T_n(z)`, and `2 T_n = U_n - U_{n-2}`.
+    /// Evaluates the pressure by `PV∫ sqrt(1 - t²) U_{n-1}(t)/(z - t) dt = π T_n(z)`, and
+    /// `2 T_n = U_n - U_{n-2}`.
     fn estimate(
         &self,
         _: &Gap<f64>,

@@ -1,4 +1,4 @@
-//! Searches of a user's own that do not do their work: what they leave shows.
+//! User-defined searches that stop early: their errors show.
 #![allow(missing_docs)]
 
 use crate::common::{Strategy, graph, on_flat};
@@ -58,7 +58,7 @@ fn a_sloppy_inversion_shows() {
 
 #[test]
 fn an_inversion_that_stops_where_it_begins_is_an_error() {
-    // The parabola by sinh 40 k: a few steps of Newton's do not invert it.
+    // The parabola by sinh 40 k: a few Newton steps do not invert it.
     let body = Curve::new([-1.0, 1.0], |k: f64| {
         let scale = 40f64.sinh();
         let (x, dx) = ((40.0 * k).sinh() / scale, 40.0 * (40.0 * k).cosh() / scale);

@@ -1,4 +1,4 @@
-//! Solutions are the user's own: returned, kept, cloned, sent.
+//! Solutions are owned values: returned, kept, cloned, sent.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -19,7 +19,7 @@ fn arc(radius: f64) -> impl ParametricProfile<f64> {
     })
 }
 
-/// A parabola whose right half bends more.
+/// Returns a parabola whose right half bends more.
 fn bent() -> impl ParametricProfile<f64> {
     join(vec![
         graph(-1.0, 0.1, |x| [x * x / 2.0, x]),
@@ -27,7 +27,7 @@ fn bent() -> impl ParametricProfile<f64> {
     ])
 }
 
-/// Limits, load and pressures, and what follows from them, bit by bit.
+/// Returns limits, load, pressures and derived results, as bits.
 fn bits(solution: &Solution<f64>) -> Vec<u64> {
     let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let mut pressures = [0.0; 11];
@@ -38,7 +38,7 @@ fn bits(solution: &Solution<f64>) -> Vec<u64> {
     numbers.into_iter().chain(pressures).map(f64::to_bits).collect()
 }
 
-/// Both bodies end with this function.
+/// Solves bodies that are dropped with this function.
 fn of_local_bodies(load: f64) -> Result<Solution<'static, f64>, ContactError<f64>> {
     let (below, above) = (arc(-2.0), bent());
     Contact::owned(Arc::new(below), Arc::new(above))?.solve(Control::Load(load))
@@ -69,7 +69,7 @@ fn settings_outlive_the_function_that_sets_them() {
     let [set, plain] = [scene().unwrap(), plain].map(|of| of.solve(Control::Load(0.02)).unwrap());
     assert!((set.a() / plain.a() - 1.0).abs() < 1e-13, "{set:?}");
     assert!(set.cost().evaluations > plain.cost().evaluations, "{set:?}");
-    // All digits is what each does of itself, too.
+    // Full accuracy is the default of each search.
     assert_eq!((Brent::DEFAULT, Newton::DEFAULT), Default::default());
     assert_eq!((Bisection::DEFAULT, Secant::DEFAULT), Default::default());
     assert_eq!((Midpoint::DEFAULT, Panels::FULL), Default::default());
@@ -97,7 +97,7 @@ fn solutions_that_are_kept_stay_what_they_were() {
     for quadrature in [&Panels::FULL as &dyn Quadrature<f64>, &rule] {
         let contacts = [Contact::new(&below, &above), Contact::new(&Flat, &other)]
             .map(|contact| contact.unwrap().quadrature(quadrature));
-        // The first keeps what it solves, the second drops it before it goes on.
+        // The first solver keeps each solution, the second drops it before the next solve.
         let [mut keeper, mut dropper] = [Solver::new(), Solver::new()];
         let (mut kept, mut seen) = (Vec::new(), Vec::new());
         for (which, load) in [(0, 0.05), (0, 0.04), (0, 0.2), (1, 0.01), (1, 0.03), (0, 0.05)] {
@@ -113,7 +113,7 @@ fn solutions_that_are_kept_stay_what_they_were() {
         for (kept, seen) in kept.iter().zip(&seen) {
             assert_eq!((bits(kept), kept.cost()), *seen);
         }
-        // From nothing a solver gives what the contact gives alone.
+        // A new solver gives the result of the contact alone.
         let load = Control::Load(0.03);
         let first = Solver::new().solve(&contacts[0], load).unwrap();
         assert_eq!(bits(&first), bits(&contacts[0].solve(load).unwrap()));

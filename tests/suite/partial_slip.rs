@@ -1,5 +1,5 @@
-//! Partial slip: against Cattaneo and Mindlin, Nowell and Hills, closed forms of other punches, and the equation of the
-//! stick zone, with integrals of the test's own.
+//! Partial slip: against Cattaneo and Mindlin, Nowell and Hills, closed forms of other punches, and
+//! the equation of the stick zone, with the test's own integrals.
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, worst};
@@ -18,7 +18,7 @@ fn shear(force: f64, tension: f64) -> Shear<f64> {
     Shear { friction: FRICTION, force, tension }
 }
 
-/// `x⁴ - 2x²`.
+/// Returns `x⁴ - 2x²`.
 fn quartic() -> Profile {
     graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
 }
@@ -69,7 +69,8 @@ fn tension_moves_the_stick_zone_as_nowell_and_hills_say() {
     assert!(worst(errors.into_iter().map(f64::abs)) < 1e-14);
 }
 
-/// Ciavarella, Hills and Monno (1998): the stick zone of a rounded punch is its contact under a smaller load.
+/// Ciavarella, Hills and Monno (1998): the stick zone of a rounded punch is its contact under a
+/// smaller load.
 #[test]
 fn a_rounded_punch_sticks_where_a_smaller_load_would_hold_it() {
     let (flat, radius, kappa) = (1.0, 3.0, 0.7);
@@ -90,7 +91,8 @@ fn a_rounded_punch_sticks_where_a_smaller_load_would_hold_it() {
     }
 }
 
-/// The equation of the stick zone, the law of friction and the balance of forces.
+/// Returns the largest error in the equation of the stick zone, the law of friction and the balance
+/// of forces.
 fn check(slip: &PartialSlip<f64>, breakpoints: &[f64]) -> f64 {
     let Shear { friction, force, tension } = slip.shear();
     let (pressure, traction) = (slip.normal().pressure().unwrap(), slip.traction().unwrap());
@@ -115,7 +117,7 @@ fn check(slip: &PartialSlip<f64>, breakpoints: &[f64]) -> f64 {
             }
         }
     }
-    // Nothing that sticks is stretched: with both tractions that is PV∫ q/(x - s) ds = πσ/4.
+    // The stick zone is not stretched: with both tractions, PV∫ q/(x - s) ds = πσ/4.
     for zone in slip.stick_zones() {
         for i in 1..8 {
             let x = zone.at_angle(PI * f64::from(i) / 8.0);
@@ -162,7 +164,7 @@ fn what_sticks_is_not_stretched_and_what_slips_obeys_friction() {
     assert!(largest < 1e-9, "{largest:e}");
 }
 
-/// A force that comes first takes contacts apart: two stick where one presses.
+/// The stick zone is the contact under a smaller load: two zones in one contact.
 #[test]
 fn one_contact_may_stick_in_two_places() {
     let body = quartic();
@@ -186,7 +188,7 @@ fn it_costs_no_evaluation() {
     let slip = solver.partial_slip(&contact, Control::Load(0.3), shear(0.05, 0.0)).unwrap();
     let normal = contact.solve(Control::Load(0.3)).unwrap();
     assert_eq!(slip.normal().cost(), normal.cost());
-    // From the stick zone back to the whole.
+    // From the stick zone back to the whole contact.
     let again = solver.partial_slip(&contact, Control::Load(0.3), shear(0.05, 0.01)).unwrap();
     assert_eq!(again.normal().cost().evaluations, 0);
     assert!((again.normal().a() / slip.normal().a() - 1.0).abs() < 1e-14);
@@ -219,13 +221,13 @@ fn stress_below_is_that_of_pressure_and_traction() {
             errors.push(found.sigma_y - sum(&|p, q, d| p * y.powi(3) + q * y * y * d));
             errors.push(found.tau_xy - sum(&|p, q, d| p * y * y * d + q * y * d * d));
         }
-        // On the surface it is pressure and traction.
+        // On the surface the stress is pressure and traction.
         for x in [0.0, 0.5 * (on.right + zone.right), 1.2] {
             let found = below.at(x, 0.0).unwrap();
             errors.push(found.sigma_y + pressure.at(x).unwrap());
             errors.push(found.tau_xy + sign * traction.at(x).unwrap());
         }
-        // Where it sticks, σ_x of both bodies differs by half of the tension.
+        // In the stick zone σ_x of each body differs from -P by half of the tension.
         let found = below.at(zone.centre(), 0.0).unwrap();
         errors.push(found.sigma_x + pressure.at(zone.centre()).unwrap() + sign * 0.5 * 0.02);
     }
@@ -259,12 +261,12 @@ fn what_does_not_slip_in_part_is_refused() {
         let error = error(shear(force, 0.0));
         assert!(matches!(error, ContactError::SlipsEverywhere { .. }), "{force}: {error}");
     }
-    // Nothing of the difference would be left.
+    // The difference would have no digits left.
     for force in [1e-14, -1e-300] {
         let error = error(shear(force, 0.0));
         assert!(matches!(error, ContactError::SticksEverywhere { .. }), "{force}: {error}");
     }
-    // With the tension alone slip has to reverse; and with too much of it.
+    // With the tension alone, or with too much of it, slip has to reverse.
     for (force, tension) in [(0.0, 0.02), (0.01, 0.2), (-0.01, -0.2)] {
         let error = error(shear(force, tension));
         assert!(matches!(error, ContactError::ReversedSlip { .. }), "{force} {tension}: {error}");

@@ -1,4 +1,4 @@
-//! The largest pressure: where it is, and where there is none.
+//! The largest pressure: its place, and contacts without one.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -86,7 +86,7 @@ fn of_many_pieces_one_of_which_has_a_corner() {
 
 #[test]
 fn an_infinite_peak_is_refused_whatever_its_unit() {
-    // A flat punch, tilted: K > 0 at both edges. And a wedge, of which one point is infinite.
+    // A flat punch, tilted: K > 0 at both edges. And a wedge, infinite at one point.
     for unit in [1e-150, 1e-20, 1.0, 1e20] {
         let contact = on_flat(graph(-1.0, 1.0, |x| [0.1 * x, 0.1])).kappa(unit);
         let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
@@ -102,7 +102,7 @@ fn an_infinite_peak_is_refused_whatever_its_unit() {
     }
 }
 
-/// Every call of a curve while a peak is sought is in the cost.
+/// Every call of a curve during a search for a peak is in the cost.
 #[test]
 fn what_a_given_peak_costs() {
     let calls = AtomicUsize::new(0);
@@ -119,7 +119,8 @@ fn what_a_given_peak_costs() {
     }
 }
 
-/// A wide trial spans hollows, and its pressure is hardly the load's: it is not where the next one starts.
+/// A wide trial spans hollows, and its pressure hardly depends on the load: the next trial must not
+/// start there.
 #[test]
 fn of_one_crest_of_many() {
     for (w, steep, phase, load) in [

@@ -1,4 +1,4 @@
-//! Bodies of pieces: what their breakpoints are, and what very many of them cost.
+//! Bodies of pieces: their breakpoints, and the cost of very many pieces.
 #![allow(missing_docs)]
 
 use crate::common::{graph, join, on_flat, parabola};
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 type Profile = Box<dyn ParametricProfile<f64>>;
 
-/// Breakpoints from -1 to 1, unevenly.
+/// Returns unevenly spaced breakpoints from -1 to 1.
 fn breakpoints(pieces: u32) -> Vec<f64> {
     let place = |i: u32| {
         let z = 2.0 * f64::from(i) / f64::from(pieces) - 1.0;
@@ -23,7 +23,7 @@ fn breakpoints(pieces: u32) -> Vec<f64> {
     (0..=pieces).map(place).collect()
 }
 
-/// Points from 1e-9 half-widths from an edge to the middle, and beside breakpoints.
+/// Returns points from 1e-9 half-widths from an edge to the middle, and next to breakpoints.
 fn points(half_width: f64, breakpoints: &[f64]) -> Vec<f64> {
     let mut points = Vec::new();
     for i in 1..60 {
@@ -35,7 +35,7 @@ fn points(half_width: f64, breakpoints: &[f64]) -> Vec<f64> {
     points
 }
 
-/// The closed form of a circle knows of no breakpoints.
+/// Breakpoints must not show: the closed form of a circle has none.
 #[test]
 fn a_circle_in_thousands_of_arcs() {
     let (form, shift) = (Ellipse::circle(1.0, 0.3).unwrap(), 2.0);
@@ -54,7 +54,7 @@ fn a_circle_in_thousands_of_arcs() {
     let pressure = solution.pressure().unwrap();
     let sines: Vec<f64> = breakpoints.iter().map(|k| k.sin()).collect();
     for x in points(0.3, &sines) {
-        // The rounding of x counts by its distance from the edge.
+        // Rounding of x, relative to the distance from the edge.
         let rounding = 1e-12 + 1e-15 / (0.3 - x.abs());
         let x = shift + x;
         let exact = form.pressure(x - shift, 1.0);
@@ -64,7 +64,7 @@ fn a_circle_in_thousands_of_arcs() {
     assert_relative_eq!(moment, shift * form.load(1.0), epsilon = 0.0, max_relative = 1e-12);
 }
 
-/// Neither does the certificate of a gap that is not convex.
+/// Breakpoints do not show in the certificate of a gap that is not convex.
 #[test]
 fn a_certified_wave_in_thousands_of_pieces() {
     let wave = |ends: &[f64]| {
@@ -97,7 +97,7 @@ fn a_polygon_of_a_thousand_sides() {
         height += slope * (to - from);
     }
     let body = Piecewise::new(sides).unwrap();
-    // Where the two ends of the contact are free and -b is given, a is where ∫ g dθ vanishes.
+    // With both ends of the contact free and -b given, a is the root of ∫ g dθ.
     let left = -0.612_345;
     let jumps: Vec<[f64; 2]> =
         (1..breakpoints.len() - 1).map(|i| [breakpoints[i], slope(i) - slope(i - 1)]).collect();
@@ -141,7 +141,7 @@ fn a_polygon_of_a_thousand_sides() {
     }
 }
 
-/// A parabola cut into equal pieces.
+/// Returns a parabola cut into equal pieces.
 fn cut(pieces: usize, reach: f64) -> impl linecontact::ParametricProfile<f64> {
     let x = move |i: usize| reach * (2.0 * i as f64 / pieces as f64 - 1.0);
     let piece = |i: usize| {
@@ -193,7 +193,7 @@ fn few_of_many_pieces_are_looked_at() {
 }
 
 /// With |x|ⁿ and F = c Lⁿ, P(0) = (1/π) ∫ F'(l)/l dl = n F/((n - 1) π L). The slope is hardly
-/// continuous at the breakpoint, where what no integral sees counts.
+/// continuous at the breakpoint, where features unseen by any integral matter.
 #[test]
 fn the_pressure_at_the_tip_of_powers_close_to_one() {
     for n in [1.1, 1.2, 1.25, 1.5, 1.75] {
@@ -211,8 +211,8 @@ fn the_pressure_at_the_tip_of_powers_close_to_one() {
     }
 }
 
-/// X = ±k², Y = k⁴/2 from k = 0 is Hertz's parabola, in two pieces whose derivatives are both zero where
-/// they meet; with X = ±k³, Y = k⁶/2 it is, too.
+/// X = ±k², Y = k⁴/2 from k = 0 is Hertz's parabola, in two pieces whose derivatives both vanish at
+/// the joint; X = ±k³, Y = k⁶/2 is another such pair.
 #[test]
 fn pieces_that_meet_where_their_derivatives_vanish() {
     for power in [2, 3] {
@@ -238,8 +238,9 @@ fn pieces_that_meet_where_their_derivatives_vanish() {
     }
 }
 
-/// Beside a root of high order at such an end the curve is sampled so close to the end that rounding
-/// puts a parameter on it, where Y'/X' is 0/0. The gap is even about the breakpoint, and so is the contact.
+/// Next to a root of high order at such an end the curve is sampled so close to the end that
+/// rounding puts a parameter on it, where Y'/X' is 0/0. The gap is even about the breakpoint, and
+/// so is the contact.
 #[test]
 fn a_root_beside_an_end_where_the_derivatives_vanish() {
     let breakpoint: f64 = -0.002783964073710917;
@@ -274,7 +275,8 @@ fn a_root_beside_an_end_where_the_derivatives_vanish() {
 
 #[test]
 fn a_curvature_that_jumps_by_two_to_the_27th() {
-    // Mirrored, from any start, and by the paper's integrator, which shares no code with the panels.
+    // Mirrored, from any start, and by the paper's integrator, which shares no code with the
+    // panels.
     let steep = f64::from(1 << 27);
     let bent = |bend: f64| move |x: f64| [bend * x * x / 2.0, bend * x];
     let body = |left, right| join(vec![graph(-9.0, 0.0, bent(left)), graph(0.0, 9.0, bent(right))]);
@@ -292,7 +294,7 @@ fn a_curvature_that_jumps_by_two_to_the_27th() {
             let [a, b] =
                 if mirrored { [solution.b(), solution.a()] } else { [solution.a(), solution.b()] };
             assert_relative_eq!(b, other.b(), epsilon = 0.0, max_relative = 2e-15);
-            // A millionth of the other, and as exact as that, compared with the half-width.
+            // A millionth of the other limit, and accurate to rounding of the half-width.
             assert!((a - other.a()).abs() < 1e-15 * b, "{start:?} {a:e} {:e}", other.a());
         }
     }
@@ -300,8 +302,8 @@ fn a_curvature_that_jumps_by_two_to_the_27th() {
 
 #[test]
 fn an_edge_at_a_kink() {
-    // x²/2 up to the kink, which the contact just does not reach, and much steeper beyond.
-    // L = sqrt(2 C/π) from Hertz's F = L²/2.
+    // x²/2 up to the kink, which the contact just misses, and much steeper beyond. L = sqrt(2 C/π)
+    // from Hertz's F = L²/2.
     for jump in [0.5, 3.0, 5.0] {
         for short in [0.0, 1e-14, 1e-12, 1e-10, 1e-6] {
             let half_width = 1.0 - short;
@@ -321,7 +323,7 @@ fn an_edge_at_a_kink() {
     }
 }
 
-/// Pieces that a load cannot reach are known by their ends, many of them at a time.
+/// Pieces that a load cannot reach are excluded by their ends, many of them at a time.
 #[test]
 fn pieces_above_the_reach_of_a_load_are_not_sampled() {
     let wave = |ends: &[f64]| {

@@ -1,4 +1,4 @@
-//! Profiles: every way to make one, and everything that can be wrong with one.
+//! Profiles: every way to make one, and every fault of one.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 type Profile = Box<dyn ParametricProfile<f64>>;
 
-/// A user's own struct.
+/// User-defined struct.
 struct Roller {
     radius: f64,
 }
@@ -105,13 +105,13 @@ fn pieces_have_parameters_of_their_own() {
     let whole = half_width(&*parabola(2.0));
     assert!((half_width(&joined) / whole - 1.0).abs() < 1e-14);
 
-    // Breakpoints are known to whoever integrates.
+    // Breakpoints are visible to quadratures.
     let pieces: Vec<_> = (0..joined.pieces()).map(|i| joined.piece(i).unwrap()).collect();
     assert_eq!(pieces.len(), 3);
     assert!(pieces[1].k[0] > pieces[1].k[1], "the middle piece falls");
     assert!(pieces.windows(2).all(|pair| (pair[0].x()[1] - pair[1].x()[0]).abs() < 1e-15));
 
-    // One running parameter draws the whole.
+    // A single parameter runs through the whole curve.
     assert_eq!(joined.domain(), [0.0, 3.0]);
     for k in [0.0, 0.4, 1.0, 1.3, 2.0, 2.9, 3.0] {
         let point = joined.at(k);
@@ -162,7 +162,7 @@ fn breakpoints_are_checked() {
         join(vec![first(), line(0.0, 1.0, 1e-13, 0.0)]),
         PiecewiseError::Gap { breakpoint: 0, left: 0.0, right: 1e-13 }
     );
-    // The wrong order is an overlap.
+    // Pieces in the wrong order overlap.
     assert!(matches!(
         join(vec![line(0.0, 1.0, 0.0, 0.0), first()]),
         PiecewiseError::Overlap { breakpoint: 0, left: 1.0, right: -1.0 }
@@ -171,7 +171,7 @@ fn breakpoints_are_checked() {
     let message = join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]).to_string();
     assert!(message.contains("gap of 1e-6 between pieces 0 and 1"), "{message}");
 
-    // Rounding is no gap, and measured pieces may be met with a tolerance.
+    // Rounding is not a gap, and measured pieces may be joined with a tolerance.
     let off = |by| vec![first(), line(0.0, 1.0, by, 0.0)];
     assert!(Piecewise::new(off(1e-15)).is_ok());
     assert!(Piecewise::with_tolerance(off(1e-6), 1e-5).is_ok());
@@ -195,7 +195,7 @@ fn a_piece_that_turns_back_is_found_where_it_turns() {
         assert!((k - at).abs() < 1e-15, "{k} for {at}");
         assert!((x - (at.powi(3) - at / 4.0)).abs() < 1e-15);
     }
-    // Each branch alone is fine, up to the very fold.
+    // Each branch alone is valid, up to the fold itself.
     for (from, to) in [(turning, 1.0), (-turning, turning), (-1.0, -turning)] {
         assert!(Piece::checked(&fold(from, to)).is_ok(), "[{from}, {to}]");
     }
@@ -285,7 +285,7 @@ fn fine_waves_and_kinks_are_no_wrong_derivatives() {
         dy: k - (100.0 * k).sin() / 10.0,
     });
     assert!(Piece::checked(&wavy).is_ok());
-    // A kink within the first difference, next to where the check looks.
+    // A kink within the first difference, next to a point of the check.
     let at = 0.2763 + 1e-6;
     let kinked = Curve::new([0.0, 1.0], move |k: f64| CurvePoint {
         x: k,
@@ -298,7 +298,8 @@ fn fine_waves_and_kinks_are_no_wrong_derivatives() {
 
 #[test]
 fn pointers_to_a_profile_pass_everything_on() {
-    /// Every answer by a formula of its own, so that none can stand in for another.
+    /// Profile with a formula of its own for every method, so that no result can stand in for
+    /// another.
     struct Told;
     impl ParametricProfile<f64> for Told {
         fn domain(&self) -> [f64; 2] {
@@ -327,7 +328,8 @@ fn pointers_to_a_profile_pass_everything_on() {
     assert_eq!([told(&Told), told(Box::new(Told)), told(std::sync::Arc::new(Told))], [want; 3]);
 }
 
-/// X = ±k², Y = m x + x²/2 with x = k²: a wedge and a parabola. At the tip the slope is 0/0 on both sides.
+/// X = ±k², Y = m x + x²/2 with x = k²: a wedge and a parabola. At the tip the slope is 0/0 on both
+/// sides.
 #[test]
 fn a_tip_where_both_derivatives_vanish() {
     for m in [0.3, 2.0] {
@@ -339,7 +341,7 @@ fn a_tip_where_both_derivatives_vanish() {
         };
         let body = Piecewise::new(vec![side(-1.0), side(1.0)]).unwrap();
         for l in [0.1, 1.3] {
-            // Of the same limits, loads and pressures add up.
+            // For the same limits, loads and pressures add up.
             let (wedge, round) = (Wedge::new(m, l).unwrap(), Hertz::new(1.0, l).unwrap());
             let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
             let solution = contact.solve(Control::Load(wedge.load(1.0) + round.load(1.0))).unwrap();
@@ -371,7 +373,7 @@ fn joined_bodies_bulge_as_their_pieces_and_corners_do() {
     assert_eq!(of(0.3, 0.3), Convexity::Straight);
 }
 
-/// A profile and which way it bulges.
+/// Profile with its convexity.
 struct Told {
     profile: Profile,
     convexity: Convexity,
@@ -395,8 +397,8 @@ impl ParametricProfile<f64> for Told {
     }
 }
 
-/// x²/2 from -1 to 0.2 and from 2.2 on: the first contact that reaches into the hole is an error, also where no
-/// heights are taken.
+/// x²/2 from -1 to 0.2 and from 2.2 on: the first contact that extends into the hole is an error,
+/// even if no heights are sampled.
 #[test]
 fn a_hole_between_two_pieces_is_no_body() {
     struct Holed([Profile; 2]);

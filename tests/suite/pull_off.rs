@@ -1,4 +1,4 @@
-//! Adhesive contacts that are pulled at, down to pull-off and beyond it.
+//! Adhesive contacts under a pull, down to pull-off and beyond it.
 #![allow(missing_docs)]
 
 use crate::edges::{KAPPA, Quadratic};
@@ -6,8 +6,8 @@ use crate::edges::{KAPPA, Quadratic};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use linecontact::{Contact, ContactError, Control, Edge, Flat, Solver};
 
-/// A parabola, and what pulls it off. dF/dL = 0: with two adhesive edges L³ = R² w/κ, with one
-/// L³ = R² w/(4 κ); F = -3 κ L²/(2 R).
+/// Parabola with its pull-off load. dF/dL = 0: with two adhesive edges L³ = R² w/κ, with one L³ =
+/// R² w/(4 κ); F = -3 κ L²/(2 R).
 struct PullOff {
     edges: [Edge<f64>; 2],
     share: f64,
@@ -31,7 +31,7 @@ impl PullOff {
         -1.5 * KAPPA * self.half_width().powi(2) / Self::RADIUS
     }
 
-    /// The half-width under a part of the load that pulls it off.
+    /// Returns the half-width under a part of the pull-off load.
     fn under(&self, part: f64) -> Result<f64, ContactError<f64>> {
         let body = Quadratic([0.0, 1.0 / Self::RADIUS, 0.0]).body(-2.0, 2.0);
         let [left, right] = self.edges;
@@ -64,7 +64,7 @@ fn adhesion_bears_a_pull_down_to_pull_off() {
 
 #[test]
 fn one_adhesive_edge_bears_a_pull_down_to_pull_off() {
-    // Under 0.84 of the load the free edge passes x = 0, the lowest point of the body.
+    // At 0.84 of the load the free edge passes x = 0, the lowest point of the body.
     let [_, left, right] = PullOff::cases();
     for part in [0.85, 0.9, 0.99, 0.9999] {
         left.check(part);
@@ -81,9 +81,9 @@ fn beyond_pull_off_the_error_says_so() {
                 panic!("{:?} {part}: {error}", case.edges)
             };
             assert_relative_eq!(load, part * case.load(), epsilon = 0.0, max_relative = 1e-15);
-            // A contact was found somewhere between none of the load and pull-off.
+            // `least` is the load of a contact that was found: not beyond pull-off.
             assert!(least >= case.load() * (1.0 + 1e-9), "{least}");
-            // And close to pull-off, which the message is to tell.
+            // It is close to pull-off, as the message needs.
             assert!(least <= case.load() * (1.0 - 2e-3), "{least}");
         }
     }
@@ -102,7 +102,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
         for part in [0.1, 0.3, 0.6, 0.9, 0.99] {
             let l = narrowest + part * (1.0 - narrowest);
             let found = solve(load(l)).unwrap_or_else(|e| panic!("{narrowest} {l}: {e}"));
-            // Near pull-off the width says more than the load can.
+            // Near pull-off the load determines the width to fewer digits.
             let doubt = 1e-13 + 4.0 * f64::EPSILON * load(l).abs() / (l - narrowest).powi(2);
             assert_relative_eq!(found, l, epsilon = 0.0, max_relative = doubt);
         }
@@ -121,7 +121,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
             assert!(least > pull_off && least <= pull_off * (1.0 - 2e-3), "{least} {pull_off}");
         }
     }
-    // Wider than the bodies even when it comes off.
+    // Wider than the bodies even at pull-off.
     let glued = contact.edges(Edge::Adhesive(2.0 * KAPPA), Edge::Adhesive(2.0 * KAPPA));
     for load in [-1.0, -2.0, -10.0] {
         let error = glued.solve(Control::Load(load)).unwrap_err();
@@ -131,7 +131,8 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
 
 #[test]
 fn a_pull_at_one_edge_may_fit_bodies_too_short_for_no_load() {
-    // F = κ L²/2 - sqrt(κ w L), c = -sqrt(w/(κ L)); no load at L³ = 4 w/κ, least at a sixteenth.
+    // F = κ L²/2 - sqrt(κ w L), c = -sqrt(w/(κ L)); zero load at L³ = 4 w/κ, the least load at a
+    // sixteenth of it.
     let (work, none) = (0.03, (4.0f64 * 0.03 / KAPPA).cbrt());
     let centre = |l: f64| -(work / (KAPPA * l)).sqrt();
     let end = centre(none) - 0.99 * none;

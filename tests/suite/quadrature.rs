@@ -1,4 +1,5 @@
-//! The paper's quadrature: its orders, its tables, at any x, and against the equation itself.
+//! The paper's quadrature: its orders, its tables, pressures at any x, and the residual of the
+//! equation.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -23,7 +24,7 @@ fn rule(segments: usize, extrapolations: u32, exponents: Exponents) -> Midpoint 
     Midpoint { segments, extrapolations, exponents }
 }
 
-/// The pressure of Example 1 or 2 on its exact limits, at x.
+/// Returns the pressure of Example 1 or 2 at x, for its exact limits.
 fn pressure(example: usize, rule: Midpoint, xs: &[f64]) -> Vec<f64> {
     let (scene, kappa, on) = match example {
         1 => (paper::one(), 1.0, Interval { left: -1.0, right: 1.0 }),
@@ -41,7 +42,7 @@ fn exact(example: usize, x: f64) -> f64 {
     if example == 1 { example_1_exact(x) } else { example_2_exact(x) }
 }
 
-/// The order in N of a rule at each of some x, on the grid and off it.
+/// Returns the order in N of a rule at each of some x, on the grid and off it.
 fn orders(example: usize, extrapolations: u32, exponents: Exponents, xs: &[f64]) -> Vec<f64> {
     let sizes = [32, 64, 128, 256];
     let runs = sizes.map(|n| pressure(example, rule(n, extrapolations, exponents), xs));
@@ -56,7 +57,7 @@ fn assert_order(got: Vec<f64>, want: f64) {
     assert!(got.iter().all(|order| (order - want).abs() < 0.12), "{got:?} where {want} was due");
 }
 
-/// On the grid of all N used: z = -1/2 and 1/4; and off every grid.
+/// Places on the grid of every N used, z = -1/2 and 1/4, and off every grid.
 const XS_1: [f64; 4] = [-0.5, 0.25, 0.1234, -0.6180339];
 const XS_2: [f64; 4] = [-0.2, 0.4, 0.3333, -0.4142135];
 
@@ -77,7 +78,7 @@ fn a_third_extrapolation_gains_two_more_orders() {
 
 #[test]
 fn example_2_converges_with_the_half_odd_orders() {
-    // The paper's extrapolation gains a factor and no order.
+    // The paper's extrapolation reduces the error by a factor, without raising the order.
     assert_order(orders(2, 1, EVEN, &XS_2), 1.5);
     assert_order(orders(2, 2, EVEN, &XS_2), 1.5);
     assert_order(orders(2, 1, HALF_ODD, &XS_2), 1.5);
@@ -96,7 +97,7 @@ fn the_trapezoidal_sum_is_of_first_order() {
     assert_relative_eq!(2.0 * fine - coarse, midpoint, epsilon = 0.0, max_relative = 1e-13);
 }
 
-/// Entries of tables: N, ET, x, printed error; held to so much.
+/// Compares table entries (N, ET, x, printed error) with the errors, to a relative tolerance.
 fn assert_printed(example: usize, exponents: Exponents, rows: &[(usize, u32, f64, f64)], to: f64) {
     for &(n, et, x, printed) in rows {
         let error = (pressure(example, rule(n, et, exponents), &[x])[0] - exact(example, x)).abs();
@@ -110,7 +111,7 @@ fn entries_of_the_papers_tables() {
     assert_printed(1, EVEN, &of_1, 3e-3);
     let of_2 = [(256, 1, -0.5, 4.33e-3), (1024, 2, 0.2, 8.36e-6), (4096, 2, 0.9, 9.21e-6)];
     assert_printed(2, EVEN, &of_2, 3e-3);
-    // Measured elsewhere, in 20 digits, with the right exponents.
+    // From an independent computation in 20 digits, with the right exponents.
     let right = [
         (64, 2, 0.2, 2.2e-6),
         (64, 3, 0.2, 6.0e-10),
@@ -122,8 +123,8 @@ fn entries_of_the_papers_tables() {
 
 #[test]
 fn any_x_has_the_accuracy_of_the_grid() {
-    // Where the error of the rule itself is only 2e-14: at, next to and around points of the
-    // coarsest and the finest level, where sum and correction both have a pole, and anywhere.
+    // The error of the rule itself is only 2e-14 here: x at, next to and around points of the
+    // coarsest and the finest level, where sum and correction both have a pole, and elsewhere.
     let n = 64;
     let mut xs: Vec<f64> = (-50..50).map(|i| 0.2 + 0.8 * f64::from(i) / 1503.0).collect();
     for level in [n, 2 * n, 8 * n] {
@@ -156,10 +157,10 @@ fn an_odd_number_of_segments_has_a_point_at_the_centre() {
     }
 }
 
-/// The residual of the equation itself: PV∫ P/(x - s) ds - κ g, by an independent rule.
+/// Returns the residual of the equation, PV∫ P/(x - s) ds - κ g, by an independent rule.
 ///
-/// In s = c + L cos φ, with x = c + L cos θ, the constant P(x) sin θ is subtracted, whose
-/// principal value is zero, and what is left is smooth and periodic.
+/// In s = c + L cos φ, with x = c + L cos θ, the constant P(x) sin θ is subtracted, whose principal
+/// value is zero; the remainder is smooth and periodic.
 fn residual(solution: &Solution<'_, f64>, x: f64, kappa_g: f64) -> f64 {
     let Interval { left, right } = solution.hull();
     let (c, l) = ((right + left) / 2.0, (right - left) / 2.0);
@@ -203,7 +204,8 @@ fn the_pressure_satisfies_the_equation() {
 
 #[test]
 fn pressures_agree_with_the_references() {
-    // Away from the edges, where the rule is meant to hold; a breakpoint inside breaks its expansion.
+    // Away from the edges, where the rule is meant to hold; a breakpoint inside breaks its
+    // expansion.
     for scene in scenes() {
         let tolerance = match scene.name {
             "paper_example_2" | "hertz_tiny" | "hertz_huge" | "k3eps_hertz" => 1e-9,
@@ -229,7 +231,7 @@ fn pressures_agree_with_the_references() {
 
 #[test]
 fn a_pressure_carries_its_doubt() {
-    // Up to the very edge, the estimate covers the error, and is not idle where there is none.
+    // Up to the edge the estimate covers the error, without being far too large.
     let rules =
         [rule(64, 4, HALF_ODD), rule(1024, 2, EVEN), rule(256, 1, EVEN), rule(128, 3, EVEN)];
     for (name, scene) in
@@ -291,7 +293,7 @@ fn cost_is_counted() {
 
 #[test]
 fn next_to_a_point_of_the_rule_the_pressure_is_continuous() {
-    // Within a sixteenth of a segment the pole is taken with the point; the two formulas are one.
+    // Within a sixteenth of a segment the pole is combined with the point; the two formulas agree.
     let body = graph(-1.0, 1.0, |x| {
         let (u, v) = (x * x, 1.0 + x * (0.3 + x * (2.0 + x * (1.0 + 3.0 * x))));
         [u / 2.0 + x.powi(3) / 10.0 + u * u / 2.0 + x.powi(5) / 5.0 + u.powi(3) / 2.0, x * v]
@@ -351,10 +353,10 @@ fn rules_too_coarse_to_know() {
             assert!((estimate.value - exact).abs() <= estimate.error + 1e-15, "{rule:?} {z}");
             assert!(estimate.value.is_finite() && estimate.error.is_infinite(), "{estimate:?}");
         }
-        // Fewer than four segments leave nothing to judge the result by.
+        // Fewer than four segments leave no way to judge the result.
         assert!(matches!(pressure.at(0.0), Err(ContactError::Unresolved { .. })));
     }
-    // So are the limits that such a rule finds by Eq. (6).
+    // Limits by Eq. (6) with such a rule have a large estimate, too.
     let rule = Midpoint::paper(1, 0);
     let edges = EdgePressure::zero(0.01, 1e-6);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(edges).quadrature(&rule);

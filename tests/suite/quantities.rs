@@ -1,4 +1,5 @@
-//! Moment, rates, the gap beside the contact and the residual against closed forms and differences.
+//! Moment, rates, the gap outside the contact and the residual, against closed forms and
+//! differences.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -14,7 +15,7 @@ use linecontact::reference::{
 use linecontact::{Contact, ContactError, Control, Edge, EdgePressure, Flat, Midpoint};
 use std::f64::consts::PI;
 
-/// `∫ x P dx` of a form.
+/// Returns `∫ x P dx` of a form.
 fn moment(form: &dyn ClosedForm<f64>) -> f64 {
     let on = form.limits();
     let strength = strength(on, |x| form.pressure(x, KAPPA));
@@ -57,7 +58,7 @@ fn a_tilted_punch_is_pressed_off_centre() {
     assert!((rates.pressure(0.3).unwrap() * PI * 0.4 - 1.0).abs() < 1e-15);
 }
 
-/// There the difference that is integrated is nothing but rounding.
+/// For flat punches the integrated difference is only rounding.
 #[test]
 fn flat_punches_meet_the_equation() {
     for (load, slope) in [(0.02, 0.0), (1e-300, 0.0), (-0.1, 0.0), (0.7, 1e-13), (0.7, 0.1)] {
@@ -77,7 +78,7 @@ fn flat_punches_meet_the_equation() {
 
 #[test]
 fn the_centre_of_pressure_at_either_end_of_the_numbers() {
-    // x²/2 and more on the right: the same bodies in other units, and other moduli.
+    // x²/2 with a further term on the right: the same bodies in other units, and other moduli.
     let scene = |unit: f64, kappa: f64| {
         let body = graph(-unit, unit, move |x| {
             let z = x / unit;
@@ -93,14 +94,14 @@ fn the_centre_of_pressure_at_either_end_of_the_numbers() {
     for (length, modulus) in [(-500, 0), (-500, -300), (500, 300), (-500, 500), (0, 900)] {
         let (got, moment) = scene(2f64.powi(length), 2f64.powi(modulus));
         assert_eq!(got, centre, "{length}, {modulus}");
-        // The moment may be beyond the numbers.
+        // The moment may overflow.
         if 2 * length + modulus > 1023 {
             assert!(matches!(moment, Err(ContactError::Overflow { .. })), "{moment:?}");
         }
     }
 }
 
-/// Central differences of solves, by Richardson's rule.
+/// Returns central differences of solves, with Richardson extrapolation.
 fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
     let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);
     (4.0 * central(2e-4) - central(4e-4)) / 3.0
@@ -180,7 +181,7 @@ fn the_gap_of_hertz() {
             let g = (solution.gap_at(x).unwrap() - form.gap(x)).abs() / x.powi(2);
             gap = gap.nan_max(g);
             let want = (x * x - 0.09).sqrt().copysign(x) / 2.0;
-            // What rounding leaves open of the limits is magnified next to an edge.
+            // Uncertainty of the limits by rounding is magnified next to an edge.
             let magnified = (beyond / 0.3).sqrt().min(1.0);
             let error = (solution.gap_slope(x).unwrap() - want).abs();
             slope = slope.nan_max(magnified * error / x.abs());
@@ -202,7 +203,7 @@ fn the_gap_of_hertz() {
     }
 }
 
-/// The wedge: `κ gap' = κ m - 2 κ m/π arcsin(L/x)`.
+/// Gap of the wedge: `κ gap' = κ m - 2 κ m/π arcsin(L/x)`.
 #[test]
 fn the_gap_of_a_wedge_and_of_a_punch() {
     let form = Wedge::new(0.1, 0.2).unwrap();
@@ -221,7 +222,8 @@ fn the_gap_of_a_wedge_and_of_a_punch() {
         let error = (solution.gap_at(x).unwrap() - gap).abs();
         assert!(error < 1e-13, "{x}: {error}");
     }
-    // A flat with corners at ±0.5 of bodies that go on: the half-plane sinks by F/κ arcosh(x/H).
+    // A flat with corners at ±0.5 on bodies that extend further: the half-plane sinks by F/κ
+    // arcosh(x/H).
     let flat = graph(-2.0, 2.0, |_| [0.3, 0.0]);
     let contact = Contact::new(&Flat, &*flat).unwrap().kappa(KAPPA);
     let contact = contact.edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
@@ -267,7 +269,7 @@ fn the_equation_is_met() {
             worst = worst.nan_max((solution.residual(x).unwrap() / size).abs());
         }
         println!("{:32} residual {worst:.1e} of the mean pressure", scene.name);
-        // Where x itself is rounded.
+        // Rounding of x itself.
         let rounding = 16.0 * f64::EPSILON * on.left.abs() / on.half_width();
         assert!(worst < 3e-10f64.max(rounding), "{}: {worst}", scene.name);
         for x in [on.left, on.right, f64::NAN] {
@@ -312,7 +314,7 @@ fn a_solution_shows_its_limits_and_its_load() {
     }
 }
 
-/// There the body is all of the gap; what the contact adds is beyond the last digit.
+/// Far away the gap is the height of the body; the effect of the contact is below the last digit.
 #[test]
 fn the_gap_of_hertz_far_from_a_contact_of_next_to_no_width() {
     for (l, x) in [(1e-200f64, 1.0), (1e-100, -1e100), (1e-150, 1e10)] {

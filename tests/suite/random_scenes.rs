@@ -1,7 +1,9 @@
-//! Random rough, wavy, kinked and cornered bodies against boundary elements: what is `Ok` is the contact.
+//! Random rough, wavy, kinked and cornered bodies against boundary elements: every `Ok` is the
+//! contact.
 //!
-//! Scene i is the same wherever it is run. `cargo test --release --test suite a_thousand -- --ignored
-//! --nocapture` prints what was refused.
+//! Scene i is the same in every run.
+//! `cargo test --release --test suite a_thousand -- --ignored --nocapture` prints the refused
+//! scenes.
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{Oracle, solve};
@@ -16,13 +18,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// How far a limit may be off is the oracle's word; a pressure, in terms of the peak; an overlap, times
-/// κ, in terms of the load, to which the logarithms of the pressures add up.
+/// Allowed errors: of a pressure, as a share of the peak; of an overlap, times κ, as a share of the
+/// load, the scale of the logarithmic potential. The oracle gives the allowed error of a limit.
 const PRESSURE: f64 = 0.01;
 const OVERLAP: f64 = 3e-5;
 const TENSION: f64 = 1e-9;
 
-/// Marsaglia's xorshift, 64 bits.
+/// Random numbers by Marsaglia's xorshift, 64 bits.
 pub struct Dice(u64);
 
 impl Dice {
@@ -54,7 +56,7 @@ impl Dice {
     }
 }
 
-/// `a cos(k x + φ)`.
+/// Wave `a cos(k x + φ)`.
 #[derive(Clone, Copy)]
 struct Wave {
     a: f64,
@@ -62,18 +64,18 @@ struct Wave {
     phase: f64,
 }
 
-/// The height `c x²/2 + t x`, waves, and kinks `m abs(x - x₀)`.
+/// Height `c x²/2 + t x`, with waves and kinks `m abs(x - x₀)`.
 #[derive(Clone)]
 struct Surface {
     curvature: f64,
     tilt: f64,
     waves: Vec<Wave>,
-    /// m and x₀.
+    /// Pairs of m and x₀.
     kinks: Vec<[f64; 2]>,
 }
 
 impl Surface {
-    /// Height and slope; at a kink the slope on its right.
+    /// Returns height and slope; at a kink the slope on its right.
     fn at(&self, x: f64) -> [f64; 2] {
         let mut sum = [x * (0.5 * self.curvature * x + self.tilt), self.curvature * x + self.tilt];
         for &Wave { a, k, phase } in &self.waves {
@@ -99,14 +101,14 @@ enum Kind {
 struct Scene {
     kind: Kind,
     gap: Surface,
-    /// What of the gap is the lower body's.
+    /// Part of the gap that belongs to the lower body.
     lower: Option<Surface>,
-    /// x = k + bend sin k.
+    /// Bend of the parameter: x = k + bend sin k.
     bend: f64,
     range: [f64; 2],
     kappa: f64,
     load: f64,
-    /// Whether corners are said to be fixed where the contact reaches them.
+    /// True if corners that the contact reaches are given as fixed.
     fixed: bool,
 }
 
@@ -140,7 +142,7 @@ fn scene(number: u64) -> Scene {
             let a = dice.power_of_ten(-0.3, 1.0) / (k * k);
             gap.waves.push(wave(dice, a, k));
             for _ in 0..1 + (dice.uniform() * 4.0) as usize {
-                // Two of three convex.
+                // Two thirds of the kinks are convex.
                 let sign = if dice.uniform() < 0.67 { 1.0 } else { -1.0 };
                 let m = sign * dice.power_of_ten(-2.0, -0.5);
                 gap.kinks.push([m, dice.within(-0.7, 0.7)]);
@@ -154,14 +156,14 @@ fn scene(number: u64) -> Scene {
             gap.waves.push(wave(dice, a, k));
         }
     }
-    // A third of the smooth ones on a curved, wavy body below.
+    // A third of the smooth gaps have a curved, wavy body below.
     let smooth = gap.kinks.is_empty();
     let lower = (smooth && dice.uniform() < 0.33).then(|| {
         let (a, k) = (0.05 * dice.normal(), dice.within(0.5, 3.0));
         let waves = vec![wave(dice, a, k)];
         Surface { curvature: dice.within(-1.0, 0.9), tilt: 0.1, waves, kinks: Vec::new() }
     });
-    // A corner is at a number that is one.
+    // A corner must be exact in x, so cornered bodies have no bend.
     let bend = if smooth && kind != Kind::Cornered && dice.uniform() < 0.5 {
         dice.within(-0.4, 0.4)
     } else {
@@ -176,7 +178,7 @@ fn scene(number: u64) -> Scene {
 }
 
 impl Scene {
-    /// The lower and the upper body.
+    /// Returns the lower and the upper body.
     fn bodies(&self) -> [Profile; 2] {
         let flat = Surface { curvature: 0.0, tilt: 0.0, waves: Vec::new(), kinks: Vec::new() };
         let lower = Arc::new(self.lower.clone().unwrap_or(flat));
@@ -191,14 +193,14 @@ impl Scene {
         [if is_flat { Box::new(Flat) } else { self.body(move |x| lower.at(x), &[]) }, upper]
     }
 
-    /// A curve x = k + bend sin k, in pieces.
+    /// Returns a curve x = k + bend sin k, in pieces.
     fn body(
         &self,
         height: impl Fn(f64) -> [f64; 2] + Send + Sync + Clone + 'static,
         kinks: &[[f64; 2]],
     ) -> Profile {
         let bend = self.bend;
-        // X = k where there are kinks, and the bodies end where the range does.
+        // X = k if there are kinks, and the bodies end with the range.
         let end = |x: f64| {
             let mut k = x;
             for _ in 0..60 {
@@ -215,7 +217,7 @@ impl Scene {
                 let (x, dx) = (k + bend * k.sin(), 1.0 + bend * k.cos());
                 let [y, mut slope] = height(x);
                 if k == right {
-                    // On the left of the kink.
+                    // Slope on the left of the kink.
                     slope = height(x.next_down())[1];
                 }
                 CurvePoint { x, y, dx, dy: slope * dx }
@@ -269,7 +271,7 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     }
 }
 
-/// Places in a contact and their weights, close to one another at the ends and at kinks.
+/// Returns places in a contact and their weights, dense at the ends and at kinks.
 fn quadrature(on: Interval<f64>, kinks: &[f64]) -> Vec<[f64; 2]> {
     const COUNT: usize = 400;
     let mut angles: Vec<f64> =
@@ -287,7 +289,7 @@ fn quadrature(on: Interval<f64>, kinks: &[f64]) -> Vec<[f64; 2]> {
     angles.windows(2).flat_map(panel).collect()
 }
 
-/// What is wrong with a solution.
+/// Describes the fault of a solution, if any.
 fn fault(
     scene: &Scene,
     oracle: &Oracle,
@@ -301,11 +303,11 @@ fn fault(
     }
     let pressure = solution.pressure()?;
     let at = |x: f64| match pressure.estimate(x, &mut Cost::default()) {
-        // At a kink it is infinite.
+        // At a kink the pressure is infinite.
         Err(ContactError::Singular { .. }) => Ok(f64::INFINITY),
         other => other.map(|estimate| estimate.value),
     };
-    // Each with its weight in an integral.
+    // Place, pressure and integration weight.
     let mut places: Vec<[f64; 3]> = Vec::new();
     for on in &contacts {
         for [x, weight] in quadrature(*on, &kinks) {
@@ -353,7 +355,7 @@ fn fault(
     Ok(None)
 }
 
-/// Goes through scenes, prints what is refused or wrong, and returns how many are.
+/// Solves scenes, prints those refused or wrong, and returns the number of each.
 fn run(numbers: std::ops::Range<u64>) -> [usize; 2] {
     let one = |number: u64| {
         let scene = scene(number);
@@ -408,7 +410,8 @@ fn a_thousand_random_scenes() {
     assert_eq!(run(0..1000), [0, 0], "refused, wrong");
 }
 
-/// The contact under a load is that of bodies which may turn, with the load where it acts: they stay as they are.
+/// The contact under a load is also the contact of bodies free to turn, with the load at the same
+/// place: they do not turn.
 #[test]
 fn the_load_where_it_acts() {
     let mut refused = Vec::new();

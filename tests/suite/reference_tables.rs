@@ -1,7 +1,7 @@
-//! The values in `docs/reference`, each by a way that shares nothing with how it was written: the conditions on
-//! the limits and the pressure between them as integrals over the slopes of the bodies, the singular equation itself
-//! where edges are sharp, and sums over the pressure for all that follows from it. The integrals are those of
-//! `tests/common/integrals.rs`.
+//! The values in `docs/reference`, each by a method independent of its origin: the conditions on
+//! the limits and the pressure between them as integrals over the slopes of the bodies, the
+//! singular equation itself for sharp edges, and sums over the pressure for all derived quantities.
+//! The integrals are those of `tests/common/integrals.rs`.
 #![allow(missing_docs)]
 
 use crate::boundary_elements::point;
@@ -74,7 +74,7 @@ impl Case {
         self.rows.iter().any(|row| row.quantity == quantity)
     }
 
-    /// (1 - ν²)/E of both bodies, and ν.
+    /// Returns (1 - ν²)/E of both bodies, and ν.
     fn materials(&self) -> [[f64; 2]; 2] {
         let of = |e: &str, nu: &str| {
             let nu = self.parameter(nu).or(self.parameter("nu")).unwrap_or(0.0);
@@ -94,7 +94,7 @@ impl Case {
         with_pi.map_or_else(|| self.of("F"), |c| c / PI)
     }
 
-    /// From left to right.
+    /// Returns the contacts, from left to right.
     fn contacts(&self) -> Vec<Interval<f64>> {
         let on = |left, right| Interval { left, right };
         let pair = |left: &str, right: &str| on(self.value(left), self.value(right));
@@ -120,7 +120,7 @@ impl Case {
     }
 }
 
-/// The slope of a body at x.
+/// Returns the slope of a body at x.
 fn slope_of(body: &dyn ParametricProfile<f64>, x: f64) -> f64 {
     let at = point(body, x);
     at.dy / at.dx
@@ -133,7 +133,7 @@ fn of_bodies(
     Box::new(move |x| slope_of(&*upper, x) - slope_of(&*lower, x))
 }
 
-/// Free contacts in any number of places: slopes of the gap, where they have kinks, and the limits.
+/// Any number of free contacts: slope of the gap, its kinks, and the limits.
 struct Free {
     slope: Box<dyn Fn(f64) -> f64>,
     kinks: Vec<f64>,
@@ -142,7 +142,7 @@ struct Free {
 }
 
 impl Free {
-    /// `R(x)` without the two factors of one contact.
+    /// Returns `R(x)` without the two factors of one contact.
     fn others(&self, without: usize, x: f64) -> f64 {
         let of = |(j, on): (usize, &Interval<f64>)| {
             if j == without { 1.0 } else { (x - on.left) * (x - on.right) }
@@ -154,7 +154,7 @@ impl Free {
         if (self.contacts.len() - 1 - j).is_multiple_of(2) { 1.0 } else { -1.0 }
     }
 
-    /// `∫ f(s)/sqrt(R)` over all contacts, with the sign of the root.
+    /// Returns `∫ f(s)/sqrt(R)` over all contacts, with the sign of the root.
     fn weighted(&self, ends: &[f64], f: impl Fn(f64) -> f64) -> f64 {
         let of = |(j, on): (usize, &Interval<f64>)| {
             self.sign(j) * integral(*on, ends, |s| f(s) / self.others(j, s).abs().sqrt())
@@ -162,7 +162,8 @@ impl Free {
         self.contacts.iter().enumerate().map(of).sum()
     }
 
-    /// The load, and what is left of the conditions on the limits as shares of their parts.
+    /// Returns the load, and the largest residual of the conditions on the limits, relative to
+    /// their terms.
     fn conditions(&self) -> [f64; 2] {
         let count = self.contacts.len() as i32;
         let g = |s: f64| self.kappa * (self.slope)(s);
@@ -175,7 +176,8 @@ impl Free {
             self.contacts.iter().enumerate().map(of).sum::<f64>()
         };
         let mut left = worst((0..count).map(|k| (moment(k) / size(k)).abs()));
-        // Every gap closes at both its ends: what opens it, integrated between two contacts.
+        // Every gap closes at both its ends: the opening slope integrates to zero between two
+        // contacts.
         for (j, pair) in self.contacts.windows(2).enumerate() {
             let gap = Interval { left: pair[0].right, right: pair[1].left };
             let opens = |x: f64| {
@@ -189,7 +191,7 @@ impl Free {
         [moment(count) / PI, left]
     }
 
-    /// `∫ (G(s) - G(x))/(s - x) ds/sqrt(R)`
+    /// Returns `∫ (G(s) - G(x))/(s - x) ds/sqrt(R)`.
     fn quotient(&self, x: f64) -> f64 {
         let at = (self.slope)(x);
         let ends = [&self.kinks[..], &[x]].concat();
@@ -205,7 +207,7 @@ impl Free {
         self.sign(j) * root * self.quotient(x) / (PI * PI)
     }
 
-    /// What one contact bears.
+    /// Returns the load of one contact.
     fn load_of(&self, j: usize) -> f64 {
         let on = self.contacts[j];
         integral(on, &self.kinks, strength(on, |s| self.pressure(s)))
@@ -284,7 +286,8 @@ fn free(case: &Case) -> Option<Free> {
     Some(Free { slope, kinks, kappa, contacts: case.contacts() })
 }
 
-/// What the pressure must be, and that it solves the equation with sharp edges or period.
+/// Returns the exact pressure with sharp edges or a period, after checking that it solves the
+/// equation.
 fn other_pressure(case: &Case) -> Box<dyn Fn(f64) -> f64> {
     let (on, kappa) = (case.contacts()[0], PI / 2.0 * case.modulus());
     match case.name.as_str() {
@@ -298,7 +301,7 @@ fn other_pressure(case: &Case) -> Box<dyn Fn(f64) -> f64> {
             let h = case.of("H");
             let pressure = move |x: f64| {
                 let z = x / h;
-                // The root of the distances, which are exact.
+                // Product of the distances to the edges, which are exact.
                 0.5 * h * (right + left + (right - left) * z) / ((h - x) * (h + x)).sqrt()
             };
             let slope = case.parameter("m").unwrap_or(0.0);
@@ -341,7 +344,7 @@ fn other_pressure(case: &Case) -> Box<dyn Fn(f64) -> f64> {
     }
 }
 
-/// σ_x, σ_y and τ_xy by Johnson, Eqs. 2.23.
+/// Returns σ_x, σ_y and τ_xy by Johnson, Eqs. 2.23.
 fn stress(on: Interval<f64>, pressure: &dyn Fn(f64) -> f64, x: f64, y: f64) -> [f64; 3] {
     [[2, 1], [0, 3], [1, 2]].map(|[along, down]: [i32; 2]| {
         let kernel = |s: f64| {
@@ -352,7 +355,8 @@ fn stress(on: Interval<f64>, pressure: &dyn Fn(f64) -> f64, x: f64, y: f64) -> [
     })
 }
 
-/// The largest of a smooth function is there: as large, no slope, and less on either side.
+/// Asserts that a smooth function has its maximum at a place: the value, zero slope, and less on
+/// either side.
 fn is_largest(value: f64, at: f64, of: impl Fn(f64) -> f64) {
     assert_close(of(at), value, CLOSE);
     let near = |steps: i32| of(at + 3e-4 * at * f64::from(steps));
@@ -361,7 +365,8 @@ fn is_largest(value: f64, at: f64, of: impl Fn(f64) -> f64) {
     assert!(slope.abs() < 1e-10 && left < value && right < value, "{value}: {slope:e}");
 }
 
-/// The largest of a smooth function within one of a place, by the golden section.
+/// Returns the maximum of a smooth function within a distance of one from a place, by
+/// golden-section search.
 fn largest_near(place: f64, of: impl Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut from, mut to) = (place - 1.0, place + 1.0);
@@ -372,7 +377,8 @@ fn largest_near(place: f64, of: impl Fn(f64) -> f64) -> f64 {
     of(0.5 * (from + to))
 }
 
-/// Displacements of both surfaces towards their references, by a density of the pressure.
+/// Returns the displacements of both surfaces towards their references, by a density of the
+/// pressure.
 fn approaches(
     case: &Case,
     on: Interval<f64>,
@@ -400,8 +406,8 @@ fn approaches(
     [part(lower[0], &kernels[0]), part(upper[0], &kernels[1])]
 }
 
-/// The traction of a stick zone under given limits; it carries Q, is less than friction allows, and stretches what
-/// sticks as the tension does.
+/// Returns the traction for given limits of the stick zone, after checking that it carries Q, obeys
+/// friction, and stretches the stick zone as the tension does.
 fn traction(case: &Case, pressure: &dyn Fn(f64) -> f64) -> Box<dyn Fn(f64) -> f64> {
     let (mu, q, on) = (case.of("mu"), case.of("Q"), case.contacts()[0]);
     let c = case.value("stick_half_width");
@@ -433,7 +439,7 @@ fn traction(case: &Case, pressure: &dyn Fn(f64) -> f64) -> Box<dyn Fn(f64) -> f6
 
 fn check(case: &Case) {
     let name = &case.name;
-    // Where formulas lose digits; and digits that are not given.
+    // Formulas that lose digits, and values with few digits.
     let close = match name.as_str() {
         "paper_example_3" | "paper_example_4" | "paper_example_5" | "wavy_parabola" => 2e-10,
         _ => CLOSE,
@@ -457,7 +463,7 @@ fn check(case: &Case) {
     if let Some(other) = &other {
         assert_close(integral(on, &[], strength(on, other)), load, CLOSE);
     }
-    // Hertz's is simple enough to be integrated many times.
+    // Hertz's pressure is cheap enough for many integrations.
     let hertz = |s: f64| {
         let z = s / on.right;
         pressure_of_hertz(load, on.right) * ((1.0 - z) * (1.0 + z)).max(0.0).sqrt()
@@ -479,7 +485,7 @@ fn check(case: &Case) {
         };
         match quantity.as_str() {
             "contact_modulus" => is(modulus),
-            // Met by the conditions on the limits, or by the equation, above.
+            // Checked by the conditions on the limits, or by the equation, above.
             "half_width"
             | "left_limit"
             | "right_limit"
@@ -510,7 +516,7 @@ fn check(case: &Case) {
             "sigma_y" => is(stress(on, &hertz, x, depth)[1]),
             "tau_xy" => is(stress(on, &hertz, x, depth)[2]),
             "max_shear" if name == "wedge" => {
-                // Less by the square of the depth, and beside the tip by more.
+                // Below the tip the shear falls with the square of the depth, next to it faster.
                 let scene = scene.as_ref().unwrap();
                 let at = |x: f64, y: f64| {
                     let [sx, sy, t] = stress(on, &|s| scene.pressure(s), x, y);
@@ -536,7 +542,7 @@ fn check(case: &Case) {
                 });
             }
             "stiffness" => {
-                // The rate of the pressure is that of a flat punch.
+                // The rate of the pressure is the pressure of a flat punch.
                 let [lower, upper] = approaches(case, on, &|_| 1.0 / PI, false);
                 is(1.0 / (lower + upper));
             }
@@ -549,7 +555,8 @@ fn check(case: &Case) {
             "load_1" => is(scene.as_ref().unwrap().load_of(0)),
             "load_2" => is(scene.as_ref().unwrap().load_of(1)),
             "complete_load" => {
-                // The pressure p (1 + cos 2πx/l) is nowhere negative; midpoints about the pole are exact.
+                // The pressure p (1 + cos 2πx/l) is nowhere negative; the midpoint rule about the
+                // pole is exact.
                 let (l, p) = (case.of("l"), value / case.of("l"));
                 let at = 0.2 * l;
                 let sum = (0..40).map(|i| {
@@ -560,7 +567,7 @@ fn check(case: &Case) {
                 assert_close(sum.sum::<f64>() * PI / 40.0, kappa * slope, CLOSE);
             }
             "merging_load" => {
-                // One contact, which presses no more in the middle.
+                // One contact, with zero pressure in the middle.
                 let mut merged = free(case).unwrap();
                 let end = 2f64.sqrt() * case.of("r");
                 merged.contacts = vec![Interval { left: -end, right: end }];
@@ -589,7 +596,7 @@ fn every_value_by_a_second_way() {
     cases.iter().for_each(check);
 }
 
-/// The tables hold what the file holds.
+/// The tables agree with the file.
 #[test]
 fn tables_and_file_agree() {
     let (values, parameters) = (file("values.csv"), file("cases.csv"));

@@ -1,10 +1,10 @@
 //! The reference contacts in single precision.
 //!
-//! What the formulas leave uncertain is measured by evaluating each in `f32` and in `f64` at the
-//! same `k`: the difference of the slopes, and that of `X` times the bend. A file passes if its
-//! errors, as shares of the half-width and of the largest pressure, are at most 1.5e-6 or, where
-//! that is more, 5 times that noise as a share of the slope, and of what rounding makes of each
-//! pressure (`points_amplification`).
+//! The noise of the formulas is measured by evaluating each in `f32` and in `f64` at the same `k`:
+//! the difference of the slopes, and the difference of `X` times the bend. A file passes if its
+//! errors, as shares of the half-width and of the largest pressure, are at most 1.5e-6. If larger,
+//! the bounds are 5 times the noise as a share of the slope, and 5 times the effect of rounding on
+//! each pressure (`points_amplification`).
 #![allow(missing_docs)]
 
 #[allow(dead_code)]
@@ -26,13 +26,13 @@ use serde_json::Value;
 
 const WANTED: f64 = 1.5e-6;
 const MARGIN: f64 = 5.0;
-/// The share of that to which limits are held.
+/// Stricter bound of the limits, as a share of the allowed error.
 const OF_LIMITS: f64 = 0.3;
 
-/// Rounded over eight units of x in the last place: `f32` does not tell its pressure.
+/// Punch whose round edges span only eight ulps of x: `f32` cannot resolve its pressure.
 const BEYOND: [&str; 1] = ["rounded_punch_1e-6"];
 
-/// The smooth pieces of a body.
+/// Returns the smooth pieces of a body.
 fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
     match body.pieces() {
         0 => vec![Piece::new(body).expect("a body that can be solved")],
@@ -40,7 +40,7 @@ fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_
     }
 }
 
-/// The `k` at which a curve is at `x`, by bisection.
+/// Returns the `k` at which a curve is at `x`, by bisection.
 fn parameter(piece: &Piece<f64>, x: f64) -> f64 {
     let [mut left, mut right] = piece.k;
     for _ in 0..80 {
@@ -50,7 +50,7 @@ fn parameter(piece: &Piece<f64>, x: f64) -> f64 {
     0.5 * left + 0.5 * right
 }
 
-/// The largest error of the slope of a body over the contact, and the steepest slope.
+/// Returns the largest error of the slope of a body over the contact.
 fn noise(single: &Body<f32>, double: &Body<f64>, on: Interval<f64>) -> f64 {
     const POINTS: usize = 64;
     let mut worst = 0.0f64;
@@ -77,7 +77,7 @@ fn noise(single: &Body<f32>, double: &Body<f64>, on: Interval<f64>) -> f64 {
     worst
 }
 
-/// The largest slope of the gap in a few places of the contact.
+/// Returns the largest slope of the gap at a few places of the contact.
 fn steepest(bodies: &[Body<f64>; 2], on: Interval<f64>) -> f64 {
     let slope = |body: &Body<f64>, x: f64| {
         let pieces = pieces(&**body);
@@ -88,22 +88,22 @@ fn steepest(bodies: &[Body<f64>; 2], on: Interval<f64>) -> f64 {
         })
     };
     let places = (1..20).map(|i| on.left + 0.1 * f64::from(i) * on.half_width());
-    // Where all of these are on a flat, only the edges have a slope.
+    // If all of these lie on a flat, only the edges have a slope.
     let places = places.chain([on.left, on.right]);
     places.fold(0.0, |most, x| most.max((slope(&bodies[1], x) - slope(&bodies[0], x)).abs()))
 }
 
-/// Whether numbers of this size, and their squares, can be told from zero and infinity in `f32`.
+/// Tells whether numbers of this size, and their squares, neither underflow nor overflow in `f32`.
 fn in_range(sizes: &[f64]) -> bool {
     let (least, most) = (f64::from(f32::MIN_POSITIVE).sqrt(), f64::from(f32::MAX).sqrt());
     sizes.iter().all(|size| (least..most).contains(&size.abs()))
 }
 
-/// Each as a share of what is allowed.
+/// Errors, each as a share of its allowed value.
 struct Errors {
     of_limits: f64,
     of_pressure: f64,
-    /// The noise of the formulas, and the solver's own estimate of the limits.
+    /// Noise of the formulas, and the solver's own estimate of the limits.
     floor: f64,
     estimate: f64,
 }
@@ -113,7 +113,7 @@ fn errors(file: &Value, want: &Reference, on: Interval<f64>) -> Result<Errors, S
     if !in_range(&[on.half_width(), farthest, want.c, want.kappa]) {
         return Err("skipped: out of range".into());
     }
-    // One unit of x in the last place.
+    // One ulp of x.
     let rounding = f64::from(f32::EPSILON) * farthest / on.half_width();
     if rounding > 1e-2 {
         return Err(format!("skipped: x is rounded to {rounding:.0e} of the half-width"));
@@ -172,10 +172,10 @@ fn files() -> Vec<(String, Value)> {
     files
 }
 
-/// Files that fail as yet.
+/// Files that still fail.
 const FAILING: [&str; 1] = ["power_n_3_over_2"];
 
-/// Solves the files of some names; how many were neither skipped nor failed.
+/// Solves the files whose name is `wanted`; returns the number neither skipped nor failed.
 fn check(wanted: impl Fn(&str) -> bool) -> usize {
     let (mut solved, mut failed) = (0, Vec::new());
     println!("{:30} {:>7} {:>7} {:>8} {:>8}", "", "LIMITS", "P", "NOISE", "ESTIMATE");
@@ -217,8 +217,8 @@ fn contacts_in_single_precision_that_fail_as_yet() {
     assert_eq!(check(|name| FAILING.contains(&name)), FAILING.len());
 }
 
-/// Points of `x²/2` on [-1, 1], rough: each height is off by 0.9 of what the one before is, and
-/// some noise.
+/// Returns points of `x²/2` on [-1, 1], rough: each height has 0.9 of the error of the one before,
+/// and some noise.
 fn rough_points(dice: &mut Shares) -> Vec<[f32; 2]> {
     let count = dice.between(400.0, 800.0) as u32;
     let amplitude = 1e-4 * dice.between(1.0, 9.0);
@@ -232,7 +232,8 @@ fn rough_points(dice: &mut Shares) -> Vec<[f32; 2]> {
     (0..=count).map(&mut point).collect()
 }
 
-/// The number of contacts of a body on a flat, the pressures at some places, and what is said of the limits' error.
+/// Returns the number of contacts of a body on a flat, the pressures at some places, and the error
+/// estimate of the limits.
 fn press<T: Real>(
     body: &Spline<T>,
     load: T,
@@ -249,7 +250,7 @@ fn press<T: Real>(
     Ok((contacts.len(), places.iter().map(at).collect::<Result<_, ContactError<T>>>()?, said))
 }
 
-/// Rough bodies, each with a load, the same in every run.
+/// Returns rough bodies, each with a half-width, the same in every run.
 fn rough_scenes() -> impl Iterator<Item = (Vec<[f32; 2]>, f64)> {
     let mut dice = Shares(5);
     std::iter::from_fn(move || {
@@ -258,8 +259,8 @@ fn rough_scenes() -> impl Iterator<Item = (Vec<[f32; 2]>, f64)> {
     })
 }
 
-/// The number of contacts, and the share of the load that acts elsewhere than in double precision, beyond what the
-/// solution says of its limits.
+/// Returns the number of contacts, and the share of the load displaced against double precision, in
+/// excess of the error estimate of the limits.
 fn elsewhere(points: &[[f32; 2]], half_width: f64) -> (usize, Result<f64, ContactError<f32>>) {
     let load = (0.5 * half_width * half_width) as f32;
     let places = (-200..=200).map(|i| (1.5 * half_width * f64::from(i) / 200.0) as f32);
@@ -276,8 +277,8 @@ fn elsewhere(points: &[[f32; 2]], half_width: f64) -> (usize, Result<f64, Contac
     (count, share)
 }
 
-/// As in double precision, but for contacts that bear next to nothing. Of many contacts the active
-/// set takes conjugate gradients.
+/// As in double precision, except for contacts of almost no load. With many contacts the active set
+/// uses conjugate gradients.
 #[test]
 fn rough_bodies_in_single_precision() {
     let (mut most, mut worst, mut refused) = (0, 0.0, Vec::new());
@@ -295,7 +296,7 @@ fn rough_bodies_in_single_precision() {
     assert_eq!(refused, [""; 0]);
 }
 
-/// Bodies overlap where they bend: how much is not taken for rounding of their heights.
+/// Bodies overlap at their bends: the overlap is not mistaken for rounding of the heights.
 #[test]
 fn contacts_at_sharp_bends_in_single_precision() {
     for scene in [270, 603, 1988] {

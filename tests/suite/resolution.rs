@@ -1,34 +1,34 @@
-//! The narrowest feature that a user asks for.
+//! The narrowest feature requested by a user.
 
 use crate::random_scenes::Dice;
 use linecontact::{
     Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Solver,
 };
 
-/// The gap beside Hertz's contact under load, over the square of the half-width, at ξ half-widths: Johnson, *Contact
-/// Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
+/// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
+/// half-widths: Johnson, *Contact Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
 fn hertz_gap(xi: f64) -> f64 {
     let root = (xi * xi - 1.0).sqrt();
     0.5 * (xi * root - (xi + root).ln())
 }
 
-/// A bump of height 1 on `s`, and its slope by `s`.
+/// Bump of height 1 at `s`, and its slope by `s`.
 type Bump = fn(f64) -> [f64; 2];
 
-/// Gauss's bell, one wide at half its height.
+/// Gaussian bell of width 1 at half its height.
 fn bell(s: f64) -> [f64; 2] {
     let rate = 4.0 * std::f64::consts::LN_2;
     let y = (-rate * s * s).exp();
     [y, -2.0 * rate * s * y]
 }
 
-/// `(1 - (2 s)²)³`, one wide from end to end.
+/// Bump `(1 - (2 s)²)³`, of width 1 from end to end.
 fn compact(s: f64) -> [f64; 2] {
     let rest = (1.0 - 4.0 * s * s).max(0.0);
     [rest.powi(3), -24.0 * s * rest * rest]
 }
 
-/// A parabola of radius 1 on [-1, 1] with a bump.
+/// Returns a parabola of radius 1 on [-1, 1] with a bump.
 fn burred(bump: Bump, place: f64, width: f64, height: f64) -> impl ParametricProfile<f64> {
     Curve::new([-1.0, 1.0], move |k: f64| {
         let [y, dy] = bump((k - place) / width);
@@ -36,7 +36,7 @@ fn burred(bump: Bump, place: f64, width: f64, height: f64) -> impl ParametricPro
     })
 }
 
-/// The evaluations for all scenes, and for those with no resolution.
+/// Returns the number of heights sampled in all scenes, with a resolution and without.
 fn seen_beside(share: f64, bump: Bump, scenes: u64) -> [usize; 2] {
     let mut price = [0; 2];
     for seed in 0..scenes {
@@ -60,14 +60,15 @@ fn seen_beside(share: f64, bump: Bump, scenes: u64) -> [usize; 2] {
     price
 }
 
-/// Inside, a bump moves the largest pressure: by its slope, that of the parabola at the limits is half.
+/// Solves bumps inside the contact, which change the pressure by their slope; the slope of the
+/// parabola at the limits is `half`. Returns the number of heights sampled.
 fn seen_inside(share: f64, bump: Bump, scenes: u64) -> usize {
     let mut price = 0;
     for seed in 0..scenes {
         let mut dice = Dice::new(seed);
         let half = dice.power_of_ten(-3.0, -0.4);
         let width = share * 2.0 * half;
-        // Symmetric places are those of nodes.
+        // Symmetric places coincide with nodes.
         let xi = if seed == 0 { 0.0 } else { dice.within(-0.99, 0.99) };
         let height = half * width * dice.power_of_ten(-2.0, -1.0);
         let height = if dice.uniform() < 0.5 { -height } else { height };
@@ -76,7 +77,7 @@ fn seen_inside(share: f64, bump: Bump, scenes: u64) -> usize {
         let contact = Contact::new(&Flat, &body).unwrap().resolution(width);
         let scene = format!("{seed}: {width:e} in {half:e} at {xi}");
         let solution = contact.solve(load).unwrap_or_else(|error| panic!("{scene}: {error}"));
-        // On the flank of the bump the pressure of Hertz is off.
+        // On the flank of the bump the pressure differs from Hertz's.
         let pressure = solution.pressure().unwrap();
         let off = [-0.2, 0.0, 0.2].map(|s| {
             let x = xi * half + s * width;
@@ -115,7 +116,7 @@ fn evaluations_are_those_kept() {
     assert_eq!([heights(&contact), kept[0], kept[1], kept[2]], [26, 81, 784, 7754]);
 }
 
-/// Asked with a coarser resolution first, a solver looks again.
+/// After a solve at a coarser resolution, a solver samples again.
 #[test]
 fn a_warm_solver_looks_again() {
     let (half, share) = (0.2, 0.002);
@@ -132,14 +133,14 @@ fn a_warm_solver_looks_again() {
         assert_eq!(cold.intervals().len(), warm.intervals().len(), "at {place}");
         let peaks = [&cold, &warm].map(|solution| solution.peak().unwrap().pressure);
         assert!((peaks[1] / peaks[0] - 1.0).abs() < 1e-9, "at {place}: {peaks:?}");
-        // What was seen stays seen, at no price.
+        // Known features are kept at no cost.
         let again = solver.solve(&contact.resolution(width), load).unwrap();
         assert_eq!(again.intervals().len(), cold.intervals().len());
         assert_eq!(again.cost().heights, 0, "at {place}");
     }
 }
 
-/// Under several contacts, too, and whatever the bodies declare.
+/// Also with several contacts, and with any declared convexity.
 #[test]
 fn declared_bodies_are_looked_at() {
     let (half, width, place) = (0.2, 4e-4, 0.25);
@@ -170,7 +171,7 @@ fn lengths_that_are_none_are_refused() {
         assert_eq!(resolution.to_bits(), length.to_bits());
         assert!(!(length > least && length < f64::INFINITY), "{error}");
     }
-    // More points than the budget has.
+    // More points than the budget allows.
     let error = contact.resolution(1e-9).solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
     assert!(matches!(error, ContactError::BudgetSpent { .. }), "{error}");
 }

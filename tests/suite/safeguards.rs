@@ -1,4 +1,4 @@
-//! Rules that few scenes need: for each, scenes that go wrong without it.
+//! Rules needed by few scenes only: for each rule, scenes that fail without it.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -12,13 +12,14 @@ use linecontact::{
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// By how much the limits are off, as a share of the half-width.
+/// Returns the error of the limits, as a share of the half-width.
 fn off(solution: &Solution<f64>, on: Interval<f64>) -> f64 {
     let found = solution.hull();
     (found.left - on.left).abs().nan_max((found.right - on.right).abs()) / on.half_width()
 }
 
-/// `(1/π) ∫ g dθ` and `(1/π) ∫ g cos θ dθ` of a smooth slope over x = cos θ, by the midpoint rule.
+/// Returns `(1/π) ∫ g dθ` and `(1/π) ∫ g cos θ dθ` of a smooth slope over x = cos θ, by the
+/// midpoint rule.
 fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
     const N: usize = 4000;
     (0..N).fold([0.0; 2], |[mean, first], i| {
@@ -28,9 +29,9 @@ fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
     })
 }
 
-/// Contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100` over
-/// t = (x - x₀)/l, of bodies that reach to ±4 and have a breakpoint at t₁ at which nothing happens:
-/// the body, the load and the contact.
+/// Returns contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100`
+/// over t = (x - x₀)/l: the body, the load and the contact. The bodies extend to ±4 and have a
+/// breakpoint at t₁ across which the curve is smooth.
 fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     let mut scenes = Vec::new();
     for (w, t0, t1) in [(0.14, 0.8, -0.3), (0.16, -0.5, 0.8), (0.16, 0.6, -0.7), (0.18, 0.8, -0.7)]
@@ -54,8 +55,8 @@ fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     scenes
 }
 
-/// What was sampled around a poor guess is too coarse for a contact that turns out to be narrower:
-/// the limits are sought again on samples around that. (Seeds 721, 2573, 3266, 3942 and 5772.)
+/// Samples around a poor guess are too coarse for a much narrower contact: the search is repeated
+/// on samples around that contact. (Seeds 721, 2573, 3266, 3942 and 5772.)
 #[test]
 fn a_contact_much_narrower_than_the_guess_that_was_sampled() {
     for (body, load, on) in steps_with_a_seam() {
@@ -66,7 +67,7 @@ fn a_contact_much_narrower_than_the_guess_that_was_sampled() {
     }
 }
 
-/// The same of one limit at a time. (Seeds 1477 and 3981.)
+/// Narrower contacts by a search of one limit at a time. (Seeds 1477 and 3981.)
 #[test]
 fn a_contact_much_narrower_than_the_trials_of_a_nested_search() {
     let brent = Brent::default();
@@ -80,14 +81,14 @@ fn a_contact_much_narrower_than_the_trials_of_a_nested_search() {
 
 /// The slope of the gap jumps down by j at z, inside the contact of a parabola with half-width 1.
 /// However small the jump, the pressure goes to minus infinity there: the bodies part, by a gap
-/// that no node of a panel meets. Beside the jump, `P = (j/π²) ln(2 |t|/δ)` between the two
+/// that holds no node of a panel. Next to the jump, `P = (j/π²) ln(2 |t|/δ)` between the two
 /// contacts around a gap of half-width δ, and in one contact
 ///
 /// ```text
 /// P = sin φ/π - (j/π²) ln|sin((θ + φ)/2)/sin((θ - φ)/2)|     x = cos φ, z = cos θ
 /// ```
 ///
-/// so that `δ = 4 sin² θ exp(-π sin θ/j)`, but for a share of about δ². (Seeds 1158 and 2468.)
+/// so that `δ = 4 sin² θ exp(-π sin θ/j)`, to a share of about δ². (Seeds 1158 and 2468.)
 #[test]
 fn the_bodies_part_at_any_jump_down_of_the_slope() {
     for jump in [0.12, 0.15, 0.2, 0.25, 0.3] {
@@ -114,9 +115,9 @@ fn the_bodies_part_at_any_jump_down_of_the_slope() {
     }
 }
 
-/// A wave on both bodies, which are given by different parameters: it is not in the gap `cosh(q
-/// x)/q²`, and few nodes resolve that. But none of them lies where the bodies were evaluated, and
-/// between those places the wave counts. (Seed 4081.)
+/// A wave on both bodies, which have different parameters: it is not in the gap `cosh(q x)/q²`,
+/// which few nodes resolve. But no node lies at a point where the bodies were evaluated, and
+/// between these points the wave matters. (Seed 4081.)
 #[test]
 fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
     for k in [0.6, 0.8, 1.0, 1.5, 2.5] {
@@ -149,7 +150,7 @@ fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
 }
 
 /// The slope `x - x³/100`, and j more beyond ±x₁. Newton's method comes from a lower load, on the
-/// near side of which each step is the square of the one before; the last one goes a little beyond
+/// near side, where each step is the square of the one before; the last step goes a little beyond
 /// x₁, where the body is far stiffer.
 #[test]
 fn a_last_step_across_a_jump_of_the_slope() {
@@ -178,9 +179,9 @@ fn a_last_step_across_a_jump_of_the_slope() {
     }
 }
 
-/// The quartic `x⁴ - 2x²` touches between `1 - d/2` and `1 + d/2` of x², `d² = 4 F/(π E*)`, with `P
-/// = 2 E* |x| sqrt((x² - α²)(β² - x²))`. Corners a little beyond that are reached by cells; held
-/// there, the contacts would have to be pulled at.
+/// The quartic `x⁴ - 2x²` touches between `1 - d/2` and `1 + d/2` of x², `d² = 4 F/(π E*)`, with
+/// `P = 2 E* |x| sqrt((x² - α²)(β² - x²))`. Cells reach corners slightly beyond these limits; held
+/// there, the contacts would be in tension.
 #[test]
 fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
     let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
@@ -193,7 +194,7 @@ fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
             let corner = outer + beyond * width;
             for left in [Edge::FreeUntil(-corner), Edge::Free] {
                 let contact = contact.clone().edges(left, Edge::FreeUntil(corner));
-                // From scratch, and from contacts that the corner held.
+                // From scratch, and from contacts held by the corner.
                 for more in [None, Some(1.02)] {
                     let mut solver = Solver::new();
                     if let Some(more) = more {
@@ -222,10 +223,10 @@ fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
     }
 }
 
-/// A parabola with a kink inside the contact, to the right of which it is 2 000 times as stiff,
-/// sought from the middle of bodies that are far wider. The load of what is tried first does not go
-/// with the square of the half-width: by steps in that the search overshoots, and has to sample
-/// again and again. (Seed 5194.)
+/// A parabola with a kink inside the contact, to the right of which it is 2 000 times as stiff; the
+/// search starts from the middle of far wider bodies. The load of the first trials is not
+/// proportional to the square of the half-width: steps that assume it overshoot, and the search has
+/// to sample again and again. (Seed 5194.)
 #[test]
 fn calls_for_a_contact_far_narrower_than_bodies_of_unlike_stiffness() {
     let stiff = 2048.0;
@@ -260,9 +261,9 @@ fn calls_for_a_contact_far_narrower_than_bodies_of_unlike_stiffness() {
     }
 }
 
-/// A contact a millionth as wide as the bodies, just beside a step of the slope ten times as
+/// A contact a millionth as wide as the bodies, just next to a step of the slope ten times as
 /// narrow. Newton's method gets there, but each of its long steps takes samples of bodies as steep
-/// as exponentials: it is better to begin where the bodies touch first. (Seed 3735.)
+/// as exponentials: a start at first touch is better. (Seed 3735.)
 #[test]
 fn calls_for_a_contact_beside_a_narrow_step() {
     let calls = AtomicUsize::new(0);
@@ -294,9 +295,10 @@ fn calls_for_a_contact_beside_a_narrow_step() {
     assert!(calls < 23_000, "{calls} calls");
 }
 
-/// A parabola with a slope that jumps at 0.5, and a limit that lies beyond by a share of 3e-17 to 3e-9: Newton's steps
-/// go to and fro across the jump unless those that grow are halved however short they are, and a last one may end on
-/// it. Closed form: the jumps press with j sin θ/π more for each, at cos θ = 0.5/L.
+/// A parabola whose slope jumps at 0.5, with a limit beyond the jump by a share of 3e-17 to 3e-9:
+/// Newton's steps cross the jump to and fro unless growing steps are halved, however short they
+/// are; the last step may end on the jump. Closed form: each jump adds the pressure j sin θ/π, at
+/// cos θ = 0.5/L.
 #[test]
 fn a_limit_just_beyond_a_jump_of_the_slope() {
     const JUMP_AT: f64 = 0.5;
@@ -326,8 +328,8 @@ fn a_limit_just_beyond_a_jump_of_the_slope() {
             let estimate = solution.limits_error().unwrap();
             assert!(off <= estimate + 1e-15, "{jump} {is_on_both} {beyond}: {off} {estimate}");
         }
-        // Beside a larger jump a unit in the last place of the limit is a hundred-millionth of the load and more: what
-        // is within some tens of units of it is refused.
+        // Next to a larger jump an ulp of the limit is a hundred-millionth of the load and more:
+        // limits within some tens of ulps of the jump are refused.
         assert!(refused == 0 || jump > 1.0, "{jump} {is_on_both}: {refused} refused");
     }
 }

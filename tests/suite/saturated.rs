@@ -18,7 +18,7 @@ fn a_closed_curve_turns_back_at_once() {
             };
             assert!((k.abs() - FRAC_PI_2).abs() < 1e-12 && (x.abs() - 1.0).abs() < 1e-12, "{k}");
         }
-        // Up to where X' is zero, or just beyond by rounding, it is a body.
+        // Up to X' = 0, or just beyond by rounding, the body is valid.
         for end in [FRAC_PI_2, 1.5] {
             let body = circle(-end, end, sign);
             let contact = Contact::new(&Flat, &*body).unwrap();
@@ -39,7 +39,7 @@ fn a_closed_curve_turns_back_at_once() {
     Contact::new(&Flat, &cube).unwrap();
 }
 
-/// Degrees taken for radians: the turns named are those of use.
+/// Degrees taken for radians: the error names the turns nearest to the contact.
 #[test]
 fn the_first_turn_is_named() {
     for end in [80.0, 5.0, 3.125, 45.0, 360.0] {
@@ -54,7 +54,7 @@ fn the_first_turn_is_named() {
     }
 }
 
-/// A parabola by parameters that make X stand still long before their ends.
+/// A parabola by parameters at which X saturates long before their ends.
 #[test]
 fn where_x_has_saturated_is_no_matter() {
     type Way = (&'static str, f64, fn(f64) -> [f64; 2]);

@@ -1,20 +1,21 @@
-//! What the searches take, evaluation by evaluation.
+//! Evaluation counts of the searches.
 //!
-//! The functions are made of `+ - * /` and roots, which round alike everywhere: so do the counts.
+//! The functions consist of `+ - * /` and roots, which round alike on every platform, so the counts
+//! are the same, too.
 #![allow(missing_docs)]
 
 use linecontact::search::{
     Bisection, Bracket, Brent, LimitSearch, Newton, Root, Secant, StoppingCriteria,
 };
 
-/// A function with its slope, a bracket, the root, and by how much rounding hides it.
+/// Function with its slope, a bracket, the root, and the blur of the root by rounding.
 struct Case {
     name: &'static str,
     f: fn(f64) -> (f64, f64),
     bracket: [f64; 2],
     root: f64,
     blur: f64,
-    /// Kept: what bisection, secant, Brent, Newton on chords and Newton on slopes take.
+    /// Kept counts of bisection, secant, Brent, Newton on chords and Newton on slopes.
     counts: [[usize; 5]; 3],
 }
 
@@ -76,7 +77,7 @@ fn cases() -> Vec<Case> {
             2e-15,
             COUNTS[7],
         ),
-        // A triple root, hidden by noise over the cube root of the rounding unit.
+        // A triple root, blurred by noise over the cube root of the rounding unit.
         case(
             "triple, noise",
             |x| (cube(x) - 3.0 * x * x + 3.0 * x - 1.0, 3.0 * x * x - 6.0 * x + 3.0),
@@ -85,7 +86,7 @@ fn cases() -> Vec<Case> {
             2e-5,
             COUNTS[8],
         ),
-        // A value in steps, on a large number.
+        // A staircase of values, by rounding on a large number.
         case("stairs", |x| ((x + 1e6) - 1e6 - 0.3, 1.0), [-3.0, 2.5], 0.3, 2e-10, COUNTS[9]),
         case(
             "a poor slope",
@@ -141,13 +142,13 @@ fn evaluations_are_those_kept() {
         for (i, tolerance) in TOLERANCES.into_iter().enumerate() {
             for (j, root) in ways(tolerance, &case).into_iter().enumerate() {
                 let StoppingCriteria { absolute, relative, .. } = tolerance;
-                // At a triple root, and by a poor slope, a step is a part of the error only.
+                // At a triple root, and with a poor slope, a step removes only a part of the error.
                 let partly = ["triple, noise", "a poor slope"].contains(&case.name);
                 let times = if partly { 4.0 } else { 1.0 };
                 let allowed = absolute.max(relative.max(1e-15) * case.root.abs());
                 let allowed = times * allowed + case.blur;
                 let error = (root.x - case.root).abs();
-                // Where f is small without being zero, x is as far off as f allows.
+                // If f is small but not zero, x has the error that f allows.
                 let excused = tolerance.residual > 0.0 && root.residual.abs() <= tolerance.residual;
                 assert!(error <= allowed || excused, "{} {i} {j}: {root:?}", case.name);
                 found[i][j] = root.evaluations;
@@ -169,7 +170,7 @@ fn a_straight_line_takes_one_step() {
 
 #[test]
 fn a_guess_that_is_the_root_is_looked_at_once() {
-    // With the slope, a value at the rounding of those at the ends is proof.
+    // With the slope, a value at the rounding of the end values is a proof.
     let mut f = |x: f64| (x * x - 2.0, 2.0 * x);
     let bracket = Bracket::new(1.0, 2.0).values(-1.0, 2.0).guess(2f64.sqrt());
     let root = Newton::default().find_with_slope(&mut f, &bracket).unwrap();

@@ -1,4 +1,4 @@
-//! The four strategies as root finders in their own right.
+//! The four searches as general root finders.
 #![allow(missing_docs)]
 
 use crate::common::strategies;
@@ -10,7 +10,7 @@ use proptest::test_runner::RngSeed;
 
 const NAMES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
 
-/// A function with its slope, a bracket, and where its root is.
+/// Function with its slope, a bracket, and its root.
 struct Case {
     name: &'static str,
     f: fn(f64) -> (f64, f64),
@@ -122,7 +122,7 @@ fn known_ends_and_a_guess_save_evaluations() {
 
 #[test]
 fn typical_costs() {
-    // What the table in the module's doc promises.
+    // Counts promised by the table in the module's doc.
     let most = [60, 14, 14, 9];
     for (i, search) in strategies(StoppingCriteria::FULL).iter().enumerate() {
         let cost = |case: &Case| run(&**search, case, 1.0, 1.0).unwrap().evaluations;
@@ -143,7 +143,7 @@ fn multiple_roots_are_slow_but_right() {
 
 #[test]
 fn noise_ends_a_search() {
-    // Large terms that cancel: the value is good to 1e-15, the root to 1e-12 of itself.
+    // Large terms that cancel: the value is accurate to 1e-15, the root to a relative 1e-12.
     let f = |k: f64| 12.0 * k.cos() - 5.0 * k.sin() - 12.0;
     let slope = |k: f64| -12.0 * k.sin() - 5.0 * k.cos();
     for target in [1e-3, -4e-4, 3e-16, -1e-9] {
@@ -176,7 +176,7 @@ fn tolerances_are_kept() {
             assert!(root.evaluations < most.evaluations, "{name}: nothing saved");
         }
     }
-    // Below what numbers can resolve, a tolerance is taken for the least that they can.
+    // A tolerance below the floating-point resolution is raised to it.
     for (search, name) in strategies(StoppingCriteria::relative(1e-300)).iter().zip(NAMES) {
         let root = search.find_with_slope(&mut f, &bracket).unwrap();
         assert!(error(root) < 1e-15, "{name}");
@@ -280,7 +280,7 @@ proptest! {
         }
     }
 
-    /// Whatever the function returns, a search ends with a root or an error.
+    /// For any values of the function, a search ends with a root or an error.
     #[test]
     fn nonsense_ends(values in prop::collection::vec(prop::num::f64::ANY, 1..20)) {
         for search in strategies(StoppingCriteria::FULL) {
@@ -298,7 +298,7 @@ proptest! {
 
 #[test]
 fn a_slope_alone_is_no_proof() {
-    // Steep only at the end of the bracket; and a slope that is plainly wrong.
+    // Steep only at the end of the bracket; and a slope that is clearly wrong.
     let newton = Newton::default();
     let mut steep = |x: f64| {
         let root = (x - 1.0 + 1e-40).sqrt();
@@ -313,8 +313,8 @@ fn a_slope_alone_is_no_proof() {
 
 #[test]
 fn ends_of_any_size_are_no_trap() {
-    // The length of the first bracket overflows; the second goes down to the smallest number;
-    // in the third the chord says that the root is at the flat end.
+    // The length of the first bracket overflows; the second goes down to the smallest number; in
+    // the third the chord points to the flat end.
     let tiny = f64::MIN_POSITIVE / 4.0;
     for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
         let found = search.find(&mut |x| x - 1.0, &Bracket::new(-1.7e308, 1.7e308)).unwrap();

@@ -1,4 +1,4 @@
-//! The closed forms with several contacts, against the equations they solve: by a quadrature that
+//! The closed forms with several contacts, against the equations they solve, by a quadrature that
 //! shares nothing with them or with the solver.
 #![allow(missing_docs)]
 
@@ -17,14 +17,14 @@ use std::f64::consts::PI;
 
 const COUNTS: [usize; 5] = [2, 3, 5, 8, 16];
 
-/// Forms with N contacts, and a little of what makes them hard.
+/// Returns forms with N contacts, some of them with hard parameters.
 fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>)> {
     let n = T::of;
     let kappa = n(KAPPA);
     let mut forms: Vec<(String, Box<dyn ClosedForm<T>>)> = Vec::new();
     let mut add = |name: String, form| forms.push((name, form));
     for count in COUNTS {
-        // s is what separates neighbours: 1.001 times the limit, 3, and 40 times.
+        // s sets the distance of neighbours: 1.001, 3 and 40 times its limit.
         for share in [1.001, 3.0, 40.0] {
             let map = |form| PolynomialMap::new(form, count, n(0.3 * share), n(1.7)).unwrap();
             let form = map(Hertz::new(n(0.7), n(0.3)).unwrap());
@@ -57,7 +57,8 @@ struct Sums<'f> {
     form: &'f dyn ClosedForm<f64>,
     contacts: Vec<Interval<f64>>,
     breakpoints: Vec<f64>,
-    /// The pressures of sharp edges, which are infinite, are not asked for as close as tanh-sinh does.
+    /// Flag: the edges are sharp; their infinite pressures are not evaluated as close to the edge
+    /// as tanh-sinh does.
     sharp: bool,
 }
 
@@ -67,7 +68,8 @@ impl<'f> Sums<'f> {
         Self { form, contacts, breakpoints, sharp: name.starts_with("sharp") }
     }
 
-    /// `∫ f P ds`; `f` of the place and of what P is to be less there, times the root of both distances.
+    /// Returns `∫ f P ds`; `f` takes the place, and the value subtracted from P times the root of
+    /// both distances.
     fn sum(&self, pole: Option<f64>, f: impl Fn(f64, f64) -> f64) -> f64 {
         let over = |&on: &Interval<f64>| {
             let inside = self.breakpoints.iter().copied().chain(pole).filter(|&x| on.contains(x));
@@ -89,7 +91,7 @@ impl<'f> Sums<'f> {
         self.sum(None, |_, strength| strength)
     }
 
-    /// `PV∫ P(s)/(x - s) ds`. (That of one over both roots is zero inside.)
+    /// Returns `PV∫ P(s)/(x - s) ds`. (The integral of one over both roots is zero inside.)
     fn principal(&self, x: f64) -> f64 {
         self.sum(Some(x), |s, strength| strength / (x - s))
     }
@@ -134,7 +136,8 @@ fn the_gaps_are_open_and_close() {
         for pair in contacts.windows(2) {
             let on = Interval { left: pair[0].right, right: pair[1].left };
             let opening = |x: f64| form.slope(x) - sums.principal(x) / KAPPA;
-            // The midpoint rule with the roots at both ends taken out, up to a place and on to the end.
+            // The midpoint rule with the roots at both ends factored out, up to a place and on to
+            // the end.
             let steps = 32;
             let mut gap = 0.0;
             let mut least = f64::INFINITY;
@@ -186,7 +189,7 @@ fn outside_and_at_the_limits() {
     }
 }
 
-/// The slope is that of the height, on both sides of every breakpoint.
+/// The slope is the derivative of the height, on both sides of every breakpoint.
 #[test]
 fn the_bodies_are_what_they_say() {
     for (name, form) in forms::<f64>() {
@@ -234,7 +237,7 @@ fn limits_next_to_merging_keep_the_digits_of_the_gap() {
     assert_relative_eq!(inner, want.sqrt(), epsilon = 0.0, max_relative = 1e-15);
 }
 
-/// The quartic is the map of a parabola with N = 2, and x⁴ - 2x² of the theory.
+/// The quartic is the map of a parabola with N = 2, and the x⁴ - 2x² of the theory.
 #[test]
 fn the_quartic() {
     let kappa = PI / 2.0;
@@ -268,7 +271,7 @@ fn the_quartic() {
         }
         assert_relative_eq!(quartic.load(kappa), load, epsilon = 0.0, max_relative = 1e-15);
     }
-    // From both sides of F = π the same.
+    // Equal values from both sides of F = π.
     assert_relative_eq!(Quartic::under_load(1.0, 1.0, 1.0, kappa).unwrap().merger(kappa), PI);
     let at = |load: f64| Quartic::under_load(1.0, 1.0, load, kappa).unwrap();
     let (below, above) = (at(PI * (1.0 - 1e-14)), at(PI * (1.0 + 1e-14)));
@@ -282,7 +285,7 @@ fn the_quartic() {
     assert_relative_eq!(at(20.0).load(kappa), 20.0, epsilon = 0.0, max_relative = 1e-15);
 }
 
-/// Solutions that were computed apart from this, in `tests/data/several`.
+/// The closed forms agree with independently computed solutions in `tests/data/several`.
 #[test]
 fn they_agree_with_files() {
     let kappa = PI / 2.0;
@@ -314,14 +317,14 @@ fn they_agree_with_files() {
 fn in_single_precision_too() {
     for ((name, single), (_, double)) in forms::<f32>().into_iter().zip(forms::<f64>()) {
         if name == "quartic 1" {
-            // At the merger itself a rounding decides.
+            // At the merger itself rounding decides.
             continue;
         }
         let hull = double.limits();
         let size = hull.right.abs().max(hull.left.abs());
         for (single, double) in single.contacts().iter().zip(double.contacts()) {
             for (got, want) in [(single.left, double.left), (single.right, double.right)] {
-                // Where the contacts all but merge, a/s = 0.999 has lost three digits.
+                // Where the contacts almost merge, a/s = 0.999 has lost three digits.
                 assert!((f64::from(got) - want).abs() < 1e-5 * size, "{name}: {got} {want}");
             }
         }
@@ -359,7 +362,7 @@ fn what_makes_no_sense_is_refused() {
             other => panic!("{name}: {other:?}"),
         }
     }
-    // On either side one of the limits alone is further out.
+    // On either side only one of the limits is further out.
     for (left, right) in [(1.0, 0.3), (0.3, 1.0)] {
         let form = UnequalRadii::new(left, right, 0.5).unwrap();
         let [near, far] = [-form.limits().left, form.limits().right];
@@ -377,7 +380,7 @@ fn what_makes_no_sense_is_refused() {
     }
 }
 
-/// Bumps of any height and distance.
+/// Two bumps of any height and distance merge under the load given by the form.
 #[test]
 fn two_bumps_merge_under_the_load_that_the_form_tells() {
     for (depth, radius, kappa) in [(0.3f64, 2.0, 1.7), (2.5, 0.4, 0.2)] {

@@ -1,5 +1,5 @@
-//! What is asked of a solution with several contacts, against closed forms, stored solutions, own sums over the
-//! pressures, and differences of solves.
+//! Derived quantities of several contacts, against closed forms, stored solutions, independent sums
+//! over the pressures, and differences of solves.
 #![allow(missing_docs)]
 
 use crate::common::NanSafe;
@@ -13,7 +13,7 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// A body on a flat, E* = 1.
+/// Body on a flat, E* = 1.
 struct Scene {
     name: &'static str,
     body: Profile,
@@ -32,14 +32,14 @@ impl Scene {
     }
 }
 
-/// A polynomial, its coefficients from the highest on.
+/// Returns a polynomial with these coefficients, from the highest on.
 fn polynomial<const N: usize>(from: f64, to: f64, coefficients: [f64; N]) -> Profile {
     graph(from, to, move |x| {
         coefficients.iter().fold([0.0; 2], |[y, dy], a| [y * x + a, dy * x + y])
     })
 }
 
-/// The scenes of `tests/data/several`, as written there.
+/// Returns the scenes of `tests/data/several`.
 fn scenes() -> Vec<Scene> {
     let free = |name, body, load| Scene { name, body, edges: [Edge::Free; 2], load };
     let quartic = || polynomial(-2.5, 2.5, [1.0, 0.0, -2.0, 0.0, 0.0]);
@@ -106,7 +106,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// `∫ P f dx` over a contact, with P as it is, by the midpoint rule in the angle.
+/// Returns `∫ P f dx` over a contact, from computed pressures, by the midpoint rule in the angle.
 fn sum(solution: &Solution<f64>, on: Interval<f64>, f: impl Fn(f64) -> f64) -> f64 {
     let pressure = solution.pressure().unwrap();
     let count = 600;
@@ -146,7 +146,7 @@ fn what_each_contact_bears() {
             match region.peak {
                 Some(peak) => {
                     assert!(on.contains(peak.x) && peak.pressure >= highest_kept * (1.0 - 1e-9));
-                    // Nothing is larger.
+                    // No pressure is larger.
                     let pressure = solution.pressure().unwrap();
                     for j in 1..200 {
                         let x = on.at_angle(PI * f64::from(j) / 200.0);
@@ -181,7 +181,7 @@ fn what_each_contact_bears() {
     }
 }
 
-/// Of one contact there is one.
+/// A single contact has one region.
 #[test]
 fn one_contact_is_a_region_too() {
     let form = Hertz::new(0.7, 0.3).unwrap();
@@ -196,7 +196,7 @@ fn one_contact_is_a_region_too() {
     assert!(region.centre_of_pressure().unwrap().abs() < 1e-14 * 0.3);
 }
 
-/// The strength of the corner is the limit of the pressure there, in terms of its own contact.
+/// The strength of the corner is the limit of the pressure there, relative to its own contact.
 #[test]
 fn the_singularity_of_a_corner() {
     let scenes = scenes();
@@ -228,7 +228,7 @@ fn map<T: Real>(count: usize, share: f64) -> Map<T> {
     PolynomialMap::new(hertz, count, T::of(0.3 * share), T::one()).unwrap()
 }
 
-/// v and v' of a map, by Chebyshev's recurrence.
+/// Returns v and v' of a map, by Chebyshev's recurrence.
 fn chebyshev<T: Real>(form: &Map<T>, x: T) -> [T; 2] {
     let two = T::of(2.0);
     let (mut before, mut here) = ([T::one(), T::zero()], [x, T::one()]);
@@ -240,7 +240,7 @@ fn chebyshev<T: Real>(form: &Map<T>, x: T) -> [T; 2] {
     here.map(|value| form.amplitude() * value)
 }
 
-/// The contacts of a map, and how far the load of each is from its share, all shares being equal.
+/// Returns the contacts of a map, each with the relative error of its load against an equal share.
 fn shares(form: &dyn ClosedForm<f64>, count: usize) -> Vec<(ContactRegion<f64>, f64)> {
     let reach = (2.0 / count as f64).cosh();
     let body = body(form, -reach, reach).unwrap();
@@ -271,7 +271,7 @@ fn each_contact_of_a_map_bears_its_share() {
     }
 }
 
-/// Central differences of solves, by Richardson's rule.
+/// Returns central differences of solves, with Richardson extrapolation.
 fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
     let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);
     (4.0 * central(2e-4) - central(4e-4)) / 3.0
@@ -377,7 +377,7 @@ fn rates_in_closed_form() {
     }
 }
 
-/// The gap of a map is that of Hertz, at v, over N.
+/// The gap of a map is Hertz's gap at v, over N.
 #[test]
 fn the_gap_between_contacts_and_beside_them() {
     for (count, share) in [(2usize, 1.1), (2, 3.0), (3, 1.1), (3, 3.0), (5, 2.0)] {
@@ -451,7 +451,7 @@ fn the_equation_is_met_in_each_contact() {
     }
 }
 
-/// Stress adds up: below two contacts it is that below the one and that below the other.
+/// Stress is additive: below two contacts it is the sum of the stresses below each.
 #[test]
 fn the_stress_below_is_the_sum_of_all() {
     for scene in scenes() {
@@ -485,7 +485,7 @@ fn the_stress_below_is_the_sum_of_all() {
         }
         println!("{:24} stress {worst:.1e} of the mean pressure", scene.name);
         assert!(worst < 1e-11, "{}: {worst:e}", scene.name);
-        // On the surface of a gap nothing presses, and what pulls is friction.
+        // On the surface of a gap there is no normal stress; friction alone stretches it.
         let pair = &solution.intervals()[..2];
         let x = 0.5 * (pair[0].right + pair[1].left);
         let free = solution.subsurface().unwrap().at(x, 0.0).unwrap();
@@ -498,7 +498,7 @@ fn the_stress_below_is_the_sum_of_all() {
     }
 }
 
-/// Far apart, the largest shear is that of Hertz below either bump.
+/// Far apart, the largest shear is Hertz's below either bump.
 #[test]
 fn the_largest_shear_below_two_bumps() {
     let load = 1e-7;
@@ -524,7 +524,7 @@ fn pressures_at_limits_and_in_gaps() {
                     continue;
                 }
                 assert_eq!(pressure.at(x), Ok(0.0), "{}", scene.name);
-                // Next to it there is a little, or what there is cannot be told from rounding.
+                // Just inside, the pressure is small, or cannot be told from rounding.
                 let inward = if x == on.left { 1e-12 } else { -1e-12 } * on.half_width();
                 match pressure.at(x + inward) {
                     Ok(p) => assert!(p > 0.0 && p < 1e-4 * solution.mean_pressure()),
@@ -542,7 +542,7 @@ fn pressures_at_limits_and_in_gaps() {
                 want.push(0.0);
             }
         }
-        // In any order, whatever lies next to what.
+        // In any order, with any neighbours.
         for i in 0..40 {
             let on = contacts[i % contacts.len()];
             x.push(on.at_angle(PI * (i as f64 + 0.5) / 40.0));
@@ -565,7 +565,7 @@ fn pressures_at_limits_and_in_gaps() {
     }
 }
 
-/// A solution outlives what its solver does next, and a clone is as good.
+/// A solution stays valid while its solver goes on, and so does a clone.
 #[test]
 fn rates_of_kept_solutions() {
     let scene = &scenes()[1];

@@ -1,4 +1,5 @@
-//! The solver where bodies touch in several places, against closed forms and through births and mergers.
+//! The solver for bodies with several contacts, against closed forms and through births and
+//! mergers.
 #![allow(missing_docs)]
 
 use crate::boundary_elements::solve;
@@ -16,13 +17,13 @@ use std::f64::consts::PI;
 
 const COUNTS: [usize; 5] = [2, 3, 5, 8, 16];
 
-/// Forms with N contacts, and how far their bodies go.
+/// Returns forms with N contacts, and the reach of their bodies.
 fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>, T)> {
     let n = T::of;
     let mut forms: Vec<(String, Box<dyn ClosedForm<T>>, T)> = Vec::new();
     for count in COUNTS {
         let mut add = |name: &str, form: Box<dyn ClosedForm<T>>| {
-            // Where v is nearly four times what it is between the contacts.
+            // Place where v is nearly four times its value between the contacts.
             let reach = n(2.0 / count as f64).cosh();
             forms.push((format!("{name}, {count}"), form, reach));
         };
@@ -41,8 +42,8 @@ fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>, T)> {
     forms
 }
 
-/// The largest error of a limit, in terms of the width of its contact, and of a pressure, in terms of the
-/// peak.
+/// Returns the largest error of a limit, relative to the width of its contact, and of a pressure,
+/// relative to the peak.
 fn errors<T: Real>(name: &str, form: &dyn ClosedForm<T>, solution: &Solution<T>) -> [T; 2] {
     let (want, got) = (form.contacts(), intervals(solution));
     assert_eq!(got.len(), want.len(), "{name}: {got:?}, but {want:?}");
@@ -86,7 +87,7 @@ fn the_solver_agrees_with_closed_forms() {
 
 fn in_single_precision_too() {
     for (name, form, reach) in forms::<f32>() {
-        // Many contacts, narrow ones, leave few digits of x in each.
+        // Many narrow contacts leave few digits of x in each.
         if !["2", "3", "5"].iter().any(|count| name.ends_with(&format!(", {count}"))) {
             continue;
         }
@@ -117,7 +118,7 @@ fn two_contacts_merge_and_part() {
     let down: Vec<f64> = loads.iter().rev().copied().collect();
     for load in loads.into_iter().chain(down) {
         let form = Quartic::under_load(1.0, 1.0, load, kappa).unwrap();
-        // The inner limits go like the root of what is left of the load.
+        // The inner limits go as the root of the remaining load.
         let near = 1.0 / (1.0 - load / PI).abs().min(1.0);
         let cold = contact.solve(Control::Load(load)).unwrap();
         let warm = solver.solve(&contact, Control::Load(load)).unwrap();
@@ -132,8 +133,8 @@ fn two_contacts_merge_and_part() {
     }
 }
 
-/// A rough body: as the load grows its limits only move outwards, through births and mergers, and its
-/// pressures change little by little; the way back is the same.
+/// A rough body: as the load grows its limits only move outwards, through births and mergers, and
+/// its pressures change gradually; the way back gives the same contacts.
 #[test]
 fn limits_only_move_outwards() {
     let height = |x: f64| {
@@ -176,7 +177,7 @@ fn limits_only_move_outwards() {
             let peak = pressures.iter().fold(0.0f64, |peak, &p| peak.max(p));
             for ((&x, &more), &less) in x.iter().zip(&pressures).zip(lower) {
                 assert!(more >= less - 1e-9 * peak, "F = {load}: P({x}) has fallen to {more}");
-                // From a load to the next, 7 % more, no pressure rises by half the peak.
+                // From one load to the next, 7 % more, no pressure rises by half the peak.
                 assert!(more <= less + 0.5 * peak, "F = {load}: P({x}) has leapt to {more}");
             }
             changes += usize::from(before.len() != contacts.len());
@@ -197,14 +198,14 @@ fn limits_only_move_outwards() {
             );
         }
     }
-    // And it is the contact.
+    // The oracle finds the same contact.
     for (&load, (contacts, _)) in loads.iter().zip(&kept).step_by(17) {
         let oracle = solve(&|x| height(x)[0], kappa, load, [-2.0, 2.0], &[]).unwrap();
         assert_eq!(oracle.disagreement(contacts), None, "F = {load}");
     }
 }
 
-/// A solution found by other means: `tests/data/several`.
+/// An independently computed solution: `tests/data/several`.
 #[test]
 
 fn contacts_without_a_closed_form() {
@@ -247,8 +248,8 @@ fn heights_that_do_not_go_with_the_slopes() {
     }
 }
 
-/// x⁴ - 2x² has two bumps. Several contacts with adhesion are not solved for: there is none rather than two
-/// without it.
+/// x⁴ - 2x² has two bumps. Several contacts with adhesion are not supported: an error is right, two
+/// contacts without adhesion are not.
 #[test]
 fn one_adhesive_edge_is_not_forgotten_between_two_bumps() {
     let body = graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);

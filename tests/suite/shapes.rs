@@ -1,4 +1,4 @@
-//! The shapes that are built in, and where they are put.
+//! The built-in shapes, and their placement.
 #![allow(missing_docs, clippy::excessive_precision)] // Values are given to 20 digits.
 
 use crate::common::NanSafe;
@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 type Body = Box<dyn ParametricProfile<f64>>;
 
-/// Relative errors of a solve on a flat: of the two limits, against the half-width, and the largest
-/// of the pressure on a grid.
+/// Returns relative errors of a solve on a flat: of the two limits, against the half-width, and the
+/// largest error of the pressure on a grid.
 fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f64; 3] {
     let (want, load) = (form.limits(), form.load(1.0));
     let contact = Contact::new(&Flat, upper).unwrap();
@@ -28,7 +28,7 @@ fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f
 }
 
 /// X, Y, X' and Y' to 20 digits, from the formulas in the documentation of each shape; the last
-/// figures are what the slope is off by at most.
+/// number of a row is the allowed error of the slope.
 #[test]
 fn points_and_derivatives_keep_their_digits() {
     let tiny = 0.5f64.powi(20);
@@ -86,7 +86,7 @@ fn points_and_derivatives_keep_their_digits() {
                 assert_relative_eq!(slope, dy / dx, epsilon = 0.0, max_relative = 1e-15);
             }
         }
-        // The whole of the curve, with its derivatives against differences.
+        // The whole curve, with its derivatives against differences.
         Piece::checked(&*body).unwrap();
     }
 }
@@ -113,7 +113,7 @@ fn solves_agree_with_the_closed_forms() {
         let form = reference::Crowning::new(0.01, 5.0, half_width).unwrap();
         let roller = Crowning::new(0.01, 5.0, [-5.0, 5.0]).unwrap();
         let off = against(&roller, &form);
-        // Of L/(l - L), by which an error of the load, or of x, is magnified.
+        // Factor L/(l - L), which magnifies an error of the load or of x.
         let open = 1e-14 * (1.0 + half_width / (5.0 - half_width));
         assert!(off.iter().all(|&off| off < 10.0 * open), "{half_width}: {off:?}");
     }
@@ -133,7 +133,7 @@ fn two_involutes_touch_as_gear_teeth_do() {
     assert_relative_eq!(solution.b(), 0.24161411179371945, epsilon = 0.0, max_relative = 1e-13);
 }
 
-/// An arc turned about its centre is a longer way round the same circle.
+/// An arc turned about its centre is another arc of the same circle.
 #[test]
 fn a_rotated_arc_is_an_arc() {
     let turn = 0.3;
@@ -147,7 +147,8 @@ fn a_rotated_arc_is_an_arc() {
         for (got, want) in [(got.x, want.x), (got.dx, want.dx), (got.dy, want.dy)] {
             assert!((got - want).abs() < 1e-15, "{k}: {got} {want}");
         }
-        // Of a height next to the lowest point the shift by the radius leaves what it leaves.
+        // Near the lowest point the shift by the radius leaves an absolute rounding error of the
+        // height.
         assert!((got.y - want.y).abs() < 1e-15, "{k}");
     }
     assert_eq!(turned.slope_at(0.0), None);
@@ -197,7 +198,7 @@ fn solved(lower: &dyn ParametricProfile<f64>, upper: &dyn ParametricProfile<f64>
     [on.left, on.right, pressures[0], pressures[1]]
 }
 
-/// Two bodies without symmetry, one of them joined.
+/// Returns two bodies without symmetry, one of them joined.
 fn crooked() -> (Involute<f64>, Piecewise<f64, Line<f64>>) {
     (Involute::new(1.0, 0.5, [0.1, 1.2]).unwrap(), wedge([-0.2, 0.5], 3.0).unwrap())
 }
@@ -253,7 +254,7 @@ fn placing_keeps_breakpoints_and_known_slopes() {
     assert_relative_eq!(slopes[0], -0.1 / 1.02, epsilon = 0.0, max_relative = 1e-15);
     assert_relative_eq!(slopes[1], 0.6 / 0.95, epsilon = 0.0, max_relative = 1e-15);
 
-    // Turned by just that angle it lies on its flank, which is level but for rounding.
+    // Turned by exactly that angle it lies on its flank, which is level to rounding.
     let (_, wedge) = crooked();
     let turned = wedge.placed(Placement::default().rotated(0.2f64.atan())).unwrap();
     let left = turned.piece(0).unwrap().ends[0];
@@ -263,7 +264,7 @@ fn placing_keeps_breakpoints_and_known_slopes() {
     let ends = contact.solve(Control::Load(0.01)).unwrap().hull();
     assert!(ends.left < 0.0 && ends.right > 0.0, "{ends:?}");
 
-    // An infinite slope is still one, and not NaN.
+    // An infinite slope stays infinite, and does not become NaN.
     let crowning = Crowning::new(0.1, 1.0, [-1.0, 1.0]).unwrap();
     let moved = Placed::new(crowning, Placement::default().shifted(3.0, 0.0)).unwrap();
     assert_eq!(moved.at(1.0).dy, f64::INFINITY);
@@ -301,7 +302,7 @@ fn what_is_no_shape_is_refused() {
     named(Crowning::new(1.0, 1.0, [-1.0, 1.5]), "an end");
     named(Crowning::new(1.0, 1.0, [-1.5, 1.0]), "an end");
     let parabola = Parabola::new(1.0, unit).unwrap();
-    // The first step that cannot be done, and what was asked for.
+    // The error names the first invalid step and its value.
     let place = Placement::default;
     for (wrong, name, asked) in [
         (place().scaled(0.0), "a factor of a placement", 0.0),
@@ -343,7 +344,7 @@ fn what_is_no_shape_is_refused() {
     in_piece(rounded_punch(-0.5, 1.0, 0.5).err(), 1);
     in_piece(rounded_punch(0.5, 0.0, 1.0).err(), 0);
 
-    // A joined body is not smooth, and one turned too far turns back.
+    // A joined body is not smooth, and a body turned too far turns back.
     let joined = wedge([-0.1, 0.1], 1.0).unwrap();
     let error = Placed::new(&joined, Placement::default()).err();
     assert_eq!(error, Some(ProfileError::Joined { pieces: 2 }));

@@ -1,16 +1,18 @@
-//! Waves and measured points against what a contact is: it pulls nowhere, the gap is closed in it and open beside it,
-//! and it bears the load. That is one contact, and no other.
+//! Waves and measured points against the conditions of contact: no tension, the gap is closed in
+//! the contact and open outside it, and the pressure carries the load. These conditions determine
+//! the contact.
 //!
-//! The gap is worked out here, from heights of the bodies and the pressures of the solution alone. Over one contact,
-//! with `s = c + L cos θ`, the function `P L sin θ` is a cosine series, and for k > 0
+//! The gap is computed here from heights of the bodies and the pressures of the solution alone.
+//! Over one contact, with `s = c + L cos θ`, the function `P L sin θ` is a cosine series, and for
+//! k > 0
 //!
 //! ```text
 //! ∫ cos kθ ln|z - cos θ| dθ = -(π/k) cos kφ      for z = cos φ
 //!                           = -(π/k) exp(-kξ)    for z = cosh ξ, times (-1)^k for z = -cosh ξ
 //! ```
 //!
-//! With `SCENES=10000 cargo test --release --test suite signorini -- --nocapture` each test takes that many, from the
-//! seed `FIRST` on.
+//! `SCENES=10000 cargo test --release --test suite signorini -- --nocapture` solves 10 000 scenes
+//! in each test, from the seed `FIRST` on.
 
 use crate::random_scenes::Dice;
 use linecontact::profile::{Fit, Spline};
@@ -21,23 +23,25 @@ use linecontact::{
 };
 use std::f64::consts::{LN_2, PI};
 
-/// Terms of a cosine series, to begin with, at most, and at most where that leaves more than the second share open.
+/// Number of terms of a cosine series: initial, largest, and largest if the second of [`TAIL`] is
+/// exceeded.
 const TERMS: [usize; 3] = [64, 8192, 32768];
-/// Where a series ends: what is left of it, as a share of the load.
+/// Tail at which a series ends, as a share of the load: goal, and upper bound.
 const TAIL: [f64; 2] = [1e-10, 1e-7];
-/// What the potential of a contact may be off by, as a share of the load: waves, and splines, whose series end late.
+/// Allowed error of the potential, as a share of the load: waves, and splines, whose series
+/// converge slowly.
 const WAVES: f64 = 1e-8;
 const SPLINES: f64 = 1e-6;
-/// Pressures below zero, as a share of the largest.
+/// Allowed tension, as a share of the largest pressure.
 const TENSION: f64 = 1e-8;
 
-/// The pressure over a contact as a cosine series of `P L sin θ`.
+/// Pressure over a contact as a cosine series of `P L sin θ`.
 struct Series {
     on: Interval<f64>,
     terms: Vec<f64>,
-    /// What the last terms add to the potential.
+    /// Contribution of the last terms to the potential.
     tail: f64,
-    /// The least pressure of a node, and the largest.
+    /// Smallest and largest pressure of a node.
     pressures: [f64; 2],
 }
 
@@ -85,7 +89,7 @@ impl Series {
         PI * self.terms[0]
     }
 
-    /// `∫ P ln|x - s| ds` at an angle inside.
+    /// Returns `∫ P ln|x - s| ds` at an angle inside.
     fn inside(&self, angle: f64) -> f64 {
         let sum: f64 = (1..self.terms.len())
             .map(|k| self.terms[k] / k as f64 * (k as f64 * angle).cos())
@@ -93,7 +97,7 @@ impl Series {
         self.load() * (0.5 * (self.on.right - self.on.left) / 2.0).ln() - PI * sum
     }
 
-    /// `∫ P ln|x - s| ds` outside.
+    /// Returns `∫ P ln|x - s| ds` outside.
     fn outside(&self, x: f64) -> f64 {
         let Interval { left, right } = self.on;
         let half = 0.5 * (right - left);
@@ -111,7 +115,7 @@ impl Series {
         self.load() * (half.ln() + xi - LN_2) - PI * sum
     }
 
-    /// `∫ P f ds` of a function without singularities near the contact.
+    /// Returns `∫ P f ds` of a function without singularities near the contact.
     fn integral(&self, f: impl Fn(f64) -> f64) -> f64 {
         let count = self.terms.len();
         let angle = |i: usize| PI * (i as f64 + 0.5) / count as f64;
@@ -134,7 +138,7 @@ fn at_angle(on: Interval<f64>, angle: f64) -> f64 {
     }
 }
 
-/// Heights of the gap before loading, and what it takes to see all of them.
+/// Heights of the gap before loading, and places dense enough to resolve them.
 struct Bodies<'h> {
     height: &'h dyn Fn(f64) -> f64,
     kappa: f64,
@@ -142,7 +146,7 @@ struct Bodies<'h> {
     places: Vec<f64>,
 }
 
-/// How far a solution is from a contact: potentials as shares of the load.
+/// Violations of the conditions of contact: potentials as shares of the load.
 #[derive(Debug)]
 #[allow(dead_code)] // Fields that are only printed.
 struct Faults {
@@ -150,9 +154,9 @@ struct Faults {
     tension: f64,
     level: f64,
     overlap: f64,
-    /// Where.
+    /// Place of the overlap.
     at: f64,
-    /// How far the judge may be off.
+    /// Uncertainty of the judge.
     doubt: f64,
 }
 
@@ -169,7 +173,7 @@ impl Faults {
 struct Judge<'h> {
     bodies: &'h Bodies<'h>,
     contacts: Vec<Series>,
-    /// κ times the gap and the potential, in the contacts.
+    /// Sum of κ times the gap and the potential, in the contacts.
     level: f64,
     unlevel: f64,
     load: f64,
@@ -212,12 +216,12 @@ impl<'h> Judge<'h> {
         self.contacts.iter().enumerate().map(of).sum()
     }
 
-    /// κ times the gap.
+    /// Returns κ times the gap.
     fn gap(&self, x: f64) -> f64 {
         self.bodies.kappa * (self.bodies.height)(x) - self.potential(x, None) - self.level
     }
 
-    /// Places outside, between two limits or a limit and an end, from left to right.
+    /// Returns places outside, between two limits or a limit and an end, from left to right.
     fn places(&self, [from, to]: [f64; 2], is_limit: [bool; 2]) -> Vec<f64> {
         let places = &self.bodies.places;
         let first = places.partition_point(|&x| x <= from);
@@ -258,7 +262,7 @@ impl<'h> Judge<'h> {
                 let beside = j.checked_sub(1).zip((j + 1 < places.len()).then_some(j + 1));
                 let Some((before, after)) = beside else { continue };
                 let rises = [gaps[before] - gaps[j], gaps[after] - gaps[j]];
-                // A dip that may reach below.
+                // A dip that may extend below zero.
                 if rises[0] >= 0.0 && rises[1] >= 0.0 && gaps[j] < rises[0].max(rises[1]) {
                     let [x, gap] = lowest_between(places[before], places[after], &|x| self.gap(x));
                     take(x, gap);
@@ -281,7 +285,7 @@ impl<'h> Judge<'h> {
     }
 }
 
-/// The lowest value by golden sections.
+/// Returns the lowest value, by golden-section search.
 fn lowest_between(mut from: f64, mut to: f64, f: &dyn Fn(f64) -> f64) -> [f64; 2] {
     let share = 0.5 * (5f64.sqrt() - 1.0);
     let mut x = [to - share * (to - from), from + share * (to - from)];
@@ -304,18 +308,18 @@ fn judge(bodies: &Bodies<'_>, solution: &Solution<f64>, load: f64) -> Faults {
     Judge::new(bodies, solution, load).faults()
 }
 
-/// What becomes of scenes.
+/// Outcomes of scenes.
 #[derive(Default)]
 struct Tally {
     scenes: u64,
     wrong: Vec<String>,
     refused: Vec<String>,
     too_short: usize,
-    /// Cold from warm.
+    /// Scenes whose cold and warm contacts differ.
     apart: Vec<String>,
     most_contacts: usize,
     contacts: usize,
-    /// Of what is right.
+    /// Largest violations in correct solutions.
     worst: [f64; 5],
     slowest: f64,
 }
@@ -323,7 +327,7 @@ struct Tally {
 impl Tally {
     /// Solves a scene cold, and from a heavier load and a lighter one.
     ///
-    /// `wide` is the same on bodies that go on beyond their ends, to tell whether they are too short.
+    /// `wide` solves the scene on longer bodies, to tell whether the bodies are too short.
     fn take(
         &mut self,
         name: &str,
@@ -409,7 +413,7 @@ impl Tally {
     }
 }
 
-/// The length on which one of two contacts is and the other is not, as a share of both.
+/// Returns the length covered by only one of two contacts, as a share of both.
 fn apart(one: &[Interval<f64>], other: &[Interval<f64>]) -> f64 {
     let mut limits: Vec<(f64, bool, f64)> = Vec::new();
     for (of_one, all) in [(true, one), (false, other)] {
@@ -426,18 +430,19 @@ fn apart(one: &[Interval<f64>], other: &[Interval<f64>]) -> f64 {
     apart / all
 }
 
-/// `x²/(2R)` and waves `a cos(w x + phase)`.
+/// Parabola `x²/(2R)` with waves `a cos(w x + phase)`.
 #[derive(Clone, Debug)]
 struct Wavy {
     radius: f64,
     waves: Vec<[f64; 3]>,
-    /// F/κ.
+    /// Load F/κ.
     load: f64,
     kappa: f64,
 }
 
 impl Wavy {
-    /// On bodies from -1 to 1: 3 to 300 waves, and a load of 1e-7 to 0.1 of κ and the width.
+    /// Returns random waves on bodies from -1 to 1: 3 to 300 waves, and a load of 1e-7 to 0.1 of κ
+    /// and the width.
     fn new(dice: &mut Dice) -> Self {
         loop {
             let load = 2.0 * dice.power_of_ten(-7.0, -1.0);
@@ -446,7 +451,7 @@ impl Wavy {
             let is_symmetric = dice.uniform() < 0.2;
             let mut wave = || {
                 let w = PI * dice.power_of_ten(3f64.log10(), 300f64.log10());
-                // In terms of what leaves the gap convex.
+                // Relative to the amplitude at which the gap is still convex.
                 let a = dice.power_of_ten(-0.7, 2.3) / (w * w * radius);
                 let turn = (2.0 * dice.uniform()).floor() * PI;
                 let phase = dice.within(-PI, PI);
@@ -454,7 +459,7 @@ impl Wavy {
             };
             let waves: Vec<_> = (0..count).map(|_| wave()).collect();
             let heights: f64 = waves.iter().map(|[a, ..]| a.abs()).sum();
-            // As far as crests may touch, and how many.
+            // Distance within which crests may touch, and their number.
             let reach = (2.0 * radius * load + 4.0 * radius * heights).sqrt();
             let crests = waves.iter().fold(0.0f64, |most, wave| most.max(reach * wave[1] / PI));
             let kappa = dice.power_of_ten(-3.0, 3.0);
@@ -464,7 +469,7 @@ impl Wavy {
         }
     }
 
-    /// Height and slope.
+    /// Returns height and slope.
     fn at(&self, x: f64) -> [f64; 2] {
         let mut at = [x * x / (2.0 * self.radius), x / self.radius];
         for &[a, w, phase] in &self.waves {
@@ -482,7 +487,7 @@ impl Wavy {
         })
     }
 
-    /// Places from -1 to 1, some for each wave.
+    /// Returns places from -1 to 1, `each` for each wave.
     fn places(&self, each: f64) -> Vec<f64> {
         let finest = self.waves.iter().fold(0.0f64, |most, wave| most.max(wave[1] / PI));
         even((each * finest).max(400.0) as usize)
@@ -493,7 +498,7 @@ fn even(count: usize) -> Vec<f64> {
     (0..=count).map(|i| 2.0 * i as f64 / count as f64 - 1.0).collect()
 }
 
-/// Returns the seeds: `SCENES` of them from `FIRST` on, if that is in the environment.
+/// Returns the seeds: `SCENES` of them from `FIRST` on, if set in the environment.
 fn scenes(default: u64) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok().map(|count| count.parse::<u64>().unwrap());
     let first = number("FIRST").unwrap_or(0);
@@ -503,9 +508,10 @@ fn scenes(default: u64) -> std::ops::Range<u64> {
 #[test]
 fn waves_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    // Two crests as high, on the left and on the right; crests beside the limit of a contact, where halving panels left
-    // them as uncertain at first, and where about a node in six waves is known; waves that a single contact fails at;
-    // contacts that come and go from one trial to the next, three and twenty.
+    // Two equally high crests, on the left and on the right; crests next to the limit of a contact,
+    // where halved panels were as uncertain at first, and where about one node in six waves is
+    // known; waves for which a single contact fails; contacts that appear and vanish from one trial
+    // to the next, three and twenty.
     let by_name = [395, 2795, 6938, 8098, 2626, 9035];
     for seed in scenes(200).chain(by_name) {
         let scene = Wavy::new(&mut Dice::new(seed));
@@ -524,7 +530,7 @@ fn waves_touch_as_bodies_do() {
     tally.finish();
 }
 
-/// A right answer is certified, at whatever load.
+/// A correct solution is certified, under any load.
 #[test]
 fn waves_are_certified() {
     let (mut evaluations, mut most, mut refused) = (0, 0, Vec::new());
@@ -552,7 +558,7 @@ fn waves_are_certified() {
 struct Measured {
     name: String,
     points: Vec<[f64; 2]>,
-    /// F/κ.
+    /// Load F/κ.
     load: f64,
 }
 
@@ -562,11 +568,11 @@ impl Measured {
         let step = 2.0 / (count - 1) as f64;
         let radius = dice.power_of_ten(-0.5, 1.0);
         let kind = ["white", "rough", "worn", "turned", "lone"][(5.0 * dice.uniform()) as usize];
-        // The half-width of the parabola alone; heights in terms of how far it comes down.
+        // The half-width of the parabola alone; heights relative to its depth there.
         let (half, height) = loop {
             let half = dice.power_of_ten((2.0 * step).max(2e-3).log10(), -0.3);
             let height = dice.power_of_ten(-4.0, 0.3);
-            // Contacts there may be.
+            // Points in the contact: a bound on the number of contacts.
             let points = 2.0 * half / step;
             if points * (1.0 + height).sqrt() < 120.0 || points < 400.0 && height * points < 2.0 {
                 break (half, height);
@@ -627,7 +633,7 @@ impl Measured {
     }
 }
 
-/// Adds heights that are normal, of a correlation from one point to the next.
+/// Adds normally distributed heights, with a correlation from one point to the next.
 fn add_noise(points: &mut [[f64; 2]], height: f64, correlation: f64, dice: &mut Dice) {
     let (own, mut last) = ((1.0 - correlation * correlation).sqrt(), 0.0);
     for point in points {
@@ -643,8 +649,9 @@ fn normal(dice: &mut Dice) -> f64 {
 #[test]
 fn measured_points_touch_as_bodies_do() {
     let mut tally = Tally::default();
-    // Kinks so many that a thousand terms of a pressure, or what more of them might add, hide overlaps; in 1203 and 2839 a
-    // dip that is not where the gap is lowest before loading; in 1514 a contact that parts where two have merged.
+    // So many kinks that the truncation of the series, or its estimate, hides overlaps; in 1203 and
+    // 2839 a dip away from the lowest gap before loading; in 1514 a contact that parts where two
+    // have merged.
     let by_name = [734, 1203, 1258, 1461, 1514, 2640, 2839];
     for seed in scenes(40).chain(by_name) {
         let scene = Measured::new(&mut Dice::new(seed));
@@ -688,7 +695,7 @@ fn measured_points_touch_as_bodies_do() {
     tally.finish();
 }
 
-/// The lowest height, by all places and the slope around the lowest of them.
+/// Returns the lowest height, by all places and the slope around the lowest of them.
 fn first_touch(scene: &Wavy) -> f64 {
     let places = scene.places(64.0);
     let heights: Vec<f64> = places.iter().map(|&x| scene.at(x)[0]).collect();
@@ -715,7 +722,7 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
     let [mut worst, mut back] = [0.0f64; 2];
     let ([mut wrong, mut refused], mut not_back) = ([const { Vec::new() }; 2], Vec::new());
     let all = scenes(100);
-    // By name, where cells that start anew do not find the load again.
+    // Seeds by number: cells that start anew do not find the load again.
     for seed in all.clone().chain([297]) {
         let mut dice = Dice::new(seed + (1 << 40));
         let scene = Wavy::new(&mut dice);
@@ -809,7 +816,7 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
     }
     println!("{all:?}: {worst:.1e} of the sums, loads {back:.1e}, not found back: {not_back:?}");
     assert!(wrong.is_empty() && refused.is_empty(), "{wrong:?}\n{refused:?}");
-    // The load of scene 6 is found where it is given, and not yet by its approach.
+    // The load of scene 6 is found if given, but not yet by its approach.
     assert!(not_back.iter().all(|&seed| seed == 6), "{not_back:?}");
 }
 
@@ -822,7 +829,7 @@ fn the_judge_knows_closed_forms_and_what_is_wrong() {
         })
     };
     let places = even(1000);
-    // P = κ/(π R) sqrt(L² - x²), of Hertz: κ and R are 1 in what is solved, R is 1/2 in the closed form.
+    // P = κ/(π R) sqrt(L² - x²), by Hertz: κ and R are 1 in the solve, R is 1/2 in the closed form.
     let hertz = |x: f64| [0.5 * x * x, x];
     for half in [1e-4, 0.01, 0.5] {
         let on = Interval { left: -half, right: half };
@@ -882,14 +889,14 @@ fn the_judge_knows_closed_forms_and_what_is_wrong() {
     let one = contact.single_interval(true).start(start).solve(Control::Load(load)).unwrap();
     let faults = judge(&bodies, &one, load);
     assert!(one.intervals().len() == 1 && faults.is_wrong(1e-3), "{faults:?}");
-    // A load that is not that, and bumps beside and in a contact of which the solution does not know.
+    // A wrong load, and bumps outside and in a contact that are unknown to the solution.
     assert!(judge(&bodies, &solution, load * (1.0 + 1e-7)).is_wrong(WAVES));
     let exact = Judge::new(&bodies, &solution, load);
     let inside = solution.intervals()[0].centre();
     for at in [0.1, 1.5, inside] {
         for above in [1e-7 * load / kappa, -1e-7 * load / kappa] {
             let height = |x: f64| {
-                // What is open there.
+                // Gap at that place.
                 let open = if at == inside { 0.0 } else { exact.gap(x).max(0.0) / kappa };
                 form.height(x) - (open + above) * (-0.5 * ((x - at) / 0.01).powi(2)).exp()
             };

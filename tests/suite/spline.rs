@@ -7,7 +7,7 @@ use linecontact::profile::{Fit, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
 use linecontact::{Contact, Control, Flat, ParametricProfile};
 
-/// Numbers of normal distribution, nearly: sums of twelve from a linear congruence.
+/// Approximately normal random numbers: sums of twelve from a linear congruential generator.
 struct Noise(u64);
 
 impl Noise {
@@ -21,7 +21,7 @@ impl Noise {
     }
 }
 
-/// Points of y(x) at distances that vary by a factor of three.
+/// Returns points of y(x) at distances that vary by a factor of three.
 fn uneven(n: usize, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let mut noise = Noise(1);
     let mut x = -1.0;
@@ -33,7 +33,7 @@ fn uneven(n: usize, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     points
 }
 
-/// Points of y(x) at even distances from -1 to 1.
+/// Returns points of y(x) at equal distances from -1 to 1.
 fn even(n: usize, mut y: impl FnMut(f64) -> f64) -> Vec<[f64; 2]> {
     let x = |i: usize| 2.0 * i as f64 / (n - 1) as f64 - 1.0;
     (0..n).map(|i| [x(i), y(x(i))]).collect()
@@ -43,7 +43,8 @@ fn circle(radius: f64) -> impl Fn(f64) -> f64 {
     move |x| x * x / (radius + ((radius - x) * (radius + x)).sqrt())
 }
 
-/// Second and third derivative at the two ends of each piece, from its slope, a parabola.
+/// Returns the second and third derivative at the two ends of each piece, from its slope, a
+/// parabola.
 fn bends(spline: &Spline<f64>) -> Vec<([f64; 2], f64)> {
     let piece = |i| {
         let piece = spline.piece(i).expect("as many as it says");
@@ -127,13 +128,13 @@ fn solves_agree_with_the_shape_that_the_points_are_of() {
     assert_relative_eq!(pressure, form.pressure(0.3, 1.0), epsilon = 0.0, max_relative = 1e-8);
 }
 
-/// The root mean square distance that Reinsch allows, in units of the noise.
+/// Returns the root mean square distance that Reinsch allows, in units of the noise.
 fn reinsch(points: usize) -> f64 {
     (1.0 + (2.0 / points as f64).sqrt()).sqrt()
 }
 
-/// `Σ (Y - y)² + α ∫ Y''²` is least where Y'' is zero at the ends, and at each knot the jump of Y'''
-/// times α is what the point is above the curve. The problem is convex: there is no other such curve.
+/// `Σ (Y - y)² + α ∫ Y''²` is least if Y'' is zero at the ends, and at each knot the jump of Y'''
+/// times α is the height of the point above the curve. The problem is convex: the curve is unique.
 #[test]
 fn the_smoothed_spline_is_the_smoothest() {
     let mut random = Noise(7);
@@ -187,7 +188,7 @@ fn many_noisy_points_give_the_contact() {
         let (got, exact) = (pressure.at(x).unwrap(), form.pressure(x, 1.0));
         assert_relative_eq!(got, exact, epsilon = 0.0, max_relative = 2e-3);
     }
-    // Without smoothing the slopes are those of the noise, ten times those of the circle.
+    // Without smoothing the slope errors are those of the noise, ten times as large.
     let raw = Spline::through(&points).unwrap();
     let error = |body: &Spline<f64>| {
         let off = |i: i32| f64::from(i) / 1e3;
@@ -197,7 +198,7 @@ fn many_noisy_points_give_the_contact() {
     assert!(error(&raw) > 0.05 && error(&body) < 2e-4, "{:e} {:e}", error(&raw), error(&body));
 }
 
-/// Whatever is said of the noise, within 10 %: many points are no reason to follow it.
+/// With a noise known to 10 % only, the smoothed curve does not follow it, however many the points.
 #[test]
 fn a_noise_that_is_not_quite_known_leaves_the_peak() {
     let (radius, half_width, noise) = (10.0, 0.25, 1e-4);
@@ -285,7 +286,7 @@ fn slips_of_the_measurement_are_found_and_nothing_else() {
             assert!(Spline::fitted(&bad, all).is_ok(), "unless that is turned off");
         }
     }
-    // Between too few points a slip cannot be told.
+    // Between too few points an outlier cannot be detected.
     let few = [[0.0, 0.0], [1.0, 0.0], [2.0, 5.0], [3.0, 0.0], [4.0, 0.0]];
     assert!(Spline::through(&few).is_ok());
 }
@@ -304,7 +305,7 @@ fn a_spline_of_single_precision() {
 
 #[test]
 fn a_spline_and_its_pieces_tell_their_ranges_and_slopes() {
-    // A parabola is met exactly.
+    // A parabola is reproduced exactly.
     let points = uneven(12, |x| x * x / 3.0);
     let spline = Spline::through(&points).unwrap();
     assert_eq!(spline.domain(), [points[0][0], points[11][0]]);
@@ -330,7 +331,8 @@ fn noise_far_below_that_of_the_points_leaves_them_as_they_are() {
     }
 }
 
-/// In any unit the spline is the same, or an error says that its numbers are too large or too small.
+/// In any unit the spline is the same, or an error says that its numbers are too large or too
+/// small.
 #[test]
 fn points_of_any_size() {
     let height = |x: f64| 0.5 * x * x + 0.1 * x * x * x + 0.2 * (3.0 * x).sin();

@@ -1,4 +1,4 @@
-//! Tables of load against approach, against solves between their points.
+//! Tables of load against approach, compared with solves between their points.
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, worst};
@@ -17,7 +17,8 @@ fn steel(contact: Contact<'_, f64>) -> Contact<'_, f64> {
     contact.materials(STEEL, STEEL, PlaneState::Strain)
 }
 
-/// The largest errors of load, half-width and peak, and of the stiffness, among loads between the points.
+/// Returns the largest errors of load, half-width and peak, and of the stiffness, among loads
+/// between the points.
 fn errors(contact: &Contact<f64>, table: &SpringTable<f64>, loads: [f64; 2]) -> [f64; 2] {
     let [mut values, mut stiffness] = [Vec::new(), Vec::new()];
     for i in 0..=200 {

@@ -1,5 +1,6 @@
-//! From whatever start, and none: what is found is the contact that grows with its load and at whose free
-//! edges the bodies open, or an error, also of gaps with more than one solution.
+//! From any start, and without one: the solver finds the contact that grows with its load and at
+//! whose free edges the bodies open, or returns an error, also for gaps with more than one
+//! solution.
 #![allow(missing_docs)]
 
 use crate::common::{self, Profile, assert_close, graph, on_flat, power, reference};
@@ -11,17 +12,18 @@ struct Scene {
     body: Profile,
     edges: [Edge<f64>; 2],
     load: f64,
-    /// The half-width of the contact that grows with its load, and that from which on the load falls.
+    /// Half-width of the contact that grows with its load, and half-width beyond which the load
+    /// falls.
     half_width: f64,
     fold: f64,
-    /// The range about the lowest place on which the gap opens.
+    /// Range about the lowest place on which the gap opens.
     opens: [f64; 2],
     /// Centres and half-widths of the starts.
     centres: [f64; 3],
     half_widths: [f64; 5],
 }
 
-/// The least positive root of a load that rises, less the one asked for.
+/// Returns the least positive half-width at which a rising load reaches its given value.
 fn rising(load: f64, at: impl Fn(f64) -> f64, most: f64) -> f64 {
     let (mut lo, mut hi) = (0.0, most);
     for _ in 0..80 {
@@ -38,8 +40,8 @@ fn scenes() -> Vec<Scene> {
     // g = x - 4 x³: F = L² (1 - 3 L²)/2, which falls from L² = 1/6 on; beyond 1/2 it closes.
     let double = || graph(-0.95, 0.95, |x| [x * x / 2.0 - x.powi(4), x - 4.0 * x.powi(3)]);
     let of_double = |l: f64| l * l * (1.0 - 3.0 * l * l) / 2.0;
-    // The same, and e x²: e (c² + L²/2) + c - 4 c³ - 6 c L² = 0 and F = L² (1 + 2 e c - 12 c² - 3 L²)/2.
-    // The contact beyond closes at one edge only.
+    // With an additional e x²: e (c² + L²/2) + c - 4 c³ - 6 c L² = 0 and F = L² (1 + 2 e c - 12 c²
+    // - 3 L²)/2. The contact beyond closes at one edge only.
     let lopsided = |e: f64| {
         graph(-0.95, 0.95, move |x| {
             let (u, v) = (x * x, 1.0 + x * (e - 4.0 * x));
@@ -133,7 +135,8 @@ fn the_contact_found_grows_with_its_load() {
         for (start, contact) in
             starts.iter().flat_map(|start| contacts.iter().map(move |c| (start, c)))
         {
-            // Where the bodies open about a start that is no wider than any contact, it leads to the right one.
+            // If the bodies open about a start no wider than any contact, it leads to the right
+            // one.
             let leads = start.is_none_or(|on| {
                 on.half_width() <= fold && on.left > opens[0] && on.right < opens[1]
             });
@@ -157,8 +160,8 @@ fn the_contact_found_grows_with_its_load() {
 
 #[test]
 fn first_contact_between_the_ends_of_the_start() {
-    // At both ends of the start the bodies close outward: the lowest place is inside. The one of
-    // g = u - 4 u³ is at 0.
+    // At both ends of the start the bodies close outward: the lowest place is inside. The lowest
+    // place of g = u - 4 u³ is at 0.
     let place = 0.2;
     let body = graph(place - 0.95, place + 0.95, move |x| {
         let u = x - place;
@@ -181,7 +184,7 @@ fn lopsided_domains() {
         let contact = on_flat(graph(left, right, |x| [x * x / 2.0, x]));
         let solution = contact.solve(Control::Load(0.02)).unwrap();
         assert!((solution.a() / 0.2 - 1.0).abs() < 1e-14, "[{left}, {right}]: {solution:?}");
-        // A start that is not on the bodies is no start.
+        // A start that is not on the bodies is ignored.
         let off = contact.clone().start(Interval { left: 2e9, right: 3e9 });
         assert!((off.solve(Control::Load(0.02)).unwrap().a() / 0.2 - 1.0).abs() < 1e-14);
     }

@@ -1,4 +1,4 @@
-//! Stress below the surface against closed forms, equilibrium and the pressure on the surface.
+//! Stress below the surface, against closed forms, equilibrium and the pressure on the surface.
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, worst};
@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 const KAPPA: f64 = 1.7;
 
-/// Just enough of complex numbers for the potentials.
+/// Complex number with the operations that the potentials need.
 #[derive(Clone, Copy, Debug)]
 struct Complex(f64, f64);
 
@@ -30,7 +30,7 @@ impl Complex {
     fn ln(self) -> Self {
         Self(self.0.hypot(self.1).ln(), self.1.atan2(self.0))
     }
-    /// `sqrt(z - 1) sqrt(z + 1)`
+    /// Returns `sqrt(z - 1) sqrt(z + 1)`.
     fn root(self) -> Self {
         Self(self.0 - 1.0, self.1).sqrt() * Self(self.0 + 1.0, self.1).sqrt()
     }
@@ -70,10 +70,10 @@ impl Div for Complex {
     }
 }
 
-/// The stress from `W = ∫ P ds/(ζ - s)` and `W'` at depth y.
+/// Returns the stress from `W = ∫ P ds/(ζ - s)` and `W'` at depth y.
 fn of_potential(w: Complex, dw: Complex, y: f64, mu: f64) -> Stress<f64> {
     let [sum, difference, shear] = [2.0 / PI * w.1, -2.0 * y / PI * dw.0, -y / PI * dw.1];
-    // A traction alone: its σ_y is μ times τ_xy, its τ_xy μ times σ_x of the pressure.
+    // A traction alone: its σ_y is μ times τ_xy, and its τ_xy μ times σ_x of the pressure.
     let sigma_x = (sum - difference) / 2.0;
     let along = -2.0 * mu / PI * w.0 - mu * shear;
     Stress {
@@ -89,7 +89,7 @@ fn largest_difference(a: &Stress<f64>, b: &Stress<f64>) -> f64 {
     worst(parts)
 }
 
-/// Places x in half-widths and depths.
+/// Returns places x in half-widths and depths.
 fn places() -> impl Iterator<Item = (f64, f64)> {
     let x = [-3.0, -1.1, -1.0, -0.93, -0.5, -1e-3, 0.0, 0.2, 0.77, 0.999, 1.0, 1.001, 1.7, 40.0];
     let depth = [1e-12, 1e-6, 1e-3, 0.03, 0.3, 0.7861514, 1.5, 20.0];
@@ -110,14 +110,14 @@ fn compare(
     for (x, y) in places() {
         let [w, dw] = potential(Complex(x, y));
         let want = of_potential(w, dw, y, mu);
-        // The forms are centred; at an edge its rounding would count.
+        // The forms are centred; at an edge the rounding of the centre would matter.
         let at = match x {
             -1.0 => on.left,
             1.0 => on.right,
             _ => half_width * x,
         };
         let got = field.at(at, half_width * y).unwrap();
-        // An error of the limits is magnified next to an edge, as it is in the pressure.
+        // An error of the limits is magnified next to an edge, as in the pressure.
         let magnified = (x.abs() - 1.0).hypot(y).sqrt().min(1.0);
         let error = magnified * largest_difference(&got, &want)
             / scale.max(want.sigma_x.abs()).max(want.sigma_y.abs());
@@ -195,7 +195,7 @@ fn a_series_of_two_terms() {
     }
 }
 
-/// `W = 2 κ m/π arcsin(L/ζ)`.
+/// Potential of a wedge: `W = 2 κ m/π arcsin(L/ζ)`.
 #[test]
 fn a_wedge_whose_pressure_is_infinite() {
     let form = Wedge::new(0.1, 0.2).unwrap();
@@ -235,7 +235,7 @@ fn a_tilted_flat_punch() {
     assert!(matches!(refused, Err(ContactError::Singular { .. })), "{refused:?}");
 }
 
-/// The forces through a cut at any depth are those on the surface.
+/// The forces through a cut at any depth equal those on the surface.
 #[test]
 fn a_cut_carries_the_load() {
     let form = UnequalRadii::under_load(1.0, 0.2, 0.05, KAPPA).unwrap();
@@ -306,7 +306,7 @@ fn on_the_surface_of_hertz() {
             let field = solution.subsurface().unwrap().friction(mu).unwrap();
             let got = field.at(x, 0.0).unwrap();
             let want = Stress { sigma_x: -p - 2.0 * mu / PI * pull, sigma_y: -p, tau_xy: -mu * p };
-            // At the edges by what rounding leaves open of the limits.
+            // At the edges, relative to the uncertainty of the limits by rounding.
             let error = largest_difference(&got, &want) / peak;
             assert!(
                 error < if x.abs() == a.max(b) { 1e-7 } else { 3e-14 },
@@ -314,10 +314,10 @@ fn on_the_surface_of_hertz() {
             );
         }
     }
-    // The largest von Mises stress for ν = 0 is that on the surface, p₀.
+    // The largest von Mises stress for ν = 0 is at the surface, p₀.
     let largest = solution.subsurface().unwrap().max_von_mises(0.0).unwrap();
     assert!((largest.value / peak - 1.0).abs() < 1e-15 && largest.depth == 0.0, "{largest:?}");
-    // With friction so strong the shear is μ p₀ all over the contact, and nowhere more.
+    // With friction this strong the shear is μ p₀ all over the contact, and nowhere larger.
     let sliding = solution.subsurface().unwrap().friction(0.9).unwrap().max_shear().unwrap();
     assert!((sliding.value / (0.9 * peak) - 1.0).abs() < 1e-14, "{sliding:?}");
 }
@@ -357,8 +357,8 @@ fn at_a_tip_and_at_corners() {
     assert_eq!(field.at(0.6, 0.0).unwrap().sigma_y, 0.0);
 }
 
-/// Below the tip of a wedge that leans the shear rises along a narrow ridge all the way to the surface: there it is
-/// `κ (m₁ + m₂)/π²`.
+/// Below the tip of an asymmetric wedge the shear rises along a narrow ridge up to the surface,
+/// where it is `κ (m₁ + m₂)/π²`.
 #[test]
 fn below_a_tip_that_leans() {
     for slopes in [[-0.02f64, 0.05], [-0.3, 0.1], [-1e-3, 1e-2]] {
@@ -388,8 +388,8 @@ fn the_search_for_the_largest_shear_can_be_ended() {
     assert_eq!(looks.load(Relaxed), 102);
 }
 
-/// A flat punch with round corners of which the load bends next to nothing: the largest shear is below a corner, as
-/// deep as that is narrow, and small corners are alike.
+/// A flat punch of which the contact covers very little of the round corners: the largest shear is
+/// below a corner, scales with the covered width, and so does its place.
 #[test]
 fn below_round_corners_that_are_hardly_touched() {
     let punch = rounded_punch(1.0, 1.0, 3.0).unwrap();
@@ -452,7 +452,7 @@ fn where_hertz_yields() {
             assert!((got.value / peak - value).abs() < 1e-14);
             assert!((got.depth / 0.1 - depth).abs() < 2e-7);
         } else {
-            // Its largest value is that at the surface, p₀.
+            // The largest value is at the surface, p₀.
             assert!((got.value / peak - 1.0).abs() < 3e-6 && got.depth < 2e-7);
         }
     }
@@ -493,7 +493,7 @@ fn refusals() {
     // Far away nothing overflows.
     assert!(field.at(1e200, 1e-200).unwrap().max_shear() >= 0.0);
     assert!(field.at(0.0, 1e-200).unwrap().max_shear() < 1e-12);
-    // Where parts of the stress have no digits left, the others are there.
+    // If some components of the stress have no digits left, the others remain.
     assert!(field.at(1e6, 1e-300).unwrap().max_shear() < 1e-300);
 }
 
@@ -546,7 +546,7 @@ fn beside_a_breakpoint_anywhere() {
         let field = solution.subsurface().unwrap().friction(0.3).unwrap();
         let mut worst = 0.0f64;
         for (x, y) in [(0.0f64, 1e-9f64), (1e-9, 1e-9), (-1e-7, 1e-12), (0.3, 1e-6), (0.1, 0.5)] {
-            // What x has become by rounding.
+            // The rounded x.
             let at: f64 = shift + 0.2 * x;
             let z = Complex((at - shift) / 0.2, y);
             let inverse = Complex(1.0, 0.0) / z;
@@ -594,7 +594,7 @@ fn a_field_shows_its_contact_and_its_friction() {
 
 type Part<'a> = Box<dyn ParametricProfile<f64> + 'a>;
 
-/// A parabola in pieces, with a parameter that has to be inverted.
+/// Returns a parabola in pieces, with a parameter that has to be inverted.
 fn in_pieces(pieces: usize, calls: &AtomicUsize) -> Piecewise<f64, Part<'_>> {
     let ends = |i: usize| i as f64 / pieces as f64 - 0.5;
     let piece = |i: usize| {
@@ -622,7 +622,7 @@ fn the_largest_shear_below_many_pieces() {
     assert!((shear.depth / 0.6 - 0.786_151_4).abs() < 1e-6, "{shear:?}");
 }
 
-/// Once the panels are there no stress calls the curves, whatever rule gave the limits.
+/// With the panels available no stress calls the curves, whatever quadrature gave the limits.
 #[test]
 fn a_stress_takes_no_evaluation() {
     let calls = AtomicUsize::new(0);
@@ -644,8 +644,8 @@ fn a_stress_takes_no_evaluation() {
     }
 }
 
-/// `Σ_j ∫ P/(ζ - s) ds` over waves and gaps: each contact by Gauss and Chebyshev's rule, which converges below the surface
-/// and between contacts.
+/// `Σ_j ∫ P/(ζ - s) ds` over waves and gaps: each contact by the Gauss-Chebyshev rule, which
+/// converges below the surface and between contacts.
 #[test]
 fn below_waves_and_the_gaps_between_them() {
     let wave = |number: f64, amplitude: f64| {

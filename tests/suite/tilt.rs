@@ -11,7 +11,7 @@ use linecontact::{
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// F about x = 0.
+/// Returns the control of a load with a moment about x = 0.
 fn moment(load: f64, moment: f64) -> Control<f64> {
     Control::Moment { load, moment, about: 0.0 }
 }
@@ -20,7 +20,7 @@ fn near(got: f64, due: f64, size: f64, what: &str) {
     assert!((got - due).abs() <= 1e-13 * size, "{what}: {got:e} for {due:e}, size {size:e}");
 }
 
-/// What a solution says must be what one of the turned body says.
+/// Asserts that a solution agrees with a solution of the turned body.
 fn assert_same(got: &Solution<f64>, due: &Solution<f64>, allowed: f64) {
     let (contacts, known) = (intervals(got), intervals(due));
     assert_eq!(contacts.len(), known.len(), "{contacts:?} {known:?}");
@@ -103,7 +103,7 @@ fn a_wedge_leans() {
             let m = share * load * load / (2.0 * t);
             let theta = f64::atan2(1.0, -2.0 * t * m / (load * load));
             let solution = contact.solve(moment(load, m)).unwrap();
-            // Where the tip is close to an edge, the first search may not find it.
+            // With the tip close to an edge, the first search may fail.
             let trials = solution.report().attempts().len();
             assert!(trials == 1 || share > 2.0, "{load} {share}");
             near(solution.tilt(), t * (1.0 - 2.0 * theta / PI), t, "tilt");
@@ -289,7 +289,7 @@ fn a_centre_of_pressure_is_a_moment() {
     }
 }
 
-/// A solver that turns the bodies back and forth ends where it was, to the last bit.
+/// A solver that turns the bodies back and forth returns to the first result, to the last bit.
 #[test]
 fn solves_in_a_row() {
     let body = graph(-1.2, 1.2, |x| [x.cosh() - 1.0, x.sinh()]);
@@ -346,7 +346,7 @@ fn what_cannot_be() {
             assert!(matches!(error(&contact, control), ContactError::InvalidMoment { .. }));
         }
     }
-    // Beyond the body, and so close to its end that the contact has no room.
+    // Beyond the body, and so close to its end that there is no space for the contact.
     assert!(matches!(error(&contact, given(0.1, 1.1)), ContactError::OutsideBodies { .. }));
     for (load, at) in [(0.1, 0.9), (0.02, -0.95), (0.4, 0.5)] {
         match error(&contact, given(load, at)) {
@@ -360,7 +360,7 @@ fn what_cannot_be() {
             error => panic!("{error}"),
         }
     }
-    // More than the bodies bear at any tilt.
+    // More than the capacity at any tilt.
     assert!(matches!(error(&contact, given(2.0, 0.0)), ContactError::DomainTooShort { .. }));
     let no_tilt = |contact: Contact<f64>| {
         assert!(matches!(error(&contact, given(0.1, 0.1)), ContactError::TiltNotSupported { .. }));
@@ -378,7 +378,7 @@ fn what_cannot_be() {
     };
     let by_pressure = contact.clone().edge_pressure(wanted);
     assert!(matches!(error(&by_pressure, given(0.1, 0.1)), ContactError::EdgePressureLoad));
-    // At a corner that would have to pull.
+    // At a corner that would be in tension.
     let held = contact.edges(Edge::Fixed(-0.5), Edge::Free);
     assert!(matches!(error(&held, given(0.1, 0.4)), ContactError::LiftsOff { .. }));
 }

@@ -1,5 +1,5 @@
-//! Bodies that are not as smooth as one could wish, and nobody said so: kinks and fine waves inside a
-//! curve, ends like square roots, uneven parameters.
+//! Bodies with undeclared features: kinks and fine waves inside a curve, ends like square roots,
+//! uneven parameters.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -23,7 +23,7 @@ pub fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f
 
 #[test]
 fn a_wedge_as_one_curve() {
-    // F = 2 m L/π, P = (2 m/π²) arcosh(L/|x - s|). The kink is in no special place.
+    // F = 2 m L/π, P = (2 m/π²) arcosh(L/|x - s|). The kink is at no special place.
     for (m, s, l) in [(1.0, 0.1, 0.3), (0.2, -0.237, 0.6), (3.0, 0.0123, 1e-3)] {
         let contact = on_flat(graph(-1.0, 1.0, move |x| [m * (x - s).abs(), m * (x - s).signum()]));
         let solution = contact.solve(Control::Load(2.0 * m * l / PI)).unwrap();
@@ -51,7 +51,7 @@ fn a_parabola_with_a_kink_as_one_curve() {
     let contact = Contact::new(&Flat, &*body).unwrap();
     let solution = contact.solve(Control::Load(load)).unwrap();
     assert_solved(&solution, Interval { left: c - l, right: c + l }, 1e-10, 5000);
-    // Declared, it is the same.
+    // Declared, the kink gives the same contact.
     let declared = join(vec![
         graph(-1.0, s, move |x| [x * x / 2.0 - m * (x - s), x - m]),
         graph(s, 1.0, move |x| [x * x / 2.0 + m * (x - s), x + m]),
@@ -85,7 +85,7 @@ fn a_slope_like_a_square_root_as_one_curve() {
         let got = pressure.estimate(s + x, &mut Cost::default()).unwrap();
         let error = (got.value - exact).abs();
         println!("z = {:9.1e}: error {error:.1e}, said to be {:.1e}", want.z(x), got.error);
-        // At the very place P has a cusp of infinite slope.
+        // At the breakpoint itself P has a cusp of infinite slope.
         let tolerance = if want.z(x).abs() < 1e-2 { 1e-5 } else { 1e-9 };
         assert!(error <= tolerance * largest, "P({x}): off by {error:e}");
     }
@@ -93,8 +93,8 @@ fn a_slope_like_a_square_root_as_one_curve() {
 
 #[test]
 fn an_end_like_a_square_root() {
-    // A parabola of which the right half goes over into a vertical tangent just outside the
-    // contact: slope x + h(x) with h of a square-root end at x = e.
+    // A parabola whose right half goes over into a vertical tangent just outside the contact: slope
+    // x + h(x) with h of a square-root end at x = e.
     let e = 0.301;
     let slope = move |x: f64| x + 0.01 * (1.0 - (1.0 - (x / e).min(1.0)).sqrt());
     let primitive = move |x: f64| {
@@ -102,8 +102,8 @@ fn an_end_like_a_square_root() {
         x * x / 2.0 + 0.01 * (x + e * 2.0 / 3.0 * (rest * rest.sqrt() - 1.0))
     };
     let contact = on_flat(graph(-0.6, e, move |x| [primitive(x), slope(x)]));
-    // The contact whose right limit is 0.3, its left found by bisection on the mean slope, by
-    // Gauss's rule in θ, which is periodic and analytic short of e.
+    // The contact whose right limit is 0.3; its left limit by bisection on the mean slope, by
+    // Gauss's rule in θ, in which the slope is periodic and, short of e, analytic.
     const N: usize = 4000;
     let moments = |on: Interval<f64>| {
         let nodes = (0..N).map(|i| PI * (i as f64 + 0.5) / N as f64);
@@ -150,8 +150,8 @@ fn parameters_that_run_unevenly() {
     }
 }
 
-/// The contact first sampled ends beside the kink, beyond its last node; the kink shows only against
-/// what is sampled next to it.
+/// The contact sampled first ends next to the kink, beyond its last node; the kink shows only
+/// against the samples next to it.
 #[test]
 fn a_kink_at_the_seam_to_what_is_sampled_later() {
     for (steep, at) in [0.5, 5.0, 500.0].into_iter().flat_map(|s| [(s, 0.7525), (s, 0.7475)]) {
@@ -181,8 +181,8 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
 #[test]
 fn a_tip_far_narrower_than_a_panel_beside_a_breakpoint() {
     // The slope x + A (1 - exp(-x/ε)) on the right, x - A on the left. With θ₀ the angle of the
-    // breakpoint, cos θ₀ = -c/L, the balance π m₀ = 0 is that of a wedge on a parabola, less the integral
-    // of A exp(-x/ε)/sqrt((x + b)(a - x)).
+    // breakpoint, cos θ₀ = -c/L, the balance π m₀ = 0 is that of a wedge on a parabola, less the
+    // integral of A exp(-x/ε)/sqrt((x + b)(a - x)).
     let steep = 0.3;
     for tip in [1e-3, 1e-5, 1e-7] {
         let contact = on_flat(join(vec![
@@ -214,8 +214,9 @@ fn a_tip_far_narrower_than_a_panel_beside_a_breakpoint() {
     }
 }
 
-/// `x²/2 + ε cos ωx`: L²/2 - ε ω L J₁(ω L) = F. The half-widths are the roots of that, by mpmath in 40
-/// digits. Samples at a few nodes of a panel look like noise, in both halves of it alike.
+/// `x²/2 + ε cos ωx`: L²/2 - ε ω L J₁(ω L) = F. The half-widths are roots of this equation, by
+/// mpmath in 40 digits. Samples at a few nodes of a panel look like noise, in both halves of it
+/// alike.
 #[test]
 fn waves_far_shorter_than_a_panel() {
     for (epsilon, omega, l, most) in [
@@ -234,8 +235,8 @@ fn waves_far_shorter_than_a_panel() {
     }
 }
 
-/// Hertz's parabola, all but a millionth of which has its left end within two units in the last place
-/// of X = -1: what the search covers may end in a sliver there.
+/// Hertz's parabola, all but a millionth of which has its left end within two ulps of X = -1: the
+/// searched range may end in a sliver there.
 #[test]
 fn a_sliver_at_the_end_of_a_body() {
     let body = Curve::new([-30.0, 30.0], |k: f64| {
@@ -250,8 +251,9 @@ fn a_sliver_at_the_end_of_a_body() {
     }
 }
 
-/// A kink between the last nodes of two panels shows where they meet alone. What a loose tolerance lets pass there
-/// is in the estimate of the pressure. Declared, and to all digits, it is known.
+/// A kink between the last nodes of two panels shows only at their joint. The kink that a loose
+/// tolerance lets pass there is in the estimate of the pressure. Declared, and at full accuracy, it
+/// is resolved.
 #[test]
 fn a_kink_between_two_panels_that_a_loose_tolerance_lets_pass() {
     let tolerance = Panels { tolerance: 3e-7 };

@@ -1,5 +1,6 @@
-//! What falls between samples: a kink between a limit and the outermost node, a root behind a large smooth part,
-//! waves as long as the samples are apart; and noise, which samples taken anew do not lower.
+//! Features between samples: a kink between a limit and the outermost node, a root behind a large
+//! smooth part, waves as long as the spacing of the samples; and noise, which new samples do not
+//! lower.
 #![allow(missing_docs)]
 
 use crate::boundary_elements;
@@ -11,8 +12,8 @@ use linecontact::{
 };
 use std::f64::consts::PI;
 
-/// A contact of a parabola whose slope jumps and bends, at a share of the half-width from its right limit; or its
-/// mirror image.
+/// Contact of a parabola whose slope jumps and bends, at a share of the half-width from its right
+/// limit; or its mirror image.
 #[derive(Clone, Copy, Debug)]
 struct Kinked {
     on: Interval<f64>,
@@ -24,12 +25,14 @@ struct Kinked {
 }
 
 impl Kinked {
-    /// Where the slope jumps and bends: the share of the half-width from the middle, and the angle.
+    /// Returns the place of the jump and bend: the share of the half-width from the middle, and the
+    /// angle.
     fn kink(&self) -> [f64; 2] {
         [1.0 - self.share, 2.0 * (self.share / 2.0).sqrt().asin()]
     }
 
-    /// The means of the slope and of the slope times cos θ, without the tilt that brings them into balance.
+    /// Returns the means of the slope and of the slope times cos θ, without the tilt that balances
+    /// them.
     fn moments(&self) -> [f64; 2] {
         let (l, [z, theta]) = (self.on.half_width(), self.kink());
         let sin = theta.sin();
@@ -55,13 +58,13 @@ impl Kinked {
         }))
     }
 
-    /// By how much limits are off, as a share of the half-width.
+    /// Returns the error of limits, as a share of the half-width.
     fn off(&self, found: Interval<f64>) -> f64 {
         let Self { on, .. } = self;
         (found.left - on.left).abs().nan_max((found.right - on.right).abs()) / on.half_width()
     }
 
-    /// The pressure at a share of the half-width from the middle.
+    /// Returns the pressure at a share of the half-width from the middle.
     fn pressure(&self, z: f64) -> f64 {
         let (l, [kink, theta]) = (self.on.half_width(), self.kink());
         let z = if self.mirrored { -z } else { z };
@@ -73,8 +76,8 @@ impl Kinked {
     }
 }
 
-/// Four nodes leave a twenty-fifth of the half-width unseen at either end of a contact. The first three are as random
-/// scenes found them.
+/// Four nodes leave a twenty-fifth of the half-width unseen at either end of a contact. The first
+/// three cases were found by random scenes.
 #[test]
 fn a_kink_beside_a_free_edge_with_a_loose_tolerance() {
     let found = [
@@ -110,12 +113,13 @@ fn a_kink_beside_a_free_edge_with_a_loose_tolerance() {
             }
         }
     }
-    // A first estimate that knows nothing of the kink may lead to the very end of the samples.
+    // A first estimate without the kink may lead to the very end of the samples.
     let most = count / 100;
     assert!(wrong.len() <= most, "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// A slope that is all but smooth up to a root beyond the contact, of which the first coefficients tell nothing.
+/// A slope that is almost smooth up to a root beyond the contact, which does not show in the first
+/// coefficients.
 #[test]
 fn a_root_behind_what_is_smooth() {
     let (l, ramp, at_ramp, at_root) = (0.6833956, 1.2345, 0.55245, 0.72749);
@@ -170,7 +174,7 @@ fn a_root_behind_what_is_smooth() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A kink so faint that the midpoint rule takes its last two results for the same.
+/// A kink so faint that the last two results of the midpoint rule agree.
 #[test]
 fn a_faint_kink_by_the_midpoint_rule() {
     let rule = Midpoint { segments: 256, extrapolations: 4, exponents: Exponents::HalfInteger };
@@ -193,7 +197,8 @@ fn a_faint_kink_by_the_midpoint_rule() {
     assert!(wrong.is_empty(), "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// A kink beside a corner of a body so stiff that it is next to nothing there, but not beside the pressure.
+/// A kink next to a corner of so stiff a body that the kink is tiny relative to the slope, but not
+/// to the pressure.
 #[test]
 fn a_faint_kink_beside_a_corner() {
     let (mut count, mut wrong) = (0, Vec::new());
@@ -226,10 +231,11 @@ fn a_faint_kink_beside_a_corner() {
     assert!(wrong.is_empty(), "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// A bulge and waves, of which even samples see one point each: their slopes rise, but not as their heights do.
+/// A bulge and waves seen by uniform samples at one point each: their slopes rise, but do not match
+/// their heights.
 #[test]
 fn waves_as_long_as_samples_are_apart() {
-    // 62 even samples between two ends. The first is as a random scene found it.
+    // 62 uniform samples between two ends. The first case was found by a random scene.
     let end = 4.486728768748772;
     let found = (
         [0.33041452537942056, -0.07926427334026542],
@@ -279,8 +285,8 @@ fn waves_as_long_as_samples_are_apart() {
     assert!(wrong.is_empty() && count > 10, "{} of {count}: {wrong:#?}", wrong.len());
 }
 
-/// A power at a breakpoint in the noise of terms that cancel, split down to the last digit: samples anew, for ever
-/// narrower contacts, do not lower it. As a random scene found it.
+/// A power at a breakpoint in the noise of terms that cancel, split down to the last digit: new
+/// samples, for ever narrower contacts, do not lower the noise. Found by a random scene.
 #[test]
 fn noise_that_samples_anew_do_not_lower() {
     let (at_power, curvature, at_line) =

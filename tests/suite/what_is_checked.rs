@@ -1,5 +1,5 @@
-//! What a solution says of its checks, for every search, quadrature and control: no contact that is
-//! far from the known one is said to be checked, and none that is near to it not to be.
+//! Reported checks of a solution, for every search, quadrature and control: a contact far from the
+//! known one is never reported as checked, and a contact near it always is.
 #![allow(missing_docs)]
 
 use crate::common::{Strategy, graph, on_flat};
@@ -16,7 +16,8 @@ use std::sync::Arc;
 const L: f64 = 0.2;
 const LOAD: f64 = L * L / 2.0;
 
-/// Limits in more doubt than this say nothing of the contact.
+/// Largest uncertainty of the limits, as a share of the half-width, at which they determine the
+/// contact.
 const OPEN: f64 = 1.0 / 1600.0;
 
 type Named<T> = Vec<(String, T)>;
@@ -64,7 +65,8 @@ fn quadratures() -> Named<Box<dyn Quadrature<f64>>> {
 const TO: References<f64> =
     References { x: 0.0, lower: Reference::Depth(1.0), upper: Reference::Depth(1.0) };
 
-/// What gives a contact of half-width 0.2 of y = x²/2; the approach is that of the default solve.
+/// Returns the controls for a contact of half-width 0.2 of y = x²/2; the approach is that of the
+/// default solve.
 fn controls(approach: f64) -> [Control<f64>; 6] {
     [
         Control::Load(LOAD),
@@ -76,7 +78,7 @@ fn controls(approach: f64) -> [Control<f64>; 6] {
     ]
 }
 
-/// Whether it says of itself that it is checked, the same everywhere.
+/// Tells whether a solution reports that it is checked, after asserting that all its reports agree.
 fn says(name: &str, solution: &Solution<f64>) -> bool {
     let checked = solution.report().is_checked();
     let outcome = solution.report().attempts().last().map(|attempt| attempt.outcome);
@@ -95,7 +97,7 @@ fn says(name: &str, solution: &Solution<f64>) -> bool {
 fn what_is_said_is_what_was_checked() {
     let declared = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
     let declared = Contact::owned(Arc::new(Flat), Arc::new(declared)).unwrap();
-    // One of which nothing is said, not symmetric, and with corners that it does not reach.
+    // A body of unknown convexity, not symmetric, with corners that it does not reach.
     let aside = on_flat(graph(-0.9, 1.1, |x| [x * x / 2.0, x]))
         .edges(Edge::FreeUntil(-0.3), Edge::FreeUntil(0.4));
     // κ = 1.
@@ -136,7 +138,7 @@ fn what_is_said_is_what_was_checked() {
     assert!(counts[1] > 150 && counts[2] > 80, "{counts:?}");
 }
 
-/// Eq. (6), and intervals that are given.
+/// Eq. (6), and given intervals.
 #[test]
 fn other_edges_say_what_was_checked_too() {
     let body = || graph(-1.0, 1.0, |x| [x * x / 2.0, x]);

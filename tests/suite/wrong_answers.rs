@@ -1,8 +1,8 @@
-//! What users and an independent oracle have found wrong: wrong answers without an error, errors that
-//! mislead, searches without end.
+//! Faults found by users and by an independent oracle: wrong answers without an error, misleading
+//! errors, endless searches.
 //!
-//! Values that are said to be exact follow from the closed forms in the comments, or from the two
-//! conditions at the edges with mpmath in 30 digits.
+//! Exact values follow from the closed forms in the comments, or from the two conditions at the
+//! edges with mpmath in 30 digits.
 #![allow(missing_docs)]
 
 use crate::boundary_elements::{height, solve};
@@ -21,7 +21,7 @@ use linecontact::{
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Asserts that a solution is what boundary elements make of the bodies.
+/// Asserts that a solution agrees with boundary elements for the same bodies.
 fn assert_contact(
     name: &str,
     bodies: [&dyn ParametricProfile<f64>; 2],
@@ -44,7 +44,7 @@ fn assert_contact(
     assert!(off < 0.01, "{name}: P({x}) off by {off:e} of the peak");
 }
 
-/// `|x/A|ⁿ + |1 - y/B|ⁿ = 1` by the polar angle from its lowest point.
+/// Returns `|x/A|ⁿ + |1 - y/B|ⁿ = 1` by the polar angle from its lowest point.
 fn superellipse(along: f64, across: f64, n: f64) -> Profile {
     Box::new(Curve::new([-0.6, 0.6], move |k: f64| {
         let (sin, cos) = k.sin_cos();
@@ -59,8 +59,8 @@ fn superellipse(along: f64, across: f64, n: f64) -> Profile {
     }))
 }
 
-/// `first_hour`, A: a flat-bottomed body in a groove touches in two places; it was solved as one, with
-/// -157 MPa in its middle.
+/// `first_hour`, A: a flat-bottomed body in a groove touches in two places; it was solved as one
+/// contact, with -157 MPa in its middle.
 #[test]
 fn a_superellipse_in_a_groove() {
     let modulus = 115e3;
@@ -83,7 +83,8 @@ fn a_superellipse_in_a_groove() {
     }
 }
 
-/// `first_hour`, A: `Fixed` corners that the load does not reach. K = (F/L - κ L/2)/π is negative there.
+/// `first_hour`, A: `Fixed` corners that the load does not reach. K = (F/L - κ L/2)/π is negative
+/// there.
 #[test]
 fn corners_that_the_load_does_not_reach() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
@@ -97,7 +98,7 @@ fn corners_that_the_load_does_not_reach() {
     let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
     let error = given.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
     assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
-    // As one interval it is the solution of the equation, and said not to be checked.
+    // As a single interval it solves the equation, and is reported as not checked.
     let solution = given.single_interval(true).solve(Control::Load(0.01)).unwrap();
     assert!(!solution.report().is_checked() && solution.edge_singularities().left < 0.0);
     let up_to = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
@@ -105,7 +106,7 @@ fn corners_that_the_load_does_not_reach() {
     assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
 }
 
-/// Measured points of a roller of radius 20 with a wave, and noise of 0.05 µm.
+/// Returns measured points of a roller of radius 20 with a wave, and noise of 0.05 µm.
 fn measured(wave: f64) -> Vec<[f64; 2]> {
     let mut state = 1u64;
     let mut uniform = || {
@@ -121,7 +122,8 @@ fn measured(wave: f64) -> Vec<[f64; 2]> {
     (-600..=600).map(point).collect()
 }
 
-/// `first_hour`, B: of 16 solves 9 were `Ok` at the wrong bump. 0.5 µm leave the body bulging, 3 µm do not.
+/// `first_hour`, B: of 16 solves 9 were `Ok` at the wrong bump. With 0.5 µm the body stays convex,
+/// with 3 µm it does not.
 #[test]
 fn measured_rollers_with_waves() {
     let modulus = 115e3;
@@ -142,7 +144,7 @@ fn measured_rollers_with_waves() {
     }
 }
 
-/// x²/2 and a smooth rise of its slope: `s (1 - tanh²((x - x₀)/w))`, and its integral.
+/// Returns x²/2 and a smooth rise of its slope: `s (1 - tanh²((x - x₀)/w))`, and its integral.
 fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
     graph(-1.0, 1.0, move |x| {
         let t = ((x - x0) / w).tanh();
@@ -150,7 +152,7 @@ fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
     })
 }
 
-/// 1a: what the solve's own panels have missed is an error where the contact is certified, not `Ok`.
+/// 1a: a feature missed by the solve's own panels is an error of the certified contact, not `Ok`.
 #[test]
 fn a_bump_of_the_slope_that_the_panels_miss() {
     let cases = [
@@ -181,7 +183,7 @@ fn a_bump_of_the_slope_that_the_panels_miss() {
     }
 }
 
-/// x²/2 or x²/8, whichever it is now.
+/// Body that is x²/2 or x²/8, depending on its flag.
 struct Turncoat(AtomicBool);
 
 impl ParametricProfile<f64> for Turncoat {
@@ -194,7 +196,7 @@ impl ParametricProfile<f64> for Turncoat {
     }
 }
 
-/// 1b: a body that is not the same any more: what a warm solver remembers is not what `certify` sees.
+/// 1b: a body that has changed: the samples kept by a warm solver are not those of `certify`.
 #[test]
 fn a_body_that_changes_behind_the_solver() {
     let body = Turncoat(AtomicBool::new(false));
@@ -208,20 +210,20 @@ fn a_body_that_changes_behind_the_solver() {
     assert!(right || solution.certify().is_err(), "certified: {solution:?}");
 }
 
-/// `Yⁿ⁺¹ - m x` from its own edge, x ≥ 0: the slope `(p + 1) x^p - m`.
+/// Returns `Yⁿ⁺¹ - m x` from its own edge, x ≥ 0: the slope `(p + 1) x^p - m`.
 fn one_sided(p: f64, m: f64, reach: f64) -> Profile {
     graph(0.0, reach, move |k| [k.powf(p + 1.0) - m * k, (p + 1.0) * k.powf(p) - m])
 }
 
-/// What it bears, and the half-width. The contact reaches the edge at x = 0 where the mean of
-/// `cos^2p(θ/2)` over θ, μ = Γ(p + 1/2)/(√π Γ(p + 1)), makes `(p + 1) (2L)^p μ = m`; then
+/// Returns the capacity and its half-width. The contact reaches the edge at x = 0 if the mean of
+/// `cos^2p(θ/2)` over θ, μ = Γ(p + 1/2)/(√π Γ(p + 1)), gives `(p + 1) (2L)^p μ = m`; then
 /// `F = κ L m p/(p + 1)`.
 fn one_sided_most(p: f64, m: f64, mu: f64) -> [f64; 2] {
     let half_width = 0.5 * (m / ((p + 1.0) * mu)).powf(1.0 / p);
     [half_width * m * p / (p + 1.0), half_width]
 }
 
-/// Asserts that more than the bodies bear is an error that says what they bear.
+/// Asserts that an overload is an error that names the capacity.
 fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, end: f64, rel: f64) {
     match contact.solve(Control::Load(load)) {
         Err(ContactError::DomainTooShort { end: at, carried, .. }) => {
@@ -240,7 +242,7 @@ fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, en
     }
 }
 
-/// 2: `x^1.5 - m x` bears π² m³/54, with L = π² m²/18; all above came back certified.
+/// 2: `x^1.5 - m x` carries π² m³/54, with L = π² m²/18; every larger load used to be certified.
 #[test]
 fn an_overloaded_body_is_an_error() {
     for m in [1.0, 0.3, 0.1] {
@@ -259,13 +261,13 @@ fn an_overloaded_body_is_an_error() {
             let answer = contact.solve(Control::HalfWidth(wide * half_width));
             assert!(answer.is_err(), "L = {wide} times the widest: {answer:?}");
         }
-        // And what it does bear.
+        // 90 % of the capacity has a contact.
         let solution = contact.solve(Control::Load(0.9 * most)).unwrap();
         assert!(solution.limits_error().unwrap() < 1e-9, "{solution:?}");
     }
 }
 
-/// 2: `y = k ln(k/p) - k` touches from 0 on with L = 2p, and bears 2p.
+/// 2: `y = k ln(k/p) - k` touches from 0 on with L = 2p, and carries 2p.
 #[test]
 fn an_overloaded_logarithm_is_an_error() {
     let p = 1e-3;
@@ -288,8 +290,9 @@ fn a_flank_is_not_pressed_beyond_its_beginning() {
     }
 }
 
-/// 3a: what the bodies bear, and which end is reached, is the same whatever is asked. The wedge with slopes
-/// -m₁ and m₂ has its tip at φ = π m₁/(m₁ + m₂): a = L (1 - cos φ), F = L (m₁ + m₂) sin φ/π.
+/// 3a: the capacity of the bodies, and the end reached, do not depend on the prescribed load. The
+/// wedge with slopes -m₁ and m₂ has its tip at φ = π m₁/(m₁ + m₂): a = L (1 - cos φ), F = L (m₁ +
+/// m₂) sin φ/π.
 #[test]
 fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
     for (left, right) in [(1.0, 0.1), (0.1, 1e-6)] {
@@ -314,7 +317,7 @@ fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
     }
 }
 
-/// 3a: two gears, of 50 and 75 mm, whose flanks begin next to where they touch: at r t₀²/2.
+/// 3a: two gears, of 50 and 75 mm, whose flanks begin next to the point of touch: at r t₀²/2.
 #[test]
 fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
     for origin in [0.01f64, 1e-4] {
@@ -337,13 +340,13 @@ fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
         for most in &carried {
             assert!((most / carried[0] - 1.0).abs() < 1e-6, "{origin}: {carried:?}");
         }
-        // What it does bear is a contact, and a little more is not.
+        // Slightly below the capacity there is a contact, slightly above it there is none.
         assert!(contact.solve(Control::Load(0.99 * carried[0])).is_ok());
         assert!(contact.solve(Control::Load(1.01 * carried[0])).is_err());
     }
 }
 
-/// 3b: 1e-19 of the load; it was called an overflow.
+/// 3b: a capacity of 1e-19 of the load; it was reported as an overflow.
 #[test]
 fn a_body_that_bears_next_to_nothing() {
     // Γ(0.7)/(√π Γ(1.2))
@@ -356,7 +359,8 @@ fn a_body_that_bears_next_to_nothing() {
     }
 }
 
-/// 3b: a rounded punch in a groove stands on its two edges; "they carry -0.140 of the load" was said.
+/// 3b: a rounded punch in a groove stands on its two edges; the message was "they carry -0.140 of
+/// the load".
 #[test]
 fn a_rounded_punch_in_a_groove() {
     let punch = rounded_punch(1.0, 0.1, 1.3).unwrap();
@@ -370,7 +374,7 @@ fn a_rounded_punch_in_a_groove() {
     }
 }
 
-/// The evaluations of a solve, and its error.
+/// Returns the evaluations of a solve, and its result.
 fn evaluations(body: Profile, load: Control<f64>) -> (usize, Result<f64, ContactError<f64>>) {
     let calls = AtomicUsize::new(0);
     let counted = Counting(body, &calls);
@@ -379,8 +383,8 @@ fn evaluations(body: Profile, load: Control<f64>) -> (usize, Result<f64, Contact
     (calls.load(Ordering::Relaxed), answer)
 }
 
-/// 3c: a peak above what the body bears: the same largest peak whatever was asked, and not 850 000
-/// evaluations. `x = k²`, `y = k³ - m k²`, that is `x^1.5 - m x`.
+/// 3c: a peak above the capacity: the error names the same largest peak for any control, without
+/// 850 000 evaluations. `x = k²`, `y = k³ - m k²`, that is `x^1.5 - m x`.
 #[test]
 fn a_peak_that_the_body_does_not_bear() {
     let m = 1e-6;
@@ -413,7 +417,7 @@ fn a_peak_that_the_body_does_not_bear() {
     }
 }
 
-/// 3c: and a flank that begins where it touches.
+/// 3c: a flank that begins where it touches.
 #[test]
 fn a_peak_that_a_flank_does_not_bear() {
     let flank = || -> Profile { Box::new(Involute::new(50.0, 1e-6, [0.0, 0.8]).unwrap()) };
@@ -421,13 +425,13 @@ fn a_peak_that_a_flank_does_not_bear() {
     let Err(ContactError::PeakTooHigh { half_width, found, .. }) = answer else {
         panic!("{answer:?}")
     };
-    // The flank begins 25e-12 from where it touches, with a radius of 5e-5.
+    // The flank begins 25e-12 from the point of touch, with a radius of 5e-5.
     assert!(half_width < 1e-10 && found < 1e-6, "{half_width:e}, {found:e}");
     let (half, answer) = evaluations(flank(), Control::PeakPressure(0.5 * found));
     assert!(answer.is_ok() && calls <= 20 * half, "{calls}, {half}: {answer:?}");
 }
 
-/// 4: the peak of a contact leads back to it, also where the contact hardly reaches beyond a flat.
+/// 4: the peak of a contact leads back to it, even if the contact hardly extends beyond a flat.
 #[test]
 fn peaks_of_a_punch_with_a_flat() {
     let body = rounded_punch(1.0, 1.0, 1.5).unwrap();
@@ -443,7 +447,7 @@ fn peaks_of_a_punch_with_a_flat() {
     }
 }
 
-/// 6: X that has saturated far from the contact has no slope there, and needs none.
+/// 6: a saturated X far from the contact has no slope there, and needs none.
 #[test]
 fn a_parameter_that_saturates() {
     type Curves = (&'static str, f64, fn(f64) -> [f64; 2]);
@@ -478,8 +482,8 @@ fn a_parameter_that_saturates() {
     }
 }
 
-/// 6: the flat of a punch on a circle centred at 0.13: warm or cold, within what the estimate says. The
-/// circle bears F = L²/2 and a little more, about its centre.
+/// 6: the flat of a punch on a circle centred at 0.13: warm or cold, within the estimate. The
+/// circle carries F = L²/2 and a little more, about its centre.
 #[test]
 fn the_flat_of_a_punch_on_a_circle() {
     let up = Placement::default().flipped().shifted(0.13, 0.0);
@@ -523,7 +527,8 @@ fn corners_on_both_sides_that_pull_are_refused() {
         let control = Control::CentreOfPressure { load: 1000.0, at };
         let error = held.solve(control).map(|_| ()).unwrap_err();
         assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
-        // The punch lifts off until its contact is four times as wide as the way to its corner.
+        // The punch lifts off until its contact is four times as wide as the distance from the load
+        // to its corner.
         let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));
         let hull = free.solve(control).unwrap().hull();
         let inner = if at > 0.0 { hull.left } else { -hull.right };
@@ -545,7 +550,7 @@ fn several_tilted_contacts_are_certified() {
     }
 }
 
-/// A step of Y that no slope shows was seen by nobody. Heights may be counted from far away.
+/// A step of Y that does not show in the slopes used to be missed. Heights may have a large offset.
 #[test]
 fn a_step_of_the_heights() {
     let with = |at: f64, step: f64, from: f64| {
@@ -559,8 +564,8 @@ fn a_step_of_the_heights() {
             assert_eq!(solution.cost().evaluations, 12);
             solution.certify().unwrap();
         }
-        // Within the contact in every solve, beside it where the bodies would overlap by it, or where
-        // it is certified.
+        // An error in every solve if the step lies within the contact, or outside it and the bodies
+        // would overlap; elsewhere only a certificate finds it.
         for at in [0.0, 0.03, -0.0123, 0.044, 0.0711, 0.5, -0.777] {
             for (step, from) in [(1e-4, 0.0), (-1e-3, 0.0), (0.01, 0.0), (0.01, 1e4)] {
                 let body = with(at, step, from);
@@ -599,7 +604,7 @@ fn a_step_of_the_heights() {
     solution.certify().unwrap();
 }
 
-/// A body whose slope by x is not that of its points.
+/// Body whose slope by x disagrees with its points.
 struct WrongSlope(f64, linecontact::Convexity);
 
 impl ParametricProfile<f64> for WrongSlope {
@@ -617,7 +622,8 @@ impl ParametricProfile<f64> for WrongSlope {
     }
 }
 
-/// It was seen by nobody. Where the body is said to be convex nothing is looked at before it is certified.
+/// The wrong slope used to be missed. For a body declared convex it is checked only by a
+/// certificate.
 #[test]
 fn a_slope_by_x_that_is_wrong() {
     use linecontact::Convexity::{Convex, Unknown};
@@ -638,8 +644,8 @@ fn a_slope_by_x_that_is_wrong() {
     Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();
 }
 
-/// The middle of the gap lies beside the roof by rounding: what there was of a panel was continued, and the gap was
-/// left undecided.
+/// The middle of the gap lies next to the roof by rounding: the rest of a panel was continued, and
+/// the gap stayed undecided.
 #[test]
 fn a_roof_between_two_contacts() {
     for (roof, bend, load) in [(0.6, 2.0, 0.05), (1.0, 0.5, 0.2), (0.6, 0.5, 0.1), (0.3, 2.0, 0.01)]
@@ -660,7 +666,8 @@ fn a_roof_between_two_contacts() {
     }
 }
 
-/// What was prescribed was not named; κ was, where E* was given; nobody asked for degrees.
+/// Errors did not name the prescribed quantity, named κ where E* was given, and degrees that nobody
+/// had used.
 #[test]
 fn errors_name_what_was_given() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
@@ -716,7 +723,7 @@ fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
     }
 }
 
-/// The slopes are those of each contact, whatever was sampled before.
+/// Steepness counts the slopes in each contact only, whatever was sampled before.
 #[test]
 fn steepness_of_several_contacts() {
     let body = |scale: f64| {
@@ -734,7 +741,7 @@ fn steepness_of_several_contacts() {
     }
 }
 
-/// The largest of 20 000 pressures is no more than the peak.
+/// The largest of 20 000 pressures does not exceed the peak.
 #[test]
 fn the_peak_among_fine_waves() {
     let q = 400.0;
@@ -759,7 +766,8 @@ fn no_number_of_points_is_too_many() {
     assert_eq!(solution.pressure().unwrap().sample(0).unwrap().len(), 2);
 }
 
-/// Contacts 2e-3 of their width apart were given as one, with a pressure of -7.6e-6 of the mean between them.
+/// Contacts 2e-3 of their width apart were returned as one, with a pressure of -7.6e-6 of the mean
+/// between them.
 #[test]
 fn two_contacts_about_to_merge_are_two() {
     let contact = on_flat(graph(-2.0, 2.0, |k| {
@@ -774,8 +782,9 @@ fn two_contacts_about_to_merge_are_two() {
     }
 }
 
-/// Two gaps that close under nearly the same load, beside a corner that holds nothing: what is in doubt of the limits at
-/// one gap was taken for a tension at the other, of -4.6e-7 of the mean.
+/// Two gaps that close under nearly the same load, next to a corner that does not hold: the
+/// uncertainty of the limits at one gap was taken for a tension at the other, of -4.6e-7 of the
+/// mean.
 #[test]
 fn a_gap_that_is_in_doubt_hides_no_tension_at_another() {
     let wave = graph(-1.3, 1.3, |k| {
@@ -796,8 +805,8 @@ fn a_gap_that_is_in_doubt_hides_no_tension_at_another() {
     }
 }
 
-/// Two bumps are about to touch on either side. One of them was found and the other, of which the first one's doubt
-/// took the overlap for nothing, was not.
+/// Two bumps are about to touch, one on either side. One was found, but its uncertainty hid the
+/// overlap of the other.
 #[test]
 fn of_two_bumps_that_are_alike_both_touch_or_none() {
     let wave = graph(-1.5, 1.5, |x| {
@@ -822,8 +831,8 @@ fn of_two_bumps_that_are_alike_both_touch_or_none() {
     assert!(one > 30 && three > 30, "{one} {three}");
 }
 
-/// Double wells up to 1e-7 of the load at which the contacts merge, and beyond: no pressure is negative, and as many
-/// contacts as the load says.
+/// Double wells up to 1e-7 of the load at which the contacts merge, and beyond: no pressure is
+/// negative, and the number of contacts is that of the load.
 #[test]
 fn up_to_a_merge_two_contacts_are_two_and_one_from_there_on() {
     let mut random = Shares(20);
@@ -840,7 +849,7 @@ fn up_to_a_merge_two_contacts_are_two_and_one_from_there_on() {
         let [mut low, mut high] = [1.0f64, 6.0];
         while high > low * (1.0 + 1e-9) {
             let load = 0.5 * (low + high);
-            // Nearer than 1e-9 there is no contact that the heights can tell.
+            // Closer than 1e-9 the heights cannot resolve a contact.
             let one = contact.solve(Control::Load(load)).is_ok_and(|at| at.intervals().len() == 1);
             (low, high) = if one { (low, load) } else { (load, high) };
         }
@@ -854,7 +863,7 @@ fn up_to_a_merge_two_contacts_are_two_and_one_from_there_on() {
                 let pressure = solution.pressure().unwrap();
                 let mean = load / solution.hull().half_width();
                 for i in -400..400 {
-                    // Where a gap is narrow, what is left of the pressure beside it is not told.
+                    // Next to a narrow gap the small pressure may be unresolved.
                     let x = between + 0.3 * (f64::from(i) / 400.0).powi(3);
                     let least = pressure.at(x).unwrap_or(0.0);
                     assert!(least >= -1e-10 * mean, "{scene} {side} {exponent}: P({x}) = {least}");

@@ -1,8 +1,8 @@
-//! What is asked of a solution.
+//! Queries of a solution.
 
 use super::*;
 
-/// Everything that can be asked of a solution, at places good and bad.
+/// Makes every query of a solution, at good and bad places.
 pub fn ask_all(solution: &Solution<f64>) {
     let Interval { left, right } = solution.hull();
     let places = [
@@ -153,7 +153,7 @@ fn what_is_asked_of_a_solution() {
             matches!(wrong, Wrong::Contact(ContactError::LengthMismatch { x, pressures }) if (*x, *pressures) == (given, places))
         });
     }
-    // Where the pressure is infinite, or the load is none.
+    // At an infinite pressure, or with zero load.
     let punch = contact.clone().edges(Edge::Fixed(-0.2), Edge::Fixed(0.3));
     let punch = punch.solve(Control::Load(0.5)).unwrap();
     let pressure = punch.pressure().unwrap();
@@ -200,7 +200,7 @@ fn what_is_asked_of_a_solution() {
             source: ProfileError::NotFinite { quantity: "Y", .. }
         }),
     );
-    // All the rest answers, or says why not.
+    // All other queries answer, or return an error with its reason.
     for solution in [&solution, &punch, &idle, &sticky] {
         let ask = || {
             ask_all(solution);

@@ -1,4 +1,4 @@
-//! Parameters of closed forms, and places, that are none.
+//! Invalid parameters of closed forms, and invalid places.
 
 use super::*;
 use linecontact::reference::{
@@ -13,7 +13,7 @@ fn boxed<F: ClosedForm<f64> + 'static>(form: Result<F, ReferenceError<f64>>) -> 
     form.map(|form| Box::new(form) as Form)
 }
 
-/// Every constructor, by a row of numbers; one that takes fewer leaves the rest.
+/// Constructors, each from a row of four numbers; some take fewer.
 const CONSTRUCTORS: [(&str, usize, fn([f64; 4]) -> Made); 22] = [
     ("Hertz", 2, |[a, b, ..]| boxed(Hertz::new(a, b))),
     ("Hertz under load", 3, |[a, b, c, _]| boxed(Hertz::under_load(a, b, c))),
@@ -39,7 +39,7 @@ const CONSTRUCTORS: [(&str, usize, fn([f64; 4]) -> Made); 22] = [
     ("JKR of no work", 2, |[a, b, ..]| boxed(Jkr::new(a, 0.0, b))),
 ];
 
-/// What only NaN and infinities are refused for, and what may be zero or negative as well.
+/// Extreme values for every parameter: NaN, infinities, zeros, negative, tiny and huge numbers.
 const EXTREMES: [f64; 12] =
     [NAN, INF, -INF, 0.0, -0.0, -1.0, TINY, -TINY, f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX];
 
@@ -92,7 +92,7 @@ fn parameters_and_places() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// Asks a form for everything, wherever that is. NaN gives NaN, or zero.
+/// Evaluates all functions of a form at every place; NaN may give NaN or zero.
 fn everywhere(form: &dyn ClosedForm<f64>) {
     let Interval { left, right } = form.limits();
     for x in
@@ -119,7 +119,7 @@ fn ranges_of_bodies() {
     table.finish();
 }
 
-/// Not the half-width that would follow from it.
+/// The error names the load or the modulus, not the half-width that would follow from it.
 #[test]
 fn a_load_and_a_modulus_that_are_none_are_named() {
     for (name, count, make) in CONSTRUCTORS.into_iter().filter(|row| row.0.ends_with("under load"))
@@ -137,7 +137,7 @@ fn a_load_and_a_modulus_that_are_none_are_named() {
         for value in [NAN, INF, 0.0, -1.0] {
             assert_eq!(named(count - 1, value), "κ", "{name}: {value}");
         }
-        // Each by a name of its own.
+        // Each parameter has a name of its own.
         let mut names: Vec<_> = (0..count).map(|place| named(place, INF)).collect();
         names.sort_unstable();
         names.dedup();

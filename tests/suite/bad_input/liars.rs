@@ -1,4 +1,4 @@
-//! Strategies and quadratures that give up, or lie.
+//! Searches and quadratures that give up, or lie.
 
 use super::answers::ask_all;
 use super::*;
@@ -164,7 +164,7 @@ fn strategies_that_lie() {
     table.finish();
 }
 
-/// A quadrature whose values are all the same, such as NaN.
+/// Quadrature whose values are all the same, such as NaN.
 struct Same(f64);
 
 impl Quadrature<f64> for Same {

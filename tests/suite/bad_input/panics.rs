@@ -3,7 +3,7 @@
 use super::*;
 use linecontact::Solver;
 
-/// Panics at the call of this number.
+/// Returns a curve that panics at its `at`-th call.
 fn panicking(at: usize) -> Profile {
     curve([-1.0, 1.0], move |k| {
         assert!(EVALUATIONS.get() != at, "the user's own");
@@ -38,7 +38,7 @@ fn panics_of_the_user_pass_through() {
             let outcome =
                 catch_unwind(AssertUnwindSafe(|| solver.solve(&scene, load).map(|s| s.a()).ok()));
             passed += usize::from(outcome.is_err());
-            // Cold and warm, as if nothing had been.
+            // Cold and warm, as if nothing had happened.
             for _ in 0..2 {
                 let got = of(&solver.solve(&contact, load).unwrap());
                 for (got, want) in got.into_iter().zip(wanted) {

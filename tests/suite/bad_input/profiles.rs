@@ -1,4 +1,4 @@
-//! Curves and pieces that are none.
+//! Invalid curves and pieces.
 
 use super::*;
 
@@ -30,7 +30,7 @@ fn bodies() {
         let pieces = vec![curve([-2.0, -1.0], point), curve(domain, point)];
         table.row(&name, 39, || Ok(Piecewise::new(pieces).map(|_| ())?), joined);
     }
-    // A domain of one step between neighbouring numbers cannot be wrong, only narrow.
+    // A domain between two neighbouring numbers is narrow, but valid.
     let narrow = curve([0.0, TINY], |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 });
     table.row(
         "a subnormal domain",
@@ -77,7 +77,7 @@ fn bodies() {
     table.finish();
 }
 
-/// A compound profile as a user might write it.
+/// Compound profile as a user might write it.
 struct Compound {
     says: usize,
     has: usize,
@@ -255,7 +255,7 @@ fn curves() {
         &|source| matches!(source, ProfileError::TurnsBack { k, .. } if k.abs() < 0.9),
         &mut table,
     );
-    // tan has a pole at π/2, which is no number: a huge value, and a change of sign.
+    // tan has a pole at π/2, which is not representable: a huge value, and a change of sign.
     at(
         "a pole inside",
         curve([-0.5, 2.0], |k| {
@@ -279,7 +279,7 @@ fn curves() {
 
 #[test]
 fn curves_that_change_between_calls() {
-    // What comes out cannot be right; that it comes out is what counts.
+    // The result cannot be right; it must only be returned.
     let mut table = Table::new("Contact::solve on a curve that changes");
     for seed in 0..12u32 {
         for size in [1e-12, 1e-6, 1e-2, 1.0] {
@@ -310,7 +310,7 @@ fn curves_that_change_between_calls() {
                 );
                 if let Some((on, error)) = seen {
                     assert!(on.left < on.right && on.right.is_finite(), "{name}: {on:?}");
-                    // The estimate owns up to what the change does to the limits.
+                    // The estimate covers the effect of the change on the limits.
                     let exact = if matches!(load, Control::Load(_)) { 0.1f64.sqrt() } else { 0.3 };
                     if !matches!(load, Control::PeakPressure(_)) {
                         let off = (on.half_width() / exact - 1.0).abs();

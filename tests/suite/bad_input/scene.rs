@@ -1,4 +1,4 @@
-//! What a scene is set to.
+//! Settings of a scene.
 
 use super::*;
 use linecontact::Solver;
@@ -34,7 +34,7 @@ fn loads_scales_and_edges() {
             });
         }
     }
-    // Loads that are numbers, however small or large, give a contact or a reason, and no NaN.
+    // Any finite load, however small or large, gives a contact or a reason, and no NaN.
     for value in [TINY, 1e-310, f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX] {
         for (name, _, way) in ways {
             for kappa in [1.0, TINY, f64::MAX] {
@@ -189,7 +189,7 @@ fn edge_pressures_rules_and_tolerances() {
         table.solve(&format!("{panels:?}"), 0, &contact_by, load, is_it);
         let of_solver = || Ok(Solver::new().solve(&contact_by, load).map(|_| ())?);
         table.row(&format!("solver of {panels:?}"), 0, of_solver, is_it);
-        // Of a search in use, of either kind.
+        // Both kinds of search, if in use.
         if tolerance >= 0.0 && tolerance.is_finite() {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Brackets and functions that are none.
+//! Invalid brackets and functions.
 
 use super::*;
 
@@ -66,7 +66,7 @@ fn searches() {
                 found.is_ok_and(|root| (root.x - 0.3).abs() < 1e-15)
             });
         }
-        // The values at the ends are believed, even if they are lies.
+        // The values at the ends are trusted, even if they are wrong.
         run("values that lie", good.values(-5.0, 5.0), &|x| x + 7.0, &|found| {
             found.map_or(true, |root| nan_free(&root) && root.x >= -1.0 && root.x <= 2.0)
         });

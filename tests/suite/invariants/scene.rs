@@ -1,10 +1,10 @@
-//! Random bodies whose gap is convex, and what may be done to them.
+//! Random bodies with a convex gap, and changes of their description.
 
 use linecontact::{Contact, Curve, CurvePoint, ParametricProfile, Piecewise, Real};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// One share of the slope of a gap; none of them falls with x.
+/// Term of the slope of a gap; none of them falls with x.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
     Line(f64, f64),
@@ -15,16 +15,17 @@ pub enum Term {
     Ramp(f64, f64),
     /// Curvature to the left of a breakpoint.
     RampLeft(f64, f64),
-    /// A slope that jumps up.
+    /// Slope that jumps up.
     Jump(f64, f64),
-    /// Level: a tilt.
+    /// Constant slope: a tilt.
     Tilt(f64),
     /// Neither convex nor concave: only for both bodies at once.
     Wave(f64, f64),
 }
 
 impl Term {
-    /// Height and slope, on the piece on whose right side of every breakpoint of it `right` says.
+    /// Returns height and slope, on the piece that holds `middle`: it decides the side of each
+    /// breakpoint.
     fn at<T: Real>(&self, x: T, middle: f64) -> [T; 2] {
         let (n, half) = (T::of, T::of(0.5));
         let quadratic = |c: f64, x0: f64| {
@@ -67,7 +68,7 @@ fn slope(terms: &[Term], x: f64) -> f64 {
     terms.iter().map(|term| term.at(x, x)[1]).sum()
 }
 
-/// A smooth piece of a body.
+/// Smooth piece of a body.
 #[derive(Clone)]
 pub struct Part<T> {
     pub domain: [T; 2],
@@ -75,7 +76,7 @@ pub struct Part<T> {
 }
 
 impl<T: Real> Part<T> {
-    /// The same points, each moved.
+    /// Returns the piece with each point moved.
     pub fn moved(
         self,
         to: impl Fn(CurvePoint<T>) -> CurvePoint<T> + Send + Sync + 'static,
@@ -84,12 +85,12 @@ impl<T: Real> Part<T> {
         Self { domain: self.domain, at: Arc::new(move |k| to(at(k))) }
     }
 
-    /// The same curve by another parameter: k = m(q), for q over a range.
+    /// Returns the curve by another parameter: k = m(q), for q over a range.
     pub fn by(self, range: [T; 2], m: impl Fn(T) -> [T; 2] + Send + Sync + 'static) -> Self {
         let Self { domain: [from, to], at } = self;
         let through = move |q: T| {
             let [k, dk] = m(q);
-            // The ends are where they were, to the last bit.
+            // The ends stay the same, to the last bit.
             let point = at(k.max(from).min(to));
             CurvePoint { dx: point.dx * dk, dy: point.dy * dk, ..point }
         };
@@ -99,7 +100,8 @@ impl<T: Real> Part<T> {
 
 pub type Body<T> = Vec<Part<T>>;
 
-/// The body of some terms, between -4 and 4, in pieces that end at their breakpoints and at `splits`.
+/// Returns the body of some terms, between -4 and 4, in pieces that end at their breakpoints and at
+/// `splits`.
 fn body<T: Real>(terms: &[Term], sign: f64, splits: &[f64]) -> Body<T> {
     let mut ends: Vec<f64> =
         terms.iter().filter_map(Term::breakpoint).chain(splits.iter().copied()).collect();
@@ -121,12 +123,12 @@ fn body<T: Real>(terms: &[Term], sign: f64, splits: &[f64]) -> Body<T> {
     ends.windows(2).map(part).collect()
 }
 
-/// A gap that is convex and touches first at some place near 0, given by two bodies.
+/// Convex gap that touches first at some place near 0, given by two bodies.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub upper: Vec<Term>,
     pub lower: Vec<Term>,
-    /// The half-width that it is to be pressed to.
+    /// Half-width of the loaded contact.
     pub half_width: f64,
     pub kappa: f64,
 }
@@ -140,7 +142,7 @@ impl Scene {
         [body(&self.lower, -1.0, splits), body(&self.upper, 1.0, splits)]
     }
 
-    /// With one shape more on both bodies.
+    /// Returns both bodies with one term more on each.
     pub fn on_common<T: Real>(&self, term: Term) -> [Body<T>; 2] {
         let with = |terms: &[Term], sign| body(&[terms, &[term]].concat(), sign, &[]);
         let Term::Wave(c, k) = term else { unreachable!("only waves") };
@@ -148,12 +150,12 @@ impl Scene {
         [body(&below, -1.0, &[]), with(&self.upper, 1.0)]
     }
 
-    /// The slope of the gap, not at a breakpoint.
+    /// Returns the slope of the gap, not at a breakpoint.
     pub fn slope(&self, x: f64) -> f64 {
         slope(&self.upper, x) + slope(&self.lower, x)
     }
 
-    /// The slopes that are added up to that of the gap, all taken as positive.
+    /// Returns the sum of the absolute slopes of all terms of the gap.
     pub fn size(&self, x: f64) -> f64 {
         self.upper.iter().chain(&self.lower).map(|term| term.at(x, x)[1].abs()).sum()
     }
@@ -164,7 +166,8 @@ impl Scene {
         tilted
     }
 
-    /// Where the slope is not smooth, or turns so fast that a quadrature had better know.
+    /// Returns the places where the slope is not smooth, or turns so fast that a quadrature needs a
+    /// panel end.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = Vec::new();
         for term in self.upper.iter().chain(&self.lower) {
@@ -177,7 +180,7 @@ impl Scene {
     }
 }
 
-/// A number that is one of both types.
+/// Rounds a number to one that both types represent.
 fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
@@ -197,12 +200,12 @@ fn term() -> impl Strategy<Value = Term> {
     })
 }
 
-/// Any scene.
+/// Returns the strategy of all scenes.
 pub fn scenes() -> impl Strategy<Value = Scene> {
     let terms = |n: std::ops::Range<usize>| prop::collection::vec(term(), n);
     (terms(1..4), terms(0..3), -0.5..0.5, -3.0..0.2, -8.0..8.0).prop_map(
         |(mut upper, lower, touch, size, kappa)| {
-            // A little curvature everywhere, so that the gap closes on one place.
+            // A little curvature everywhere, so that the gap closes at one place.
             upper.push(Term::Line(0.25, 0.0));
             let tilt = -slope(&upper, touch) - slope(&lower, touch);
             upper.push(Term::Tilt(single(tilt)));
@@ -212,7 +215,7 @@ pub fn scenes() -> impl Strategy<Value = Scene> {
     )
 }
 
-/// Bodies that can be solved.
+/// Bodies as profiles for a solve.
 pub struct Bodies<T: Real>([Box<dyn ParametricProfile<T>>; 2]);
 
 impl<T: Real> Bodies<T> {

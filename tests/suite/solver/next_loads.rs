@@ -1,4 +1,4 @@
-//! The next load with a solver: nothing of the bodies is looked at again.
+//! The next load with a solver: no new samples of the bodies.
 #![allow(missing_docs)]
 
 use crate::common::graph;
@@ -6,11 +6,11 @@ use crate::common::speed_scenes::{SCENES, Scene, scene};
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap};
 use linecontact::{Contact, Control, Flat, ParametricProfile, Solution, Solver};
 
-/// Loads after the first, by the largest so far.
+/// Loads after the first, as shares of the largest so far.
 const NEXT: [f64; 6] = [1.02, 0.98, 0.5, 0.99, 1.0, 1.02];
 
-/// Solves one load after another, and returns the numbers of contacts after the first load, which must be that of a
-/// solve from nothing and take no heights.
+/// Solves one load after another, and returns the numbers of contacts after the first load. Each
+/// must equal the number of a cold solve, and take no heights.
 fn contacts_without_heights(
     name: &str,
     contact: &Contact<'_, f64>,
@@ -62,7 +62,7 @@ fn ten_contacts_take_no_heights_under_the_next_load() {
     assert_eq!(counts, [10; NEXT.len()]);
 }
 
-/// Loads from the largest down to a share of it and up again.
+/// Returns loads from the largest down to a share of it and up again.
 fn down_and_up(largest: f64, least: f64) -> impl Iterator<Item = f64> {
     const STEPS: i32 = 24;
     let share = move |i: i32| least.powf(f64::from(STEPS - (i - STEPS).abs()) / f64::from(STEPS));

@@ -1,4 +1,4 @@
-//! Solving again and again with one solver.
+//! Repeated solves with one solver.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -13,7 +13,7 @@ use linecontact::{
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Limits and pressures, as one compares them: in units of the half-width and of the largest.
+/// Limits and pressures, compared relative to the half-width and to the largest pressure.
 struct Result {
     on: Interval<f64>,
     pressures: [f64; 9],
@@ -45,13 +45,13 @@ fn at(i: usize) -> f64 {
     (i as f64 - 4.0) / 4.2
 }
 
-/// Numbers from 0 to 1 that look random, the same in each run.
+/// Returns a number from 0 to 1 that looks random, the same in each run.
 fn scattered(i: usize) -> f64 {
     (0.5 + i as f64 * 0.618_033_988_749_894_9).fract()
 }
 
-/// An ellipse of half-axes A and B, turned, its middle at x₀; the contact is next to its lowest
-/// point.
+/// Returns an ellipse of half-axes A and B, turned, with its middle at x₀; the contact is next to
+/// its lowest point.
 fn ellipse(long: f64, high: f64, turn: f64, x0: f64) -> impl ParametricProfile<f64> {
     let (sin_t, cos_t) = turn.sin_cos();
     Curve::new([-1.0, 1.0], move |k: f64| {
@@ -79,7 +79,7 @@ fn a_hundred_loads_up_and_down() {
         let contact = Contact::new(lower, upper).unwrap();
         let mut solver = Solver::new();
         for i in 0..100 {
-            // Now by little, now by factors up to 100.
+            // Small changes of the load, and factors up to 100.
             let load = least * 100f64.powf(scattered(i) * if i % 3 == 0 { 1.0 } else { 0.3 });
             let load = Control::Load(load);
             let cold = Result::of(&contact.solve(load).unwrap());
@@ -94,8 +94,8 @@ fn a_hundred_time_steps() {
     let mut solver = Solver::new();
     for i in 0..100 {
         let t = i as f64 / 100.0;
-        // It moves to and fro, turns, and changes its curvature; every tenth step it jumps, so
-        // that the last contact is a poor guess.
+        // It moves to and fro, turns, and changes its curvature; every tenth step it jumps, so that
+        // the last contact is a poor guess.
         let jump = if i % 10 == 9 { 0.3 * (scattered(i) - 0.5) } else { 0.0 };
         let x0 = 0.3 * (7.0 * t).sin() + jump;
         let body = ellipse(1.0 + 0.2 * t, 0.7 - 0.2 * t, 0.25 * (5.0 * t).cos(), x0);
@@ -168,11 +168,11 @@ fn the_next_load_costs_nothing_or_little() {
     };
     let cold = count(0.1);
     assert!(cold > 0);
-    // Within what was sampled: not a call.
+    // Within the sampled range: not a call.
     for load in [0.1, 0.1001, 0.099, 0.09, 0.07, 0.05, 0.1, 0.095] {
         assert_eq!(count(load), 0, "{load}");
     }
-    // A little wider: no more than from scratch, and then nothing again.
+    // A little wider: no more than from scratch, and then no calls again.
     let mut all = 0;
     for load in [0.105, 0.11, 0.115, 0.12, 0.125, 0.13] {
         let wider = count(load);
@@ -321,8 +321,8 @@ fn given_limits_are_sampled_once() {
 
 #[test]
 fn the_papers_rule_starts_afresh_with_other_bodies() {
-    // A curve and the same run through the other way and shifted: what the sampler remembers of one
-    // is wrong of the other. Each solution counts its own evaluations.
+    // A curve, and the same curve reversed and shifted: the samples of one are wrong for the other.
+    // Each solution counts its own evaluations.
     let calls = AtomicUsize::new(0);
     let curve = |sign: f64, shift: f64| {
         let ends = if sign > 0.0 { [-1.0, 1.2] } else { [-1.2, 1.0] };
@@ -346,7 +346,7 @@ fn the_papers_rule_starts_afresh_with_other_bodies() {
     }
 }
 
-/// What was tried for the solution before is not in the report of the next.
+/// Attempts of an earlier solution are not in the report of the next.
 #[test]
 fn a_report_is_of_one_solution_only() {
     let body = graph(-3.0, 3.0, |x| [0.5 * x * x, x]);
@@ -359,8 +359,8 @@ fn a_report_is_of_one_solution_only() {
     }
 }
 
-/// A load that rises by a thousandth at a time: what was sampled is added to step by step, and once it is in many
-/// pieces it is sampled anew, or each load would take longer than the one before.
+/// A load that rises by a thousandth at a time: samples are added step by step, and resampled once
+/// they are in many pieces, or each load would take longer than the one before.
 #[test]
 fn a_load_that_rises_slowly() {
     let body = Ellipse::circle(10.0f64, [-1.0, 1.0]).unwrap();

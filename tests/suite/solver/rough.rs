@@ -1,4 +1,4 @@
-//! A warm solver on rough bodies, which touch in many places that merge and part from load to load.
+//! A warm solver on rough bodies, with many contacts that merge and part from load to load.
 #![allow(missing_docs)]
 
 use crate::common::Shares;
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 type Solved<'b> = Result<Solution<'b, f64>, ContactError<f64>>;
 
-/// A roller of 20 mm with a wave and noise, in mm, by measured points.
+/// Returns a roller of 20 mm with a wave and noise, in mm, by measured points.
 fn rough(seed: u64, wave: f64, noise: f64) -> Spline<f64> {
     let mut random = Shares(seed);
     let point = |i: i32| {
@@ -23,7 +23,7 @@ fn rough(seed: u64, wave: f64, noise: f64) -> Spline<f64> {
     Spline::through(&points).unwrap()
 }
 
-/// The seeds of the bodies, with their waves and their noise.
+/// Seeds of the bodies, with their waves and their noise.
 const BODIES: [(u64, f64, f64); 6] = [
     (1, 1e-3, 2e-4),
     (2, 1e-3, 2e-4),
@@ -38,7 +38,7 @@ fn contact(body: &Spline<f64>) -> Contact<'_, f64> {
     Contact::new(&Flat, body).unwrap().materials(steel, steel, PlaneState::Strain)
 }
 
-/// Rising, falling, and in no order.
+/// Returns the rising, the falling and a scattered order.
 fn orders(count: usize) -> [Vec<usize>; 3] {
     let rising: Vec<usize> = (0..count).collect();
     let mut falling = rising.clone();
@@ -47,8 +47,9 @@ fn orders(count: usize) -> [Vec<usize>; 3] {
     [rising, falling, mixed]
 }
 
-/// Solves all in each order, with a solver each: what is found from scratch is found, where the contact is `unique` with
-/// the same limits; and what is refused is refused from scratch with the same words. How many are found.
+/// Solves all controls in each order, with one solver per order, and returns the number solved.
+/// Every warm solve agrees with the cold one: found or refused with the same message, and if the
+/// contact is `unique` with the same limits.
 fn check(contact: &Contact<'_, f64>, controls: &[Control<f64>], unique: bool, name: &str) -> usize {
     let cold: Vec<Solved<'_>> = controls.iter().map(|&control| contact.solve(control)).collect();
     let mut found = 0;
@@ -68,7 +69,7 @@ fn check(contact: &Contact<'_, f64>, controls: &[Control<f64>], unique: bool, na
     found
 }
 
-/// Limits are as close as both solutions say.
+/// Asserts that the limits agree within the estimates of both solutions.
 fn assert_close(warm: &Solution<'_, f64>, cold: &Solution<'_, f64>, name: &str) {
     let [one, other] = [warm, cold].map(Solution::intervals);
     assert_eq!(one.len(), other.len(), "{name}: {:?} and {:?}", warm.report(), cold.report());
@@ -81,7 +82,7 @@ fn assert_close(warm: &Solution<'_, f64>, cold: &Solution<'_, f64>, name: &str) 
     }
 }
 
-/// From one value to another by equal factors.
+/// Returns values from one to another by equal factors.
 fn by_factors(from: f64, to: f64, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| from * (to / from).powf(i as f64 / (count - 1) as f64))
 }
@@ -98,7 +99,8 @@ fn under_a_load_what_is_solved_from_scratch_is_solved_from_the_last_contact() {
     }
 }
 
-/// Where the last contacts lead nowhere, the search is that of `Contact::solve`, and both are paid for.
+/// If the last contacts lead nowhere, the search falls back on `Contact::solve`, and the cost
+/// includes both.
 #[test]
 fn a_search_that_is_made_again_is_the_one_from_scratch() {
     let mut again = 0;
@@ -147,7 +149,7 @@ fn under_any_other_control_too() {
         let centres: Vec<_> = by_factors(20.0, 200.0, 5).map(centre).collect();
         let by_approach = |approach| Control::Approach { approach, references };
         let approaches: Vec<_> = by_factors(2e-4, 3e-3, 4).map(by_approach).collect();
-        // Under a given half-width, or peak, bodies may have several contacts.
+        // For a given half-width, or peak, several solutions may exist.
         for (i, (controls, unique)) in
             [(widths, false), (peaks, false), (centres, true), (approaches, true)]
                 .into_iter()

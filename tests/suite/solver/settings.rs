@@ -1,4 +1,4 @@
-//! A solver that is used again gives what one just made gives.
+//! A used solver gives the results of a new one.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -32,7 +32,7 @@ fn loads_up_and_down() {
     }
 }
 
-/// The interval, a pressure, an error and what it has cost, to tell one quadrature from another.
+/// Returns the interval, a pressure, an error and the cost, to tell one quadrature from another.
 fn seen(solution: &Solution<f64>) -> (Interval<f64>, [f64; 2], usize) {
     let mut cost = linecontact::Cost::default();
     let pressure = solution.pressure().unwrap();
@@ -59,10 +59,10 @@ fn the_quadrature_is_that_of_each_contact() {
         let alone = seen(&contacts[which].solve(load).unwrap());
         assert_eq!(seen(&solver.solve(&contacts[which], load).unwrap()), alone, "{which}");
     }
-    // The same settings in another place serve: nothing is sampled again.
+    // The same settings at another address: no new samples.
     solver.solve(&contacts[0], load).unwrap();
     assert_eq!(solver.solve(&contacts[4], load).unwrap().cost().evaluations, 0);
-    // Settings that cannot be used are refused here, too, and the solver is none the worse.
+    // Unusable settings are refused here, too, and leave the solver intact.
     let never = Panels { tolerance: 1.0 };
     let refused = solver.solve(&contact.clone().quadrature(&never), load).unwrap_err();
     assert_eq!(refused, ContactError::InvalidTolerance { tolerance: 1.0 });

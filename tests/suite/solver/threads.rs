@@ -1,4 +1,4 @@
-//! One solver for each thread, on profiles that all of them share.
+//! One solver for each thread, on shared profiles.
 #![allow(missing_docs)]
 
 use crate::common;
@@ -6,7 +6,7 @@ use crate::common;
 use common::{Profile, graph, join, paper};
 use linecontact::{Contact, ContactError, Control, Solver};
 
-/// Limits, load, a pressure and what it has cost, bit by bit.
+/// Returns the limits, load, a pressure and the cost, bit by bit.
 fn key(
     solver: &mut Solver<f64>,
     contact: &Contact<f64>,
@@ -33,7 +33,7 @@ fn every_thread_has_the_same_bits() {
             Contact::new(&*below, &*joined).unwrap(),
             Contact::new(&*below, &*upper).unwrap(),
         ];
-        // Each in an order of its own, but cold in each scene.
+        // Each thread in an order of its own, but cold in each scene.
         let mut keys = vec![Vec::new(); scenes.len()];
         for i in 0..scenes.len() {
             let which = (first + i) % scenes.len();
