@@ -1,12 +1,13 @@
 //! A cam and a flat follower in a simulation: the contact is solved at each step of time.
 //!
-//! Run with `cargo run --release --example cam_follower`. The cam drags a flywheel, lifts the follower
-//! against its spring, and gets back what the spring returns. Each step solves the contact from the
-//! last one with a [`Solver`] and takes the torque from where it is; from the second revolution on
-//! nothing is allocated. Lengths in mm, forces in N for each mm of width, masses in t, times in s.
-//! Checked against the contact's place, which is the derivative of the lift, against Hertz with the
-//! cam's radius of curvature there, and by the energy, which stays. The cam, the place and the half-width
-//! are drawn to `target/figures/cam_follower.svg`.
+//! Run with `cargo run --release --example cam_follower`. The cam drags a flywheel, lifts the
+//! follower against its spring, and gets back the energy that the spring returns. Each step starts
+//! a [`Solver`] from the last contact and takes the torque from the place of the new one. From the
+//! second revolution on nothing is allocated. Lengths in mm, forces in N per mm of width, masses in
+//! t, times in s. The place of the contact is checked against the derivative of the lift, its
+//! half-width against Hertz with the cam's radius of curvature there, and the energy against its
+//! first value. The cam, the place and the half-width are drawn to
+//! `target/figures/cam_follower.svg`.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -31,7 +32,7 @@ const PRELOAD: f64 = 100.0;
 const STEP: f64 = 1e-4;
 const STEPS: usize = 2000; // two revolutions
 
-/// What can go wrong in the simulation.
+/// Errors of the simulation.
 #[derive(Debug, thiserror::Error)]
 enum SimulationError {
     #[error("the contact was not found: {0}")]
@@ -40,14 +41,14 @@ enum SimulationError {
     LiftsOff { time: f64 },
 }
 
-/// A cam turned by an angle, by its distance h(φ) from the axis to the tangent whose normal points
-/// at φ: the height of the follower when φ is on top.
+/// Cam turned by an angle, given by the distance h(φ) from its axis to the tangent whose normal
+/// points at φ: the height of the follower when φ is on top.
 struct Cam {
     angle: f64,
 }
 
 impl Cam {
-    /// h, h' and h''. The radius of curvature is h + h''.
+    /// Returns h, h' and h''. The radius of curvature is h + h''.
     fn support(phi: f64) -> [f64; 3] {
         let (sin, cos) = (2.0 * phi).sin_cos();
         [BASE + 0.5 * LIFT * (1.0 - cos), LIFT * sin, 2.0 * LIFT * cos]
@@ -71,13 +72,14 @@ impl ParametricProfile<f64> for Cam {
     }
 }
 
-/// The state, and how far contact and energy have been off.
+/// State of the simulation, with its largest errors so far.
 struct Simulation {
     solver: Solver<f64>,
     angle: f64,
     speed: f64,
     energy: f64,
-    /// Of the half-width, of the place (in half-widths) and of the energy.
+    /// Largest relative error of the half-width, error of the place in half-widths, and relative
+    /// error of the energy.
     off: [f64; 3],
     widest: f64,
     /// Angle, place and half-width at each step.
@@ -102,7 +104,7 @@ impl Simulation {
     fn step(&mut self, time: f64) -> Result<(), SimulationError> {
         let cam = Cam { angle: self.angle };
         let [h, dh, ddh] = Cam::support(self.angle);
-        // Spring and inertia of the follower, which the flywheel slows down as it is lifted.
+        // Spring and inertia of the follower; the flywheel slows down as it lifts the follower.
         let inertia = FOLLOWER * ddh * self.speed * self.speed;
         let force =
             (inertia + PRELOAD + SPRING * (h - BASE)) / (1.0 + FOLLOWER * dh * dh / FLYWHEEL);
@@ -135,7 +137,7 @@ fn energy(angle: f64, speed: f64) -> f64 {
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::new();
-    // In the first revolution the solver's memory grows to what the steps need.
+    // In the first revolution the solver's memory grows to its final size.
     for step in 0..STEPS / 2 {
         simulation.step(STEP * step as f64)?;
     }
@@ -157,7 +159,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws the cam below its follower, and where and how wide they touch, and says where.
+/// Draws the cam below its follower, with the place and the half-width of the contact, and returns
+/// a line that names the file.
 fn draw(rows: &[[f64; 3]]) -> Result<String, Box<dyn Error>> {
     let angle = 0.8;
     let ([h, dh, _], cam) = (Cam::support(angle), Cam { angle });

@@ -1,8 +1,8 @@
 //! A profile of your own: two spur gear teeth, pressed together at the pitch point.
 //!
-//! A flank is the involute of its base circle. By the angle `k` rolled off beyond the pitch
-//! point it is two short formulas; as `y = f(x)` it has no closed form. Lengths in m, pressures
-//! in Pa, load in N/m. The figures are checked against a solution of 25 digits
+//! A flank is the involute of its base circle. As a function of the angle `k` rolled off beyond the
+//! pitch point it is two short formulas; as `y = f(x)` it has no closed form. Lengths in m,
+//! pressures in Pa, load in N/m. The results are checked against a solution of 25 digits
 //! (`tests/data/gear_involute_pitch_point.json`), and drawn to `target/figures/custom_profile.svg`.
 
 #[path = "shared/drawing.rs"]
@@ -12,12 +12,12 @@ use drawing::{BLACK, BLUE, Panel, Points, RED};
 use linecontact::{Contact, Control, CurvePoint, ParametricProfile};
 use std::error::Error;
 
-/// The flank of a tooth. `x` runs along the common tangent at the pitch point, `y` across it.
+/// Flank of a tooth. `x` runs along the common tangent at the pitch point, `y` across it.
 struct Flank {
     base_radius: f64,
     /// Tangent of the pressure angle: the angle rolled off up to the pitch point.
     pitch: f64,
-    /// 1 for the upper tooth; -1, half a turn, for the lower.
+    /// 1 for the upper tooth; -1, half a turn, for the lower one.
     side: f64,
 }
 

@@ -1,10 +1,11 @@
-//! A pair of spur gears along the path of contact: how wide the contact is, and how hard it presses.
+//! Solves a pair of spur gears along the path of contact, for half-width and peak pressure.
 //!
-//! Run with `cargo run --release --example gear_mesh`; the flanks, half-width and peak pressure are
+//! Run with `cargo run --release --example gear_mesh`. The flanks, half-width and peak pressure are
 //! drawn to `target/figures/gear_mesh.svg`. Lengths in mm, pressures in MPa, load in N/mm. At each
-//! instant the two flanks are involutes that touch on the line tangent to both base circles, and are
-//! checked against Hertz with the radii of curvature there. The flanks are taken a little longer than
-//! the teeth are, so that the corners at their tips do not count; two pairs share the load equally.
+//! instant the two flanks are involutes that touch on the line tangent to both base circles. The
+//! results are checked against Hertz with the radii of curvature there. The flanks are modelled a
+//! little longer than the teeth, so that the corners at their tips do not count; two pairs share
+//! the load equally.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -22,12 +23,13 @@ const MODULUS: f64 = 113.187e3; // E* of steel on steel
 const LOAD: f64 = 300.0; // along the line of action
 const STEPS: u32 = 240;
 
-/// The pair's line of action, by the distance s from where it leaves the pinion's base circle.
+/// Line of action of the pair, as a function of the distance s from its point on the pinion's base
+/// circle.
 struct Mesh {
     base: [f64; 2],
-    /// Length of the line between the base circles: s and the rest of it are the radii of curvature.
+    /// Length of the line between the base circles: the radii of curvature are s and `line - s`.
     line: f64,
-    /// Where contact begins, at the wheel's tip, and ends, at the pinion's.
+    /// Values of s at which contact begins, at the wheel's tip, and ends, at the pinion's.
     path: [f64; 2],
     /// Distance between two pairs of teeth.
     pitch: f64,
@@ -48,7 +50,8 @@ impl Mesh {
         if alone { LOAD } else { 0.5 * LOAD }
     }
 
-    /// The two flanks that touch at s, seen from there: the pinion's below, turned by half a turn.
+    /// Returns the two flanks that touch at s, with that point as origin; the pinion is below,
+    /// turned by half a turn.
     fn flanks(&self, s: f64) -> Result<[Flank; 2], ProfileError<f64>> {
         let flank = |i: usize, arm: f64, placement| {
             let rolled = arm / self.base[i];
@@ -62,7 +65,7 @@ impl Mesh {
 
 type Flank = Placed<f64, Involute<f64>>;
 
-/// Half-width and peak pressure, as solved and by Hertz.
+/// Half-width and peak pressure, from the solver and from Hertz.
 struct Row {
     s: f64,
     solved: [f64; 2],
@@ -84,8 +87,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         let radius = s * (mesh.line - s) / mesh.line; // 1/R = 1/s + 1/(line - s)
         let half_width = (4.0 * mesh.load(s) * radius / (PI * MODULUS)).sqrt();
         let hertz = [half_width, 2.0 * mesh.load(s) / (PI * half_width)];
-        // By how much the radii change over the half-width, which is what Hertz leaves out. (That of an
-        // involute, r t, changes by dX/t.)
+        // Relative change of the radii over the half-width, which Hertz leaves out. (The radius of
+        // an involute, r t, changes by dX/t.)
         let change = half_width * (mesh.base[0] / (s * s) + mesh.base[1] / (mesh.line - s).powi(2));
         for i in 0..2 {
             let here = (solved[i] / hertz[i] - 1.0).abs();
@@ -109,7 +112,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws the flanks at the pitch point, and half-width and peak over the mesh, and says where.
+/// Draws the flanks at the pitch point, and half-width and peak over the mesh, and returns a line
+/// that names the file.
 fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
     let pitch_point = mesh.base[0] * PRESSURE_ANGLE.tan();
     let outline = |flank: &Flank| -> Points {

@@ -1,12 +1,12 @@
-//! From a measuring machine's file to the contact: a roller, its profile measured with noise.
+//! From a measuring machine's file to the contact: a roller whose profile is measured with noise.
 //!
-//! Run with `cargo run --release --example measured_profile`. It writes the points of a circle, with
-//! noise, to `target/measured_profile.txt`, as a machine would, reads them back, smooths them and
-//! solves; since it is a circle, the answer is known. The pressure is drawn to
-//! `target/figures/measured_profile.svg`. Lengths in mm, pressures in MPa, load in N/mm.
+//! Run with `cargo run --release --example measured_profile`. It writes the points of a circle,
+//! with noise, to `target/measured_profile.txt`, as a machine would. Then it reads them back,
+//! smooths them and solves. Since the body is a circle, the answer is known. The pressure is drawn
+//! to `target/figures/measured_profile.svg`. Lengths in mm, pressures in MPa, load in N/mm.
 //!
-//! At last it prints how wrong limits and peak become by how many points, and by a noise that is said to be
-//! a tenth less or more than it is.
+//! At last it prints the errors of limits and peak for several numbers of points, and for a noise
+//! that is given a tenth too small or too large.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -25,7 +25,7 @@ const HALF_WIDTH: f64 = 0.25;
 const MODULUS: f64 = 115e3;
 const NOISE: f64 = 1e-4; // standard deviation of the heights, a tenth of a micrometre
 const POINTS: i32 = 2000; // on either side, a micrometre apart
-/// Half-widths by the radius, and numbers of points, of the table.
+/// Half-widths relative to the radius, and numbers of points, of the table.
 const SIZES: [(f64, i32); 6] =
     [(0.02, 401), (0.02, 4001), (0.1, 401), (0.1, 4001), (0.22, 401), (0.22, 4001)];
 
@@ -55,7 +55,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("slopes off by {:.1e} as measured, {:.1e} smoothed", slope(&raw), slope(&smooth));
 
-    // A speck of dust is named by its row.
+    // The error names a speck of dust by its row.
     let mut dusty = points.clone();
     dusty[1233][1] += 0.005;
     let error = Spline::through(&dusty).map(|_| ()).expect_err("dust");
@@ -66,7 +66,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     pressure.at_many(&x, &mut pressures)?;
     let solved: Points = x.iter().copied().zip(pressures).collect();
     let known = x.iter().map(|&x| (x, exact.pressure(x, kappa))).step_by(6).collect();
-    // What is measured and smoothed beyond the circle, in micrometres.
+    // Height of the measured and the smoothed profile above the circle, in micrometres.
     let beyond = |x: f64, y: f64| (x, 1e3 * (y - RADIUS + (RADIUS * RADIUS - x * x).sqrt()));
     let range = [-0.3, 0.3];
     let near: Points = points
@@ -99,7 +99,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     table()
 }
 
-/// What the machine writes: x and y in each line.
+/// Makes the file of the machine: x and y in each line.
 fn measurement(random: &mut Random) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     for i in -POINTS..=POINTS {
@@ -110,8 +110,8 @@ fn measurement(random: &mut Random) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
-/// Prints the largest errors of twenty measurements: of a circle over four half-widths to either side, with noise
-/// of 1e-5 of the radius.
+/// Prints the largest errors of twenty measurements of a circle, over four half-widths to either
+/// side, with noise of 1e-5 of the radius.
 fn table() -> Result<(), Box<dyn Error>> {
     let noise = 1e-5;
     println!("noise 1e-5 R, points over four half-widths to either side, largest errors of 20:");
@@ -142,7 +142,7 @@ fn table() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Random numbers, always the same.
+/// Generator of random numbers, the same in every run.
 struct Random(u64);
 
 impl Random {
@@ -151,13 +151,13 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Of normal distribution, nearly.
+    /// Returns a number of nearly normal distribution.
     fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
 }
 
-/// The points of a file with two numbers in each line.
+/// Reads the points of a file with two numbers in each line.
 fn read(text: &str) -> Result<Vec<[f64; 2]>, Box<dyn Error>> {
     let point = |(row, line): (usize, &str)| {
         let numbers: Vec<f64> =

@@ -1,9 +1,9 @@
-//! What a contact of many pieces costs: a circle cut into up to 100 000 arcs, half of them in the
-//! contact.
+//! Measures the cost of a contact of many pieces: a circle cut into up to 100 000 arcs, half of
+//! them in the contact.
 //!
-//! Run with `cargo run --release --example pieces`. Evaluations and microseconds are for each piece
-//! in the contact, those of making the body for each of its pieces, those of a pressure for all of
-//! it. The limits are checked against the exact solution; the evaluations are drawn to
+//! Run with `cargo run --release --example pieces`. Evaluations and times of a solve are per piece
+//! in the contact, the time of making the body per piece of the body, and the time of a pressure as
+//! a whole. The limits are checked against the exact solution; the evaluations are drawn to
 //! `target/figures/pieces.svg`.
 
 #[path = "shared/drawing.rs"]
@@ -16,15 +16,15 @@ use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// The arcs go from minus this angle to this angle, on a circle of radius 1.
+/// Largest angle of the arcs on either side, on a circle of radius 1.
 const END: f64 = 0.5;
-/// The half-width of the contact, and of the one after it.
+/// Half-widths of the first and of the second contact.
 const HALF_WIDTHS: [f64; 2] = [0.25, 0.26];
-/// Pressures asked for, one by one.
+/// Number of pressures computed one by one.
 const POINTS: u32 = 16;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    measure(10)?; // The tables of the quadrature are made once.
+    measure(10)?; // The tables of the quadrature are made once, at the first solve.
     println!("            evaluations               microseconds");
     println!("    pieces  first  next  |   make   first    next   P(x)  |  error of a");
     let (mut first_solves, mut next_solves) = (Points::new(), Points::new());
@@ -39,7 +39,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         let inside = (pieces as f64 * 0.5).log10();
         first_solves.push((inside, (first * pieces as f64 * 0.5).log10()));
         next_solves.push((inside, (next * pieces as f64 * 0.5).max(1.0).log10()));
-        // Of ten pieces the two at the edges, which are sampled beyond the contact, are many.
+        // The two pieces at the edges are sampled beyond the contact: of ten pieces they are too
+        // large a share.
         if pieces >= 100 {
             (least, most) = (least.min(first), most.max(first));
         }
@@ -60,11 +61,11 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 }
 
 struct Row {
-    /// Evaluations of the curve for each piece in the contact: of the first and of the second solve.
+    /// Evaluations of the curve per piece in the contact, in the first and in the second solve.
     evaluations: [f64; 2],
-    /// Of making the body, the two solves, and one pressure.
+    /// Microseconds: making the body and the two solves per piece, and one pressure.
     micros: [f64; 4],
-    /// The larger relative error of `a`.
+    /// Larger relative error of `a`.
     error: f64,
 }
 
@@ -104,7 +105,8 @@ fn measure(pieces: usize) -> Result<Row, Box<dyn Error>> {
     Ok(Row { evaluations, micros, error })
 }
 
-/// `K(m) - E(m)` of the complete elliptic integrals, m = modulus², by the arithmetic-geometric mean.
+/// Computes `K(m) - E(m)` of the complete elliptic integrals, m = modulus², by the
+/// arithmetic-geometric mean.
 fn k_less_e(modulus: f64) -> f64 {
     let (mut a, mut b, mut c) = (1.0, (1.0 - modulus * modulus).sqrt(), modulus);
     let (mut sum, mut share) = (0.0, 0.5);

@@ -1,8 +1,9 @@
-//! A steel roller in a groove: where they touch, how hard they press, and how sure that is.
+//! A steel roller in a groove: the limits of the contact, the pressure, and their errors.
 //!
 //! Lengths in mm, pressures in MPa, load in N/mm. Run with `cargo run --release --example
-//! quickstart`. The bodies, the pressure and the stress below are drawn to `target/figures/quickstart.svg`.
-//! Two circles have an exact solution, against which the figures are checked.
+//! quickstart`. The bodies, the pressure and the stress below are drawn to
+//! `target/figures/quickstart.svg`. Two circles have an exact solution, against which the results
+//! are checked.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -20,7 +21,7 @@ const ROLLER: f64 = 10.0; // radius
 const GROOVE: f64 = 40.0;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    // The lower part of a circle, by the angle k from its lowest point.
+    // Lower part of a circle, by the angle k from its lowest point.
     let arc = |r: f64| {
         Curve::new([-1.5, 1.5], move |k: f64| {
             let (sin, cos) = k.sin_cos();
@@ -48,8 +49,9 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("{} evaluations of the two curves", solution.cost().evaluations);
     println!("{}", draw([&groove, &roller], &solution)?);
 
-    // The slope of the gap is x/sqrt(r² - x²) of the roller less that of the groove, and so are the
-    // load and the pressure in the middle: with m = (a/r)², E* r (K(m) - E(m)) and E* a K(m)/(π r).
+    // The slope of the gap is the difference of two slopes x/sqrt(r² - x²), of the roller and of
+    // the groove. So load and peak are differences, too, of E* r (K(m) - E(m)) and E* a K(m)/(π r),
+    // with m = (a/r)².
     let [(k, k_less_e), (k_groove, k_less_e_groove)] = [ROLLER, GROOVE].map(|r| elliptic(a / r));
     let load = MODULUS * (ROLLER * k_less_e - GROOVE * k_less_e_groove);
     let middle = MODULUS * a / PI * (k / ROLLER - k_groove / GROOVE);
@@ -58,7 +60,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Complete elliptic integrals K(m) and K(m) - E(m), m = modulus², by the arithmetic-geometric mean.
+/// Computes the complete elliptic integrals K(m) and K(m) - E(m), m = modulus², by the
+/// arithmetic-geometric mean.
 fn elliptic(modulus: f64) -> (f64, f64) {
     let (mut a, mut b, mut c) = (1.0, (1.0 - modulus * modulus).sqrt(), modulus);
     let (mut sum, mut share) = (0.0, 0.5);
@@ -70,7 +73,7 @@ fn elliptic(modulus: f64) -> (f64, f64) {
     (FRAC_PI_2 / a, FRAC_PI_2 / a * sum)
 }
 
-/// Draws the bodies, the pressure and the stress below, and says where.
+/// Draws the bodies, the pressure and the stress below, and returns a line that names the file.
 fn draw(
     bodies: [&dyn ParametricProfile<f64>; 2],
     solution: &Solution<f64>,
@@ -96,7 +99,7 @@ fn draw(
         .note(0.0, -1.8, "groove, r = 40 mm", BLUE);
 
     let (on, pressure, below) = (solution.hull(), solution.pressure()?, solution.subsurface()?);
-    // At equal angles, close together at the edges where the pressure is steep.
+    // Places at equal angles: close together at the edges, where the pressure is steep.
     let x = (0..=200).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 200.0)));
     let points =
         x.map(|x| Ok((x, pressure.at(x)?))).collect::<Result<Points, ContactError<_>>>()?;

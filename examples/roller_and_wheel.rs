@@ -1,8 +1,11 @@
-//! A roller with relief on a raceway, and a wheel of arcs on a rail of arcs.
+//! A roller with relief on a raceway (axial section), and a wheel of arcs on a rail of arcs
+//! (transverse section).
 //!
-//! Run with `cargo run --release --example roller_and_wheel`. The first is checked against its closed
-//! form, the second against a parabola with another radius on either side, which the arcs are as far
-//! as the contact is small. Lengths in mm, pressures in MPa, load in N/mm.
+//! Run with `cargo run --release --example roller_and_wheel`. The first is checked against its
+//! closed form, the second against a parabola with a different radius on either side, which the
+//! arcs approach as the contact becomes small. Both are taken as long across the plane. Real
+//! rollers and wheels are not, so that the results are only a guide for them. Lengths in mm,
+//! pressures in MPa, load in N/mm.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -21,7 +24,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Pressures from edge to edge.
+/// Returns the pressures from edge to edge.
 fn pressures(solution: &Solution<f64>) -> Result<Points, ContactError<f64>> {
     let (on, pressure) = (solution.hull(), solution.pressure()?);
     let x = (0..=120).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 120.0)));
@@ -34,7 +37,7 @@ fn outline(body: &dyn ParametricProfile<f64>) -> Points {
     points.map(|at| (at.x, at.y)).collect()
 }
 
-/// From light blue to red, for three loads.
+/// Returns a colour from light blue to red, for three loads.
 fn shade(i: usize) -> RGBColor {
     mix(drawing::tint(BLUE, 0.5), RED, i as f64 / 2.0)
 }
@@ -73,18 +76,18 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     Ok(vec![shape, drawn])
 }
 
-/// Arcs without corners between them.
+/// Body of arcs without corners between them.
 type Arcs = Piecewise<f64, Placed<f64, Ellipse<f64>>>;
 
-/// Arcs joined without a corner, one or several to the left of x = 0 and to its right: each goes on
-/// where the last one ended, in the direction it had. Given by radius and length in x, from the
-/// middle outwards; a negative radius bulges upwards.
+/// Joins arcs without a corner, one or several on either side of x = 0: each begins where the last
+/// one ended, in the same direction. Each arc is given by radius and length in x, from the middle
+/// outwards; a negative radius bulges upwards.
 fn arcs(sides: [&[(f64, f64)]; 2]) -> Result<Arcs, Box<dyn Error>> {
     let mut parts = Vec::new();
     for (side, outwards) in sides.into_iter().zip([-1.0, 1.0]) {
         let (mut x, mut y, mut slope) = (0.0, 0.0, 0.0f64);
         for &(radius, length) in side {
-            // The slope is that of the angle, turned over with the arc.
+            // The slope gives the angle, with the sign of the radius.
             let from = (slope * radius.signum()).atan();
             let to = (from.sin() + outwards * length / radius.abs()).asin();
             let arc = Ellipse::circle(radius, [from.min(to), from.max(to)])?;
@@ -101,7 +104,8 @@ fn arcs(sides: [&[(f64, f64)]; 2]) -> Result<Arcs, Box<dyn Error>> {
 }
 
 fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
-    // Arcs of 300, 80 and 13 mm on the rail; on the wheel a hollow tread of 500, and a bulging one.
+    // Arcs of 300, 80 and 13 mm on the rail; on the wheel a hollow tread of 500 mm, and bulging
+    // ones of 400 mm.
     let rail = arcs([&[(-300.0, 25.0)], &[(-80.0, 15.0), (-13.0, 8.0)]])?;
     let tread = arcs([&[(-500.0, 20.0), (400.0, 15.0)], &[(400.0, 30.0)]])?;
     let contact = Contact::new(&rail, &tread)?.contact_modulus(MODULUS).certified(true);
@@ -138,7 +142,7 @@ fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
         ];
         let off = ratios.map(|ratio| (ratio - 1.0).abs()).into_iter().fold(0.0, f64::max);
         println!("  {off:.1e} at {load} N/mm, from {:.3} to {:.3} mm", got.left, got.right);
-        // The square of the half-width over the radii goes with the load.
+        // The square of half-width over radius is proportional to the load.
         assert!(off < 2e-6 * load && off < 0.2 * last, "{off}");
         last = off;
         drawn = drawn.line(pressures(&solution)?, shade(2 - i), &format!("{load:.0} N/mm"));

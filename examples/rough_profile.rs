@@ -1,13 +1,13 @@
-//! A rough roller on a flat, from light to heavy: how many places touch, and where.
+//! A rough roller on a flat, from light to heavy loads: the number of contacts, and their places.
 //!
-//! Run with `cargo run --release --example rough_profile`. The profile is measured points, made up
-//! here of a circle with four waves and the noise of the machine, smoothed by a `Spline`. Sixteen loads
-//! are solved by one `Solver`, each from the contact before. The pressures over the profile, and the
-//! number of contacts against the load, are drawn to `target/figures/rough_profile.svg`. Lengths in mm,
-//! pressures in MPa, loads in N/mm.
+//! Run with `cargo run --release --example rough_profile`. The profile is made of measured points,
+//! simulated here as a circle with four waves and the noise of the machine, and smoothed by a
+//! `Spline`. One `Solver` solves sixteen loads, each from the contacts of the one before. The
+//! pressures over the profile, and the number of contacts against the load, are drawn to
+//! `target/figures/rough_profile.svg`. Lengths in mm, pressures in MPa, loads in N/mm.
 //!
-//! As the load grows contacts are born and merge, and limits only move outwards (Buyarov and Rakhmanov,
-//! 1999): checked from each load to the next.
+//! As the load grows, contacts appear and merge, and limits only move outwards (Buyarov and
+//! Rakhmanov, 1999). This is checked from each load to the next.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -28,11 +28,11 @@ const POINTS: i32 = 600; // on either side, 5 micrometres apart
 const LOADS: [f64; 2] = [1.0, 4000.0];
 const COUNT: usize = 16;
 
-/// What is kept of a solution.
+/// Result for one load.
 struct Pressed {
     load: f64,
     contacts: Vec<Interval<f64>>,
-    /// x and P(x) from the first limit to the last.
+    /// Pairs of x and P(x) from the first limit to the last.
     pressures: Vec<(f64, f64)>,
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The pressures of a solution, at places close to one another where a contact ends.
+/// Returns the pressures of a solution, at places that are close together where a contact ends.
 fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error>> {
     const PLACES: u32 = 800;
     let (contacts, pressure) = (solution.intervals().to_vec(), solution.pressure()?);
@@ -73,7 +73,7 @@ fn pressed(load: f64, solution: &Solution<f64>) -> Result<Pressed, Box<dyn Error
     Ok(Pressed { load, contacts, pressures })
 }
 
-/// What must be so, whatever the profile is.
+/// Checks what holds for any profile.
 fn check(body: &Spline<f64>, all: &[Pressed]) {
     let [from, to] = body.domain();
     let heights = (0..=4000).map(|i| from + (to - from) * f64::from(i) / 4000.0);
@@ -92,7 +92,7 @@ fn check(body: &Spline<f64>, all: &[Pressed]) {
     for Pressed { load, contacts, pressures } in all {
         let peak = pressures.iter().fold(0.0, |peak: f64, &(_, p)| p.max(peak));
         assert!(pressures.iter().all(|&(_, p)| p >= -1e-9 * peak), "a pull under {load}");
-        // The trapezoidal rule; between two contacts the pressure is zero.
+        // Trapezoidal rule; between two contacts the pressure is zero.
         let strip = |two: &[(f64, f64)]| 0.5 * (two[1].0 - two[0].0) * (two[0].1 + two[1].1);
         let sum: f64 = pressures.windows(2).map(strip).sum();
         assert!((sum / load - 1.0).abs() < 1e-3, "{sum} is not {load}");
@@ -102,7 +102,7 @@ fn check(body: &Spline<f64>, all: &[Pressed]) {
     assert_eq!(all[COUNT - 1].contacts.len(), 1, "all pressed flat");
 }
 
-/// What a machine measures: x and y.
+/// Makes the points of a machine: x and y.
 fn measurement() -> Vec<[f64; 2]> {
     let mut state = 1u64;
     let mut uniform = || {
@@ -120,7 +120,7 @@ fn measurement() -> Vec<[f64; 2]> {
     (-POINTS..=POINTS).map(&mut point).collect()
 }
 
-/// Draws some of the pressures over the profile, and says where.
+/// Draws some of the pressures over the profile, and returns a line that names the file.
 fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
     let widest = &all[all.len() - 1].contacts[0];
     let range = [widest.left - 0.1, widest.right + 0.1];
@@ -129,13 +129,13 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
         .size(560, 280)
         .legend(SeriesLabelPosition::UpperLeft);
     for (i, pressed) in all.iter().enumerate().step_by(3) {
-        // From light blue to red, each down to zero where two contacts part.
+        // From light blue to red; each curve goes down to zero between two contacts.
         let color = mix(tint(BLUE, 0.5), RED, i as f64 / (COUNT - 1) as f64);
         for (j, on) in pressed.contacts.iter().enumerate() {
             let here: Points =
                 pressed.pressures.iter().filter(|at| on.contains(at.0)).copied().collect();
             let label = if j == 0 { format!("{:.0} N/mm", pressed.load) } else { String::new() };
-            // About as many points as pixels, and the last.
+            // About one point per pixel, and the last one.
             let every = (5.0 / (on.right - on.left)).clamp(1.0, 40.0) as usize;
             let last = here[here.len() - 1];
             let drawn = here.into_iter().step_by(every).chain([last]).collect();

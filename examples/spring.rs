@@ -1,4 +1,4 @@
-//! Load against approach: a roller on a raceway as a spring, and the formulas that are used in its place.
+//! Load against approach: a roller on a raceway as a spring, compared with the usual formulas.
 //!
 //!     cargo run --release --example spring
 
@@ -13,25 +13,26 @@ use linecontact::{
 use std::error::Error;
 use std::f64::consts::PI;
 
-/// mm, MPa, N/mm: a steel roller, and a raceway that is held at this depth.
+/// Radius of a steel roller, and depth at which the raceway is held. Units: mm, MPa, N/mm.
 const RADIUS: f64 = 5.0;
 const DEPTH: f64 = 15.0;
 const YOUNGS_MODULUS: f64 = 206e3;
 const POISSON_RATIO: f64 = 0.3;
 
-/// The length of the roller, on which the formula of ISO/TS 16281 depends.
+/// Length of the roller, on which the formula of ISO/TS 16281 depends.
 const LENGTH: f64 = 10.0;
 
 const LOADS: [f64; 2] = [1.0, 1000.0];
 
-/// The load per unit length by ISO/TS 16281 (2008): `Q = 35948 δ^(10/9) l^(8/9)` N, with δ in mm that of the contacts
-/// with both raceways, of which this is one: half of it.
+/// Returns the load per unit length by ISO/TS 16281 (2008): `Q = 35948 δ^(10/9) l^(8/9)` N. There
+/// δ, in mm, is the approach of the contacts with both raceways; the contact with one raceway has
+/// half of it.
 fn iso_16281(approach: f64) -> f64 {
     35_948.0 * (2.0 * approach).powf(10.0 / 9.0) * LENGTH.powf(8.0 / 9.0) / LENGTH
 }
 
-/// The approach by Weber and Banaschek (1953): of the half-plane to the depth, and of the roller to its middle by
-/// the same formula, with the half-width of Hertz.
+/// Returns the approach by Weber and Banaschek (1953): of the half-plane towards the depth, and of
+/// the roller towards its middle by the same formula, with the half-width of Hertz.
 fn weber_banaschek(load: f64) -> f64 {
     let compliance = (1.0 - POISSON_RATIO * POISSON_RATIO) / YOUNGS_MODULUS;
     let half_width = (8.0 * load * RADIUS * compliance / PI).sqrt();
@@ -57,7 +58,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     );
     assert!(table.error() <= 1e-6);
 
-    // A constant stiffness: that in the middle of the range.
+    // A constant stiffness, from the middle of the range.
     let middle = contact.solve(Control::Load(300.0))?;
     let (start, stiffness) = (middle.approach(&references)?.bodies, middle.stiffness(&references)?);
     println!("N/mm     approach  Weber and B.  ISO/TS 16281  constant   (µm and load by it)");
@@ -84,7 +85,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     println!("off by up to {worst:.3?} from 10 N/mm on");
-    // The formulas are of this contact; a constant stiffness is of its load alone.
+    // The formulas are made for this contact; a constant stiffness holds at its own load only.
     assert!(worst[0] < 0.05 && worst[1] < 0.08 && worst[2] > 1.0, "{worst:?}");
 
     println!(
@@ -94,7 +95,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Load against approach.
+/// Draws load against approach.
 fn loads(table: &SpringTable<f64>) -> Result<Panel, ContactError<f64>> {
     let solved = table.points().map(|point| (1e3 * point.approach, point.load)).collect();
     let last = table.points().last().map_or(0.0, |point| point.approach);
@@ -109,13 +110,13 @@ fn loads(table: &SpringTable<f64>) -> Result<Panel, ContactError<f64>> {
         .dots(solved, BLUE, "its points"))
 }
 
-/// By how much the loads of the formulas are off at the same approach.
+/// Draws the relative differences of the formulas' loads at the same approach.
 fn shares(table: &SpringTable<f64>, tangent: [f64; 2]) -> Result<Panel, ContactError<f64>> {
     let [mut iso, mut weber, mut constant] = [const { Vec::new() }; 3];
     for i in 0..=120 {
         let exponent = f64::from(i) / 40.0;
         let load = 10f64.powf(exponent);
-        // Those outside the table are left out.
+        // Approaches outside the table are left out.
         if let Ok(point) = table.at(weber_banaschek(load)) {
             weber.push((exponent, 100.0 * (load / point.load - 1.0)));
             let (approach, exponent) = (point.approach, point.load.log10());

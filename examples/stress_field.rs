@@ -1,13 +1,13 @@
-//! The stress below a roller on a flat: where the material yields first.
+//! The stress below a roller on a flat, and the place where the material yields first.
 //!
-//! Run with `cargo run --release --example stress_field`. It prints the greatest shear and the
-//! greatest von Mises stress with their depths, checked against Hertz's solution, and draws the two
-//! bodies before and under load, the pressure, and the shear below, all in terms of
-//! the half-width L and the peak pressure p₀, to `target/figures/stress_field.svg`.
+//! Run with `cargo run --release --example stress_field`. It prints the largest shear and the
+//! largest von Mises stress with their depths, checked against Hertz's solution. It draws the two
+//! bodies before and under load, the pressure, and the shear below, all in terms of the half-width
+//! L and the peak pressure p₀, to `target/figures/stress_field.svg`.
 //!
-//! The bodies are of like material, so that each takes half of what the pressure moves their
-//! surfaces apart. How far they approach each other as a whole has no meaning in plane strain without
-//! a place to measure it from: the loaded bodies are drawn with y = 0 at the edges of the contact.
+//! The bodies are of like material, so each takes half of the displacement that the pressure causes
+//! between their surfaces. In plane strain their approach as a whole has no meaning without a
+//! reference point: the loaded bodies are drawn with y = 0 at the edges of the contact.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -20,7 +20,7 @@ use std::error::Error;
 const L: f64 = 0.1;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    // A roller of radius 1 as the parabola that Hertz takes it for.
+    // Roller of radius 1 as a parabola, as in Hertz's theory.
     let roller =
         Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
     let contact = Contact::new(&Flat, &roller)?;
@@ -54,7 +54,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws everything over the same x, and says where.
+/// Draws everything over the same x, and returns a line that names the file.
 fn draw(
     solution: &Solution<f64>,
     below: [&Subsurface<f64>; 2],
@@ -63,8 +63,8 @@ fn draw(
     const REACH: f64 = 2.5;
     let x: Vec<f64> = (-100..=100).map(|i| f64::from(i) / 40.0).collect();
 
-    // The roller on the flat, in units of L²/R = L². Of the gap that opens beside the contact over
-    // that of the bodies, and of their common surface in it, each has half.
+    // Heights of flat and roller under load, in units of L²/R = L². Each surface moves by half the
+    // difference between the gap under load and the undeformed gap.
     let loaded = |x: f64| {
         let inside = solution.hull().contains(L * x);
         let gap = if inside { 0.0 } else { solution.gap_at(L * x)? / (L * L) };

@@ -1,4 +1,4 @@
-//! Part 1: inverting `X(k) = x`, each time from the whole domain and without a guess.
+//! Part 1: solving `X(k) = x`, each time from the whole domain and without an initial guess.
 
 use super::curves::{self, Profile};
 use super::{NAMES, Tally, searches};
@@ -8,19 +8,19 @@ use std::f64::consts::FRAC_PI_2;
 
 const TARGETS: i32 = 101;
 
-/// The largest error of k that passes, in units of what is attainable.
+/// Largest error of k that passes, in units of the attainable error.
 const MOST_EXCESS: f64 = 4.0;
 
-/// A curve, and the k towards which the targets crowd from the far end of its domain.
+/// Curve, and the k towards which the targets crowd from the far end of its domain.
 struct Case {
     name: &'static str,
     profile: Profile,
-    /// Which piece of the profile, if it has pieces.
+    /// Index of the piece, if the profile has pieces.
     piece: usize,
     hard: f64,
-    /// Distance of the last target from `hard`, as a fraction of that of the first.
+    /// Distance of the last target from `hard`, as a fraction of the distance of the first.
     closest: f64,
-    /// Rounding of X(k) where large terms cancel in it, as an absolute length.
+    /// Rounding error of X(k) where large terms cancel in it, as an absolute length.
     noise: f64,
 }
 
@@ -37,7 +37,7 @@ impl Case {
         self.profile.piece(self.piece).map_or(&*self.profile, |piece| piece.curve)
     }
 
-    /// The roots sought, in geometric progression.
+    /// Returns the roots sought, in geometric progression.
     fn targets(&self) -> impl Iterator<Item = f64> {
         let Self { hard, closest, .. } = *self;
         let [from, to] = self.curve().domain().map(|end| end - hard);
@@ -46,8 +46,8 @@ impl Case {
             .map(move |i| hard + 0.7 * far * closest.powf(f64::from(i) / f64::from(TARGETS - 1)))
     }
 
-    /// How near to k a search can be asked to end: the last two bits of k, which is where it
-    /// stops, and what the rounding of x and of X(k) makes of them.
+    /// Returns the smallest error of k that a search can reach: the last two bits of k, where it
+    /// stops, and the effect of rounding in x and X(k).
     fn attainable(&self, k: f64, point: CurvePoint<f64>) -> f64 {
         let rounding = f64::EPSILON * point.x.abs() + self.noise;
         4.0 * f64::EPSILON * k.abs() + rounding / point.dx.abs()
@@ -94,14 +94,14 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// What became of all the targets on one curve.
+/// Results for all the targets on one curve.
 #[derive(Default)]
 struct Outcome {
     evaluations: usize,
     most: usize,
-    /// Largest relative errors of k, and of X(k) against x.
+    /// Largest relative errors of k, and of X(k) compared with x.
     errors: [f64; 2],
-    /// The largest error of k in units of what is attainable.
+    /// Largest error of k in units of the attainable error.
     excess: f64,
     failure: Option<SearchError<f64>>,
 }
@@ -112,7 +112,7 @@ fn invert(case: &Case, search: &dyn LimitSearch<f64>) -> Outcome {
     let mut outcome = Outcome::default();
     for k in case.targets() {
         let mut exact = curve.at(k);
-        // As a rule no k meets x to the last bit, nor does it here.
+        // As a rule no k meets x to the last bit. This keeps it so here.
         exact.x = exact.x.next_up();
         let mut f = |k: f64| {
             let point = curve.at(k);

@@ -1,11 +1,11 @@
-//! Parts 2 and 3: a search for the limits `a` and `b`, and one for the inversions it needs.
+//! Parts 2 and 3: one search for the limits `a` and `b`, and one for the inversions that it needs.
 
 use super::scenes::{self, Scene};
 use super::{NAMES, Tally, searches};
 use linecontact::{Contact, ContactError, Control, Cost, Interval};
 use std::f64::consts::PI;
 
-/// What became of one contact.
+/// Result for one contact.
 struct Outcome {
     cost: Cost,
     /// Relative errors of a and b.
@@ -50,7 +50,7 @@ fn row(scene: &Scene, i: usize, outcome: &Outcome) {
     println!("{name:<24} {:<10} {samples:>8} {evaluations:>11} {a:>9.1e} {b:>9.1e}", NAMES[i]);
 }
 
-/// Part 2: each search for the limits, from where the solver starts.
+/// Part 2: tries each search for the limits, from the solver's own start.
 pub fn limits() -> Result<Tally, ContactError<f64>> {
     println!();
     println!("# 2. Search for the limits a and b; inversion by the default, Newton. Samples are");
@@ -72,10 +72,10 @@ pub fn limits() -> Result<Tally, ContactError<f64>> {
     Ok(tally)
 }
 
-/// A start `[-b, a]` for a scene, from its true half-width and centre.
+/// Start `[-b, a]` for a scene, relative to its true half-width and centre.
 struct Start {
     name: &'static str,
-    /// Half-width and shift of the centre, in half-widths.
+    /// Half-width, and shift of the centre, both in true half-widths.
     width: f64,
     shift: f64,
 }
@@ -87,7 +87,7 @@ const STARTS: [Start; 4] = [
     Start { name: "far right, narrow", width: 0.01, shift: 20.0 },
 ];
 
-/// Part 2, continued: the same from poor starts.
+/// Part 2, continued: repeats the comparison from poor starts.
 pub fn poor_starts() -> Result<Tally, ContactError<f64>> {
     println!();
     println!("# 2, continued: evaluations from poor starts, and the largest error of a and b");
@@ -121,7 +121,7 @@ pub fn poor_starts() -> Result<Tally, ContactError<f64>> {
     Ok(tally)
 }
 
-/// Part 3: each search for the inversions, limits by the default.
+/// Part 3: tries each search for the inversions, with the default search for the limits.
 pub fn inversions() -> Result<Tally, ContactError<f64>> {
     println!();
     println!(

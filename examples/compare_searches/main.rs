@@ -1,7 +1,7 @@
-//! The four searches side by side, in the two places where the solver takes one.
+//! Compares the four searches in the two places where the solver takes one.
 //!
-//! Run with `cargo run --release --example compare_searches`. Lines that start with `#` explain
-//! the table below them. The run fails if a search fails, or misses what the numbers allow.
+//! Run with `cargo run --release --example compare_searches`. Lines that start with `#` explain the
+//! table below them. The run fails if a search fails or is less exact than the data allow.
 
 #[allow(dead_code, reason = "Example 1 has given limits")]
 #[path = "../paper/curves.rs"]
@@ -24,7 +24,7 @@ fn searches() -> [Box<dyn LimitSearch<f64>>; 4] {
     ]
 }
 
-/// What each strategy has taken, every problem counting alike, and how often one failed.
+/// Evaluations by each strategy, with equal weight for every problem, and the number of failures.
 #[derive(Default)]
 struct Tally {
     logarithms: [f64; 4],

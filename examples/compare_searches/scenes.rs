@@ -4,17 +4,17 @@ use super::curves::{self, Example, Profile};
 use linecontact::{Contact, ContactError, Curve, CurvePoint, Flat, Piecewise};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Two bodies, their load, and the limits they should find.
+/// Two bodies, their load, and the exact limits.
 pub struct Scene {
     pub name: &'static str,
     lower: Profile,
     upper: Profile,
     kappa: f64,
-    /// The constant C of the load.
+    /// Constant C of the load.
     pub c: f64,
     pub a: f64,
     pub b: f64,
-    /// Largest relative error of the limits: what the noise of the formulas leaves open.
+    /// Largest relative error of the limits that passes: the effect of the noise of the formulas.
     pub allowed: f64,
 }
 
@@ -32,7 +32,8 @@ impl Scene {
         Ok(Contact::new(&*self.lower, &*self.upper)?.kappa(self.kappa))
     }
 
-    /// Errors of `a` and `b`, relative to themselves, or to the half-width where it is smaller.
+    /// Returns the errors of `a` and `b`, relative to themselves, or to the half-width where it is
+    /// smaller.
     pub fn errors(&self, a: f64, b: f64) -> [f64; 2] {
         let half_width = 0.5 * (self.a + self.b);
         [(a, self.a), (b, self.b)]
@@ -40,7 +41,7 @@ impl Scene {
     }
 }
 
-/// Examples 3 to 5 with κ = 1. The references have 25 digits (`tests/data`).
+/// Returns Examples 3 to 5 with κ = 1. The references have 25 digits (`tests/data`).
 pub fn paper() -> [Scene; 3] {
     let (a, b) = (0.05763680561192331, 0.05786118098062241);
     let three = Scene::paper("Example 3", curves::three(), a, b, 1e-12);
@@ -56,13 +57,13 @@ pub fn all() -> Vec<Scene> {
     let mut scenes = vec![Scene { kappa: FRAC_PI_2, ..two }];
     scenes.extend(paper());
     scenes.extend([wedge(), power_20(), uneven_parabola(), far_parabola()]);
-    // Half-width sqrt(2C/π).
+    // The half-width is sqrt(2C/π).
     let tiny = (2.0 * 1e-300 / PI).sqrt();
     scenes.push(Scene::on_flat("parabola, C = 1e-300", graph(0.0, parabola), 1e-300, tiny, tiny));
     scenes
 }
 
-/// The graph of a function, given with its slope, over 4 units to either side of `middle`.
+/// Makes the graph of a function, given with its slope, over 4 units to either side of `middle`.
 fn graph(middle: f64, f: fn(f64) -> [f64; 2]) -> Profile {
     Box::new(Curve::new([middle - 4.0, middle + 4.0], move |k| {
         let [y, dy] = f(k - middle);
@@ -70,7 +71,7 @@ fn graph(middle: f64, f: fn(f64) -> [f64; 2]) -> Profile {
     }))
 }
 
-/// Another such graph on either side of zero.
+/// Joins the graphs of two functions at x = 0.
 fn joined(left: fn(f64) -> [f64; 2], right: fn(f64) -> [f64; 2]) -> Profile {
     let side = |from, to, f: fn(f64) -> [f64; 2]| {
         Curve::new([from, to], move |k| {
@@ -86,7 +87,7 @@ fn parabola(x: f64) -> [f64; 2] {
     [0.5 * x * x, x]
 }
 
-/// With θ = π s₁/(s₁ + s₂): L = C/((s₁ + s₂) sin θ), centre -L cos θ.
+/// Makes a wedge. With θ = π s₁/(s₁ + s₂): L = C/((s₁ + s₂) sin θ), centre -L cos θ.
 fn wedge() -> Scene {
     let wedge = joined(|x| [-0.25 * x, -0.25], |x| [1.75 * x, 1.75]);
     Scene::on_flat("wedge, slopes -1/4, 7/4", wedge, 1.0, 0.09945618368982906, 2.513669746062924)
@@ -97,14 +98,15 @@ fn power_20() -> Scene {
     Scene::on_flat("|x|^20/20", power, 7.0, 1.1352655950297739, 1.1352655950297739)
 }
 
-/// Its curvature jumps from 1 to a million.
+/// Makes a parabola whose curvature jumps from 1 to a million.
 fn uneven_parabola() -> Scene {
     let profile = joined(parabola, |x| [5e5 * x * x, 1e6 * x]);
     let (a, b) = (1.0276252005197066e-4, 0.9212971802054848);
     Scene::on_flat("curvatures 1, 1e6", profile, 1.0, a, b)
 }
 
-/// Half-width 1, about 2^27; a and b can be no better than to their own last bits.
+/// Makes a parabola at about 2^27 with half-width 1: a and b can be exact only to their own last
+/// bits.
 fn far_parabola() -> Scene {
     let (x0, profile) = (134217728.0, graph(134217728.0, parabola));
     let scene = Scene::on_flat("parabola at 2^27", profile, FRAC_PI_2, x0 + 1.0, 1.0 - x0);

@@ -1,5 +1,5 @@
-//! Scenes at the edge of what numbers can bear: how good the limits are, how good they could be, and
-//! what they take.
+//! Solves scenes close to the limits of floating-point numbers, and prints the errors of the
+//! limits, their condition numbers and the cost.
 //!
 //! ```sh
 //! cargo run --release --example hard_scenes              # prints the table
@@ -40,7 +40,8 @@ Written by `cargo run --release --example hard_scenes -- --update`; CI compares 
 |---|---|---|---|---|---|---|
 ";
 
-/// The error of the limits that passes, by the condition times the rounding of numbers.
+/// Largest error of the limits that passes, in units of the condition times the rounding of
+/// numbers.
 const MARGIN: f64 = 8.0;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
@@ -85,7 +86,7 @@ fn solve<T>(
     with(&contact.solve(Control::Load(scene.load))?)
 }
 
-/// How far two contacts are apart, by the half-width of the first.
+/// Returns the larger distance between the limits of two contacts, by the half-width of the first.
 fn apart(one: Interval<f64>, other: Interval<f64>) -> f64 {
     (one.left - other.left).abs().nan_max((one.right - other.right).abs()) / one.half_width()
 }
@@ -115,7 +116,7 @@ fn line(scene: &Scene) -> Result<String, String> {
         let name = &scene.name;
         return Err(format!("{name}: the limits are off by {error:e}, estimated {estimate:e}"));
     }
-    // What any solver loses, and what this one may lose besides.
+    // The loss of any solver, and a margin for this one.
     let bearable = MARGIN * f64::EPSILON * condition;
     if condition.is_nan() || error > bearable {
         return Err(format!(
@@ -129,7 +130,7 @@ fn line(scene: &Scene) -> Result<String, String> {
     Ok(format!("| {name} | {errors} | {evaluations} | {heights} |"))
 }
 
-/// By how much relative changes of the slopes are magnified.
+/// Returns the condition number: the factor by which relative changes of the slopes are magnified.
 fn condition(scene: &Scene, on: Interval<f64>) -> Result<f64, ContactError<f64>> {
     const CHANGE: f64 = 1e-7;
     let (centre, half_width) = (on.centre(), on.half_width());
@@ -152,7 +153,8 @@ fn condition(scene: &Scene, on: Interval<f64>) -> Result<f64, ContactError<f64>>
     Ok(worst + on.left.abs().max(on.right.abs()) / half_width)
 }
 
-/// Conditions within a factor of 2, errors up to one of 10, estimates within one of 10, counts exactly.
+/// Tells whether two lines agree: conditions within a factor of 2, estimates within one of 10,
+/// errors at most 10 times as large, counts nearly equal.
 fn agree(kept: &str, found: &str) -> bool {
     let [kept, found] = [kept, found].map(|line| line.rsplit(" | ").collect::<Vec<_>>());
     kept.len() == found.len()

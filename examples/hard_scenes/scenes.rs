@@ -1,4 +1,4 @@
-//! The scenes: bodies as pieces whose slopes can be changed a little, and what is known of them.
+//! The scenes: bodies as pieces whose slopes can be changed a little, with their known solutions.
 
 use super::common;
 use linecontact::reference::{ClosedForm, Ellipse, Hertz, PowerLaw, RoundedPunch, UnequalRadii};
@@ -10,7 +10,7 @@ pub type Profile = Box<dyn ParametricProfile<f64>>;
 type Map = Arc<dyn Fn(CurvePoint<f64>) -> CurvePoint<f64> + Send + Sync>;
 type At = Arc<dyn Fn(f64) -> CurvePoint<f64> + Send + Sync>;
 
-/// A smooth piece: the range of its parameter and its points.
+/// Smooth piece: the range of its parameter and its points.
 #[derive(Clone)]
 pub struct Part([f64; 2], At);
 
@@ -25,20 +25,20 @@ fn graph(from: f64, to: f64, y: impl Fn(f64) -> [f64; 2] + Send + Sync + 'static
     })
 }
 
-/// A contact that is known.
+/// Contact whose solution is known.
 pub struct Scene {
     pub name: String,
-    /// Lower and upper; no pieces for the flat.
+    /// Pieces of the lower and the upper body; none for the flat.
     pub bodies: [Vec<Part>; 2],
     pub limits: Interval<f64>,
     pub load: f64,
     pub kappa: f64,
-    /// x and P(x).
+    /// Pairs of x and P(x).
     pub points: Vec<[f64; 2]>,
 }
 
 impl Scene {
-    /// The bodies, with the points of one of them changed.
+    /// Returns both bodies, with the points of one of them changed.
     pub fn changed(&self, which: usize, map: Map) -> [Profile; 2] {
         let body = |i: usize| -> Profile {
             if self.bodies[i].is_empty() {
@@ -77,23 +77,23 @@ fn circle(from: f64, to: f64) -> Part {
     })
 }
 
-/// y = x²/2, between four half-widths.
+/// Makes y = x²/2 over four half-widths to either side.
 fn parabola(half_width: f64) -> Part {
     graph(-4.0 * half_width, 4.0 * half_width, |x| [x * x / 2.0, x])
 }
 
-/// The involute of a circle, unwound by the angle `start + k`.
+/// Makes the involute of a circle, unwound by the angle `start + k`.
 fn involute(radius: f64, start: f64, [from, to]: [f64; 2], sign: f64) -> Part {
     part(from, to, move |k| {
         let (r, t, (s, c)) = (sign * radius, start + k, k.sin_cos());
-        // cos k - 1 without the loss of digits.
+        // 1 - cos k without loss of digits.
         let versine = 2.0 * (k / 2.0).sin().powi(2);
         let (x, y) = (r * (t * s - versine), r * (s - t * c + start));
         CurvePoint { x, y, dx: r * t * c, dy: r * t * s }
     })
 }
 
-/// `J₁(x)`, from its integral; the trapezoidal rule is exact to rounding.
+/// Computes `J₁(x)` from its integral; the trapezoidal rule is exact to rounding.
 fn bessel_1(x: f64) -> f64 {
     let term = |i: u32| {
         let t = PI * (f64::from(i) + 0.5) / 200.0;
@@ -102,7 +102,7 @@ fn bessel_1(x: f64) -> f64 {
     (0..200).map(term).sum::<f64>() / 200.0
 }
 
-/// y = x²/2 + A cos(ω x)/ω², convex up to A = 1; the load by Bessel's integral.
+/// Makes y = x²/2 + A cos(ω x)/ω², convex up to A = 1; the load follows from Bessel's integral.
 fn wave(amplitude: f64, omega: f64) -> Scene {
     let body = graph(-4.0, 4.0, move |x| {
         let (sin, cos) = (omega * x).sin_cos();

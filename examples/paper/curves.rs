@@ -1,9 +1,9 @@
-//! The five examples of the paper, as the paper gives them.
+//! The five examples of the paper, with its own formulas.
 
 use linecontact::{Curve, CurvePoint, ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 
-/// A smooth curve of the paper: one formula and its range of k.
+/// Smooth curve of the paper: one formula and its range of k.
 pub type Formula = Curve<f64, fn(f64) -> CurvePoint<f64>>;
 
 fn formula(from: f64, to: f64, point: fn(f64) -> CurvePoint<f64>) -> Formula {
@@ -21,14 +21,14 @@ fn joined(left: Formula, right: Formula) -> Profile {
     Box::new(Piecewise::new(vec![left, right]).expect("both pieces pass through the origin"))
 }
 
-/// An example: its bodies and the constant C of its load.
+/// Example of the paper: its bodies and the constant C of its load.
 pub struct Example {
     pub lower: Profile,
     pub upper: Profile,
     pub c: f64,
 }
 
-/// Example 1, Eqs. (27), (28).
+/// Makes Example 1, Eqs. (27), (28).
 pub fn one() -> Example {
     Example {
         lower: smooth(-2.0, 0.0, |k| {
@@ -44,7 +44,7 @@ pub fn one() -> Example {
     }
 }
 
-/// Example 2, Eqs. (30), (31).
+/// Makes Example 2, Eqs. (30), (31).
 pub fn two() -> Example {
     Example {
         lower: smooth(-2.0, 2.0, |k| CurvePoint {
@@ -63,7 +63,7 @@ pub fn two() -> Example {
     }
 }
 
-/// Example 3, Eqs. (33), (34). The ranges of k end at the folds of X.
+/// Makes Example 3, Eqs. (33), (34). The ranges of k end at the folds of X.
 pub fn three() -> Example {
     Example {
         lower: smooth(-1.353999702552852, 0.7911938540783813, |k| {
@@ -88,8 +88,8 @@ pub fn three() -> Example {
     }
 }
 
-/// Example 4, Eqs. (35), (36). "X ≤ 0" holds on several ranges of k; meant is the branch
-/// through k = 0.
+/// Makes Example 4, Eqs. (35), (36). "X ≤ 0" holds on several ranges of k; the branch through k = 0
+/// is meant.
 pub fn four() -> Example {
     let left = formula(0.0, 5.540299783323928, |k| {
         let (s, c) = k.sin_cos();
@@ -124,8 +124,8 @@ pub fn four() -> Example {
     }
 }
 
-/// Example 5, Eqs. (37), (38). The upper body uses k ≥ 0 on both sides; the right piece of
-/// the lower ends before the pole of the tangent at -π/2.
+/// Makes Example 5, Eqs. (37), (38). The upper body uses k ≥ 0 on both sides; the right piece of
+/// the lower body ends before the pole of the tangent at -π/2.
 pub fn five() -> Example {
     let lower_left = formula(0.0, 0.5445944427356815, |k| {
         let (s, c, t) = (k.sin(), k.cos(), k.tan());

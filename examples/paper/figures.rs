@@ -7,11 +7,11 @@ use linecontact::search::{Bracket, LimitSearch, Newton, SearchError};
 use linecontact::{Interval, ParametricProfile};
 use std::error::Error;
 
-/// The unit of x in the figures, so that tick labels need no exponents.
+/// Unit of x in the figures, so that tick labels need no exponents.
 const UNIT: f64 = 1e-3;
 const X_LABEL: &str = "x / 10⁻³";
 
-/// Draws the solids and the pressure of an example, and says where.
+/// Draws the solids and the pressure of an example, and returns a line that names the file.
 pub fn draw(case: &Case, solved: &[Solved; 2]) -> Result<String, Box<dyn Error>> {
     let first = 2 * case.number - 4; // Example 3 has Figures 2 and 3, and so on.
     let title = format!("Figure {first}: solids of Example {}, contact for κ = 1", case.number);
@@ -21,7 +21,7 @@ pub fn draw(case: &Case, solved: &[Solved; 2]) -> Result<String, Box<dyn Error>>
     drawing::save(&format!("paper_example{}", case.number), vec![vec![solids], vec![pressures]])
 }
 
-/// Both solids over twice the width of the contact.
+/// Makes a panel of both solids over twice the width of the contact.
 fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, SearchError<f64>> {
     let Example { lower, upper, .. } = (case.example)();
     let lower = outline(&lower, contact)?;
@@ -41,11 +41,11 @@ fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, Sea
         .limit(contact.right / UNIT, "a"))
 }
 
-/// The pressure for both scales κ.
+/// Makes a panel of the pressures for both scales κ.
 fn pressures([one, half_pi]: &[Solved; 2], title: &str) -> Panel {
     let lines = [closed(one), closed(half_pi)];
     let peak = 1.1 * lines.iter().flatten().map(|at| at.1).fold(0.0, f64::max);
-    let margin = 0.1 * one.contact.half_width(); // Of the two the wider.
+    let margin = 0.1 * one.contact.half_width(); // the wider of the two contacts
     let range = [one.contact.left - margin, one.contact.right + margin].map(|x| x / UNIT);
     let [blue, red] = lines;
     Panel::new(title, (X_LABEL, range), ("P", [0.0, peak]))
@@ -63,7 +63,7 @@ fn vertical(x: f64, top: f64) -> Points {
     vec![(x / UNIT, 0.0), (x / UNIT, 0.92 * top)]
 }
 
-/// The points (x, Y) of a profile around the contact.
+/// Returns the points (x, Y) of a profile around the contact.
 fn outline(
     profile: &dyn ParametricProfile<f64>,
     contact: Interval<f64>,
@@ -74,7 +74,7 @@ fn outline(
         .collect()
 }
 
-/// Y of a profile at x, whose parameter is found as the solver finds it.
+/// Returns Y of a profile at x; the parameter is found as the solver finds it.
 fn height(profile: &dyn ParametricProfile<f64>, x: f64) -> Result<f64, SearchError<f64>> {
     let [from, to] = profile.domain();
     let mut miss = |k| {
@@ -85,8 +85,8 @@ fn height(profile: &dyn ParametricProfile<f64>, x: f64) -> Result<f64, SearchErr
     Ok(profile.y(root.x))
 }
 
-/// The pressure from limit to limit. In the first and the last segment it follows the square
-/// root with which it ends.
+/// Returns the pressure from limit to limit. In the first and the last segment it follows the
+/// square root with which it ends.
 fn closed(solved: &Solved) -> Points {
     let inside = &solved.pressure;
     let end = |limit: f64, (x, pressure): (f64, f64)| {

@@ -1,22 +1,22 @@
-//! Examples 3 to 5: curves without an inverse in closed form, limits sought.
+//! Examples 3 to 5: curves without an inverse in closed form, and unknown limits.
 
 use super::curves::{self, Example};
 use linecontact::{Contact, ContactError, Control, Cost, EdgePressure, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
-/// An example of the paper.
+/// Example of the paper.
 pub struct Case {
     pub number: u32,
     pub example: fn() -> Example,
-    /// N, the paper's segments.
+    /// Number of segments N in the paper.
     segments: usize,
-    /// The paper's Eq. (3) has κ = 1, but its Example 2 comes out only with κ = π/2. Which of
-    /// the two Examples 3 to 5 have it does not say, so here are both.
+    /// The paper's Eq. (3) has κ = 1, but its Example 2 comes out only with κ = π/2. The paper does
+    /// not say which of the two Examples 3 to 5 use, so both are solved.
     pub readings: [Reading; 2],
 }
 
-/// A scale κ, and the limits that belong to it: solutions to 25 digits, rounded to `f64`.
+/// Scale κ, and its limits: solutions to 25 digits, rounded to `f64`.
 #[derive(Clone, Copy)]
 pub struct Reading {
     kappa: f64,
@@ -61,7 +61,7 @@ pub const CASES: [Case; 3] = [
     },
 ];
 
-/// Where the pressure is asked to be zero.
+/// Place at which the pressure is required to be zero.
 #[derive(Clone, Copy)]
 pub enum Zero {
     /// At the limits themselves.
@@ -70,19 +70,19 @@ pub enum Zero {
     OneSegmentInside,
 }
 
-/// A solved example.
+/// Solution of an example.
 pub struct Solved {
     number: u32,
     reading: Reading,
     pub contact: Interval<f64>,
     /// Points (x, P) where segments meet, as in the paper. Closer to a limit than the first of
-    /// these the error of its rule outgrows P.
+    /// these, the error of the rule exceeds P.
     pub pressure: Vec<(f64, f64)>,
     cost: Cost,
 }
 
 impl Solved {
-    /// Relative errors of a and b.
+    /// Returns the relative errors of a and b.
     pub fn errors(&self) -> [f64; 2] {
         let Interval { left, right } = self.contact;
         [right / self.reading.a, -left / self.reading.b].map(|ratio| (ratio - 1.0).abs())
@@ -99,7 +99,7 @@ impl fmt::Display for Solved {
     }
 }
 
-/// Solves an example, with the paper's N and ET = 2 for the pressure.
+/// Solves an example, with the paper's N, and ET = 2 for the pressure.
 pub fn solve(case: &Case, reading: Reading, zero: Zero) -> Result<Solved, ContactError<f64>> {
     let Reading { kappa, a, b } = reading;
     let Example { lower, upper, c } = (case.example)();
@@ -121,7 +121,7 @@ pub fn solve(case: &Case, reading: Reading, zero: Zero) -> Result<Solved, Contac
     let mut points = Vec::new();
     for i in 1..case.segments {
         let x = contact.left + segment * i as f64;
-        // Doubtful or not: a segment from the limits the paper's rule has an error of 4 %.
+        // Taken even if doubtful: one segment from a limit the paper's rule has an error of 4 %.
         points.push((x, pressure.estimate(x, &mut Cost::default())?.value));
     }
     Ok(Solved { number: case.number, reading, contact, pressure: points, cost })

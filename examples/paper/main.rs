@@ -1,6 +1,6 @@
-//! The numbers and figures of the paper, computed anew and held against what it prints.
+//! Computes the numbers and figures of the paper anew, and compares them with the printed ones.
 //!
-//! Run with `cargo run --release --example paper`. Lines that start with `#` explain the ones
+//! Run with `cargo run --release --example paper`. Lines that start with `#` explain the lines
 //! below them; the figures go to `target/figures`. The run fails if a digit differs.
 
 mod curves;

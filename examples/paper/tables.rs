@@ -1,11 +1,11 @@
-//! Tables 1 and 2: the absolute errors of the paper's quadrature, known limits.
+//! Tables 1 and 2: the absolute errors of the paper's quadrature for known limits.
 
 use super::curves::{self, Example};
 use linecontact::{Contact, ContactError, Control, Edge, Interval, Midpoint};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
-/// A row of a table: x, then the errors for each N with ET = 1 and 2.
+/// Row of a table: x, then the errors for each N with ET = 1 and 2.
 type Row = (f64, [&'static str; 6]);
 
 const SEGMENTS_1: [usize; 3] = [1 << 6, 1 << 8, 1 << 10];
@@ -32,7 +32,7 @@ const TABLE_2: [Row; 9] = [
     (0.9, ["4.33E-03", "5.84E-04", "5.36E-04", "7.35E-05", "6.68E-05", "9.21E-06"]),
 ];
 
-/// One error, ours and the paper's.
+/// Error of our quadrature, and the paper's value of it.
 pub struct Entry {
     table: u32,
     x: f64,
@@ -42,7 +42,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Whether all digits of the paper are met. Below 1e-13 they are its own rounding errors.
+    /// Tells whether all digits of the paper are met. Below 1e-13 they are its own rounding errors.
     pub fn agrees(&self) -> bool {
         let paper: f64 = self.paper.parse().expect("the tables hold numbers");
         if paper == 0.0 {
@@ -62,7 +62,7 @@ impl fmt::Display for Entry {
     }
 }
 
-/// A number as the paper prints it, such as `4.26E-05`.
+/// Formats a number as the paper prints it, such as `4.26E-05`.
 fn scientific(value: f64) -> String {
     let text = format!("{value:.2e}");
     let (mantissa, exponent) = text.split_once('e').expect("{:e} writes an e");
@@ -70,7 +70,7 @@ fn scientific(value: f64) -> String {
     format!("{mantissa}E{exponent:+03}")
 }
 
-/// Table 1: Example 1, whose pressure is infinite at both limits.
+/// Computes Table 1: Example 1, whose pressure is infinite at both limits.
 pub fn table1() -> Result<Vec<Entry>, ContactError<f64>> {
     let exact = |x: f64| {
         let root = 1.0 - x * x;
@@ -78,14 +78,15 @@ pub fn table1() -> Result<Vec<Entry>, ContactError<f64>> {
     };
     let Example { lower, upper, c } = curves::one();
     let on = Interval { left: -1.0, right: 1.0 };
-    // It pulls, and bears any load.
+    // Tension is allowed here, and any load has a solution.
     let contact = Contact::new(&lower, &upper)?
         .edges(Edge::Fixed(on.left), Edge::Fixed(on.right))
         .single_interval(true);
     table(1, &contact, Control::Load(c / PI), SEGMENTS_1, &TABLE_1, exact)
 }
 
-/// Table 2: Example 2, whose pressure ends at zero. The paper's Eq. (32) holds for κ = π/2.
+/// Computes Table 2: Example 2, whose pressure ends at zero. The paper's Eq. (32) holds for κ =
+/// π/2.
 pub fn table2() -> Result<Vec<Entry>, ContactError<f64>> {
     let Example { lower, upper, c } = curves::two();
     let (a, b) = (1.0, 0.6);
@@ -98,7 +99,7 @@ pub fn table2() -> Result<Vec<Entry>, ContactError<f64>> {
     table(2, &contact, Control::Load(c / PI), SEGMENTS_2, &TABLE_2, exact)
 }
 
-/// The entries of a table, row by row.
+/// Computes the entries of a table, row by row.
 fn table(
     number: u32,
     contact: &Contact<'_, f64>,
@@ -118,7 +119,7 @@ fn table(
             entries.push(Entry { table: number, x, rule, error, paper: paper[column] });
         }
     }
-    // Sampled column by column, but read row by row; the sort keeps the columns in order.
+    // Computed column by column, but read row by row; the stable sort keeps the columns in order.
     entries.sort_by(|one, other| one.x.total_cmp(&other.x));
     Ok(entries)
 }

@@ -1,15 +1,15 @@
-//! A case: a scene, and what is known of it.
+//! A case: a scene with its known values.
 
 use super::precise::Precise;
 use std::error::Error;
 
-/// Half a unit of the fifteenth digit, of the number that it is largest for.
+/// Largest relative error of a value rounded to fifteen digits: half a unit of the last one.
 pub const FIFTEEN_DIGITS: f64 = 5e-15;
 
-/// What closed forms and solver may differ by, relatively.
+/// Largest relative difference that passes between closed form and solver.
 pub const AGREEMENT: f64 = 1e-12;
 
-/// Units and quantities.
+/// Units, then quantities with their units.
 pub const LENGTH: &str = "mm";
 pub const PRESSURE: &str = "MPa";
 pub const FORCE: &str = "N/mm";
@@ -28,13 +28,13 @@ pub const STIFFNESS: (&str, &str) = ("stiffness", PRESSURE);
 pub const STRENGTH: [(&str, &str); 2] =
     [("edge_strength_left", PRESSURE), ("edge_strength_right", PRESSURE)];
 
-/// A case, if the solver has no objection.
+/// Case, or the error of the solver.
 pub type Made = Result<Case, Box<dyn Error>>;
 
-/// What stands for a parameter: symbol, value, unit and meaning.
+/// Parameter as a tuple: symbol, value, unit and meaning.
 pub type Given = (&'static str, f64, &'static str, &'static str);
 
-/// Where a value holds.
+/// Place at which a value holds.
 #[derive(Clone, Copy)]
 pub enum Place {
     Whole,
@@ -47,14 +47,14 @@ pub struct Row {
     pub unit: &'static str,
     pub place: Place,
     pub value: f64,
-    /// Relative, at most.
+    /// Bound on the relative error.
     pub error: f64,
     pub kind: &'static str,
     pub formula: String,
     pub source: String,
-    /// What the solver finds.
+    /// Value from the solver.
     pub solved: f64,
-    /// What the two may differ by, relatively.
+    /// Largest relative difference that passes between the two.
     pub allowed: f64,
 }
 
@@ -72,7 +72,7 @@ pub struct Case {
     pub upper: String,
     pub parameters: Vec<Parameter>,
     pub rows: Vec<Row>,
-    /// Of the rows to come.
+    /// Source of the rows that follow.
     source: String,
 }
 
@@ -105,7 +105,7 @@ impl Case {
         self.source = source.into();
     }
 
-    /// A value by a formula, to fifteen digits.
+    /// Adds a value from a formula, to fifteen digits.
     pub fn closed(
         &mut self,
         (quantity, unit): (&'static str, &'static str),
@@ -129,7 +129,7 @@ impl Case {
         })
     }
 
-    /// A value that was computed, from a file of references.
+    /// Adds a computed value from a reference file.
     pub fn computed(
         &mut self,
         (quantity, unit): (&'static str, &'static str),
@@ -160,7 +160,7 @@ impl Case {
 }
 
 impl Row {
-    /// The largest and its place: the solver knows half the digits of the place.
+    /// Marks the place of a maximum, of which the solver knows only half the digits.
     pub fn flat(&mut self) {
         self.allowed = 1e-6;
     }

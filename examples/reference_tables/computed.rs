@@ -1,4 +1,4 @@
-//! Contacts without a closed form: from the files in `tests/data`.
+//! Contacts without a closed form, from the files in `tests/data`.
 
 use super::case::{AT, Case, FIFTEEN_DIGITS, LEFT, Made, PEAK, Place, RIGHT};
 use super::paper::{Example, five, four, three};
@@ -18,7 +18,7 @@ fn file(name: &str) -> Result<Value, Box<dyn Error>> {
     Ok(serde_json::from_str(&read_to_string(path)?)?)
 }
 
-/// A decimal of more digits than a number has, to some many of them.
+/// Reads a decimal with more digits than a number has, rounded to `digits` of them.
 fn decimal(value: &Value, digits: usize) -> Result<f64, Box<dyn Error>> {
     let number: f64 = value.as_str().ok_or("a decimal in a string")?.parse()?;
     Ok(format!("{number:.*e}", digits - 1).parse()?)
@@ -28,7 +28,8 @@ fn exact(value: &Value) -> Result<f64, Box<dyn Error>> {
     Ok(value.as_str().ok_or("a decimal in a string")?.parse()?)
 }
 
-/// Limits, peak and three pressures of one contact; the solver may be off by the noise of the formulas.
+/// Adds limits, peak and three pressures of one contact; the solver may be off by the noise of the
+/// formulas.
 fn one_contact(
     case: &mut Case,
     name: &str,
@@ -57,7 +58,8 @@ fn one_contact(
     Ok(())
 }
 
-/// What the solver may be off by where the formulas lose no digits, in limits that are not symmetric.
+/// Largest relative difference from the solver where the formulas lose no digits, for unsymmetric
+/// limits.
 const SMOOTH: f64 = 1e-12;
 
 pub fn gear() -> Made {
@@ -90,7 +92,7 @@ pub fn gear() -> Made {
     Ok(case)
 }
 
-/// A parametric curve in words, with all its pieces.
+/// Writes a parametric curve in words, with all its pieces.
 fn curve(pieces: &Value) -> Result<String, Box<dyn Error>> {
     let piece = |piece: &Value| {
         let of = |key: &str| piece[key].as_str().ok_or("not a curve");
@@ -102,7 +104,7 @@ fn curve(pieces: &Value) -> Result<String, Box<dyn Error>> {
     Ok(pieces.collect::<Result<Vec<_>, Box<dyn Error>>>()?.join("; and "))
 }
 
-/// An example of the paper, with E* = 1.
+/// Makes the case of an example of the paper, with E* = 1.
 fn example(name: &'static str, title: &'static str, file: &str, example: &Example) -> Made {
     let known = self::file(file)?;
     let [lower, upper] = ["body1", "body2"].map(|body| curve(&known[body]["pieces"]));
@@ -134,7 +136,7 @@ pub fn example_5() -> Made {
     example("paper_example_5", title, "paper_example_5_scale_half_pi", &five())
 }
 
-/// A parabola with waves.
+/// Makes the case of a parabola with waves.
 pub fn wavy_parabola() -> Made {
     let (waves, number, phase, load) = (0.012, 20.0, 0.3, 0.03);
     let mut case = Case::new(
@@ -158,7 +160,7 @@ pub fn wavy_parabola() -> Made {
     let contact = Contact::new(&Flat, &shape)?.contact_modulus(1.0);
     let solution = contact.solve(Control::Load(load))?;
     let contacts = solution.contacts()?;
-    // Of the width, to which the limits are known to 3e-12.
+    // The limits are known to 3e-12 of the width.
     let (error, digits) = (1e-11, 12);
     case.source("tests/data/several of linecontact: Newton's method on all limits, at two node counts; the solver agrees");
     let names = [

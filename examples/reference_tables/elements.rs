@@ -1,5 +1,5 @@
-//! Plain boundary elements, as a book has them: pressures that are constant on an element, or linear between
-//! nodes, Flamant's displacements, and an active set of the places that touch.
+//! Plain textbook boundary elements: pressures that are constant on an element or linear between
+//! nodes, Flamant's displacements, and an active set of the points in contact.
 
 use std::error::Error;
 
@@ -9,22 +9,22 @@ pub enum Kind {
     Linear,
 }
 
-/// What is pressed: E* = 1.
+/// Contact problem with E* = 1.
 pub struct Scene<'s> {
     /// Height of the body above the half-plane.
     pub height: &'s dyn Fn(f64) -> f64,
     pub load: f64,
-    /// Of a row of contacts without end.
+    /// Period of an infinite row of contacts.
     pub period: Option<f64>,
 }
 
 pub struct Found {
-    /// Where pressure and gap are looked at, and the pressures.
+    /// Collocation points, for pressure and gap.
     pub x: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// How many of them touch.
+    /// Number of points in contact.
     pub touching: usize,
-    /// Of the bodies, towards a reference length of 1.
+    /// Approach of the bodies, towards a reference length of 1.
     pub approach: f64,
 }
 
@@ -33,7 +33,7 @@ impl Found {
         self.pressure.iter().fold(0.0, |peak: f64, &p| peak.max(p))
     }
 
-    /// Linear between the places.
+    /// Returns the pressure at x, linear between the points.
     pub fn at(&self, x: f64) -> f64 {
         let right = self.x.partition_point(|&place| place < x).clamp(1, self.x.len() - 1);
         let share = (x - self.x[right - 1]) / (self.x[right] - self.x[right - 1]);
@@ -41,7 +41,8 @@ impl Found {
     }
 }
 
-/// Elements between nodes; those in the contact to begin with are given.
+/// Solves with elements between the given nodes; `starts_on` gives the points in contact at the
+/// start.
 pub fn solve(
     kind: Kind,
     nodes: &[f64],
@@ -53,7 +54,7 @@ pub fn solve(
         Kind::Linear => nodes.to_vec(),
     };
     let count = x.len();
-    // Displacement at each place by each unknown, and what it bears.
+    // Displacement at each point by each unknown, and the length over which the unknown acts.
     let mut influence = vec![vec![0.0; count]; count];
     let mut area = vec![0.0; count];
     for (j, cell) in nodes.windows(2).enumerate() {
@@ -104,8 +105,8 @@ pub fn solve(
     Err("the active set does not settle".into())
 }
 
-/// `∫ ln|u| du` over an element, and the same with a weight that rises from 0 to 1; of a row of sources ln|2 sin|
-/// in units of its length.
+/// Returns `∫ ln|u| du` over an element, and the integral with a weight that rises from 0 to 1. For
+/// a row of sources the kernel is ln|2 sin|, in units of its length.
 fn logarithms([from, to]: [f64; 2], period: Option<f64>) -> [f64; 2] {
     let shift = period.map_or(0.0, |l| l * (0.5 * (from + to) / l).round());
     let [from, to] = [from - shift, to - shift];
@@ -115,7 +116,7 @@ fn logarithms([from, to]: [f64; 2], period: Option<f64>) -> [f64; 2] {
     let all = zeroth(to) - zeroth(from);
     let rising = (first(to) - first(from) - from * all) / length;
     let Some(l) = period else { return [all, rising] };
-    // What the images add is smooth: Gauss's rule of three points.
+    // The contribution of the images is smooth: Gauss's rule with three points.
     let angle = std::f64::consts::PI / l;
     let images = |u: f64| if u == 0.0 { 0.0 } else { ((angle * u).sin() / (angle * u)).abs().ln() };
     let root = 0.6f64.sqrt();
@@ -127,7 +128,8 @@ fn logarithms([from, to]: [f64; 2], period: Option<f64>) -> [f64; 2] {
     })
 }
 
-/// Gauss's elimination with the largest pivot of each column; the right side is the last column.
+/// Solves a linear system by Gaussian elimination with the largest pivot of each column; the right
+/// side is the last column.
 fn eliminate(mut system: Vec<Vec<f64>>) -> Vec<f64> {
     let n = system.len();
     for column in 0..n {

@@ -1,4 +1,4 @@
-//! The files: all in one as JSON, and two tables.
+//! The files: one JSON file with everything, and two tables.
 
 use super::case::{Case, Parameter, Row};
 use serde_json::Value;
@@ -7,7 +7,7 @@ fn text(text: &str) -> String {
     Value::from(text).to_string()
 }
 
-/// All cases: one line a parameter, and one a value.
+/// Writes all cases, with one line per parameter and one per value.
 pub fn json(cases: &[Case]) -> String {
     let case = |case: &Case| {
         let parameter = |p: &Parameter| {
@@ -62,7 +62,7 @@ const CONVENTIONS: &str = "Plane strain, elastic half-planes, no friction unless
     bodies by Y upwards; stresses, the same in both bodies, with y and the depth into the body. Pressure positive in compression, stresses positive in tension. Loads per unit length. \
     E* = 1/((1 - nu1^2)/E1 + (1 - nu2^2)/E2). relative_error: half a unit of the last digit, or the estimate.";
 
-/// A field of a table: in quotes where it has to be.
+/// Formats a field of a table, in quotes if necessary.
 fn field(text: &str) -> String {
     if text.contains([',', '"']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -75,7 +75,7 @@ fn line(fields: &[String]) -> String {
     fields.iter().map(|text| field(text)).collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// One line a value.
+/// Writes one line per value.
 pub fn values_csv(cases: &[Case]) -> String {
     let mut text =
         "case,quantity,x,depth,value,unit,relative_error,kind,formula,source\n".to_owned();
@@ -99,7 +99,7 @@ pub fn values_csv(cases: &[Case]) -> String {
     text
 }
 
-/// One line a body or a parameter.
+/// Writes one line per body or parameter.
 pub fn cases_csv(cases: &[Case]) -> String {
     let mut text = "case,symbol,value,unit,meaning\n".to_owned();
     for case in cases {

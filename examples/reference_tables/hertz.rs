@@ -1,4 +1,4 @@
-//! Cylinders: Hertz's contact, and that of exact circles.
+//! Cylinders: Hertz's contact, and the contact of exact circles.
 
 use super::case::{
     AT, Case, FORCE, Given, HALF_WIDTH, LENGTH, MEAN, MODULUS, Made, PEAK, PRESSURE, Place,
@@ -9,7 +9,7 @@ use linecontact::profile::{Ellipse, Parabola};
 use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References, Solution};
 use std::error::Error;
 
-/// E and ν, in MPa.
+/// E in MPa, and ν.
 pub const STEEL: [f64; 2] = [210e3, 0.3];
 const ALUMINIUM: [f64; 2] = [70e3, 0.33];
 
@@ -17,23 +17,23 @@ pub fn material([modulus, ratio]: [f64; 2]) -> Material<f64> {
     Material::elastic(modulus, ratio)
 }
 
-/// (1 - ν²)/E
+/// Returns (1 - ν²)/E.
 pub fn compliance([modulus, ratio]: [f64; 2]) -> Precise {
     (n(1.0) - n(ratio) * n(ratio)) / n(modulus)
 }
 
-/// E* of steel on steel.
+/// Returns E* of steel on steel.
 pub fn like_steel() -> Precise {
     n(1.0) / (n(2.0) * compliance(STEEL))
 }
 
-/// p₀ and a of Hertz with the relative radius R.
+/// Returns a and p₀ of Hertz for the relative radius R.
 pub fn hertz(load: f64, radius: Precise, modulus: Precise) -> [Precise; 2] {
     let half_width = (n(4.0) * n(load) * radius / (PI * modulus)).sqrt();
     [half_width, n(2.0) * n(load) / (PI * half_width)]
 }
 
-/// σ_x, σ_y and τ_xy of Hertz (Johnson, Eqs. 4.49).
+/// Returns σ_x, σ_y and τ_xy of Hertz (Johnson, Eqs. 4.49).
 fn hertz_stress(a: Precise, peak: Precise, x: f64, depth: f64) -> [Precise; 3] {
     let (x, y) = (n(x), n(depth));
     let sum = a * a - x * x + y * y;
@@ -49,7 +49,8 @@ fn hertz_stress(a: Precise, peak: Precise, x: f64, depth: f64) -> [Precise; 3] {
     ]
 }
 
-/// By which the centre of a disc comes nearer, with Hertz, and its rate (Johnson, section 5.6).
+/// Returns the approach of the centre of a disc under Hertz's pressure, and its rate (Johnson,
+/// section 5.6).
 fn disc(of: [f64; 2], load: f64, radius: f64, a: Precise) -> [Precise; 2] {
     let log = n(2.0) * (n(4.0) * n(radius) / a).ln();
     let share = compliance(of) / PI;
@@ -152,7 +153,7 @@ pub fn hertz_cylinder() -> Made {
         .flat();
     let to = References { x: 0.0, lower: Reference::Depth(depth), upper: Reference::Disc(radius) };
     let approach = solution.approach(&to)?;
-    // To a depth: the strain below Hertz's pressure, integrated.
+    // Approach towards a depth: the integral of the strain below Hertz's pressure.
     let t = n(depth) / a;
     let share = compliance(STEEL) / PI;
     let far = (n(1.0) + t * t).sqrt();
@@ -193,7 +194,7 @@ pub fn hertz_cylinder() -> Made {
     Ok(case)
 }
 
-/// Two cylinders of unlike materials.
+/// Adds the values of two cylinders of unlike materials.
 fn two_cylinders(
     case: &mut Case,
     materials: [[f64; 2]; 2],
@@ -298,7 +299,7 @@ pub fn verification_case_191() -> Made {
     Ok(case)
 }
 
-/// K and K - E by the arithmetic-geometric mean.
+/// Computes K and K - E by the arithmetic-geometric mean.
 fn elliptic(k: Precise) -> [Precise; 2] {
     let (mut one, mut other) = (n(1.0), (n(1.0) - k * k).sqrt());
     let (mut sum, mut weight) = (k * k / n(2.0), n(1.0));
@@ -354,7 +355,7 @@ pub fn cylinder_in_groove() -> Made {
     Ok(case)
 }
 
-/// Of two steel bodies.
+/// Makes a case of two steel bodies.
 pub fn steel_on_steel(
     name: &'static str,
     title: &'static str,

@@ -1,13 +1,15 @@
-//! Reference values for other codes: contacts with geometry, load, units, formulas and sources, as JSON and CSV.
+//! Writes reference values for other codes: contacts with geometry, load, units, formulas and
+//! sources, as JSON and CSV.
 //!
 //! ```sh
 //! cargo run --release --example reference_tables              # writes docs/reference
 //! cargo run --release --example reference_tables -- --check   # compares it with what is there
 //! ```
 //!
-//! Closed forms are evaluated with twice the digits of a number, and written with fifteen; the others come from
-//! `tests/data`. The solver finds each value, too, and must agree. The page `docs/check_your_code.md` says
-//! how to use them; the errors of boundary elements in its table are measured here.
+//! Closed forms are evaluated with twice the digits of a number, and written with fifteen; the
+//! other values come from `tests/data`. The solver computes each value, too, and must agree. The
+//! page `docs/check_your_code.md` says how to use them; the errors of boundary elements in its
+//! table are measured here.
 
 mod case;
 mod computed;

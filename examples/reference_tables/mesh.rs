@@ -1,40 +1,40 @@
-//! Which mesh has which error: plain boundary elements against closed forms.
+//! Errors of plain boundary elements for several meshes, compared with closed forms.
 
 use super::elements::{Found, Kind, Scene, solve};
 use std::error::Error;
 use std::f64::consts::PI;
 
-/// Elements over the contact.
+/// Numbers of elements over the contact.
 const COUNTS: [u32; 5] = [16, 32, 64, 128, 256];
 
-/// Positions of the mesh against the contact, the worst of which counts.
+/// Number of positions of the mesh relative to the contact; the worst counts.
 const POSITIONS: u32 = 8;
 
-/// The length of the mesh, in half-widths, on either side.
+/// Length of the mesh on either side, in half-widths.
 const REACH: f64 = 1.3;
 
-/// The reference length of the approach, in half-widths.
+/// Reference length of the approach, in half-widths.
 const LENGTH: f64 = 100.0;
 
-/// A contact that is known, with E* = 1.
+/// Contact with a known solution and E* = 1.
 struct Known<'s> {
     name: &'static str,
     scene: Scene<'s>,
     half_width: f64,
-    /// Zero where it is infinite.
+    /// Peak pressure; zero if it is infinite.
     peak: f64,
-    /// At half the half-width.
+    /// Pressure at half the half-width.
     half: f64,
-    /// Towards the reference length; zero where there is none.
+    /// Approach towards the reference length; zero if there is none.
     approach: f64,
-    /// The mesh ends at the corners.
+    /// True if the mesh ends at the corners of the body.
     corners: bool,
 }
 
 const QUANTITIES: [&str; 5] =
     ["half-width, counted", "half-width, from p^2", "peak pressure", "pressure at a/2", "approach"];
 
-/// Errors of the quantities, NaN where there are none.
+/// Returns the errors of the quantities; NaN for a quantity that is not known.
 fn errors(known: &Known<'_>, found: &Found, element: f64) -> [f64; 5] {
     let a = known.half_width;
     let of = |found: f64, exact: f64| {
@@ -51,8 +51,8 @@ fn errors(known: &Known<'_>, found: &Found, element: f64) -> [f64; 5] {
     ]
 }
 
-/// Next to a free edge the square of the pressure is linear: where it would be zero, by the second and the fourth
-/// place inside.
+/// Returns the half-width by extrapolation. Next to a free edge the square of the pressure is
+/// linear; its zero follows from the second and the fourth point inside.
 fn extrapolated(found: &Found) -> f64 {
     let on = |i: &usize| found.pressure[*i] > 0.0;
     let first = (0..found.x.len()).find(on).unwrap_or(0);
@@ -79,7 +79,7 @@ fn nodes(known: &Known<'_>, count: u32, position: f64) -> Vec<f64> {
     (-beyond..=beyond).map(node).collect()
 }
 
-/// The worst of all positions, by quantity.
+/// Returns the worst error over all positions, for each quantity.
 fn worst(known: &Known<'_>, kind: Kind, count: u32) -> Result<[f64; 5], Box<dyn Error>> {
     let positions = if known.corners { 1 } else { POSITIONS };
     let mut worst = [f64::NAN; 5];
@@ -94,7 +94,7 @@ fn worst(known: &Known<'_>, kind: Kind, count: u32) -> Result<[f64; 5], Box<dyn 
     Ok(worst)
 }
 
-/// The table of the page, in Markdown.
+/// Writes the table of the page, in Markdown.
 pub fn table() -> Result<String, Box<dyn Error>> {
     let hertz = |x: f64| 0.5 * x * x;
     let wave = |x: f64| 1.0 - (2.0 * PI * x).cos();

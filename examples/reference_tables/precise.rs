@@ -1,23 +1,24 @@
-//! Numbers of twice the length: 31 digits, so that fifteen of them are those of the formula, whatever the
-//! library of the machine makes of sin and ln.
+//! Numbers of twice the length, with 31 digits: fifteen of them are those of the formula, however
+//! the system's library rounds sin and ln.
 //!
-//! A number is the sum of two (Dekker, *Numer. Math.* 18, 1971, 224). A function of the machine is only the start
-//! of one step of Newton's method.
+//! A number is the sum of two (Dekker, *Numer. Math.* 18, 1971, 224). A function of the system's
+//! library is only the start of one step of Newton's method.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The sum of both; the second is less than the rounding of the first.
+/// Sum of two numbers; the second is less than the rounding of the first.
 #[derive(Clone, Copy, Debug)]
 pub struct Precise(f64, f64);
 
 pub const PI: Precise = Precise(std::f64::consts::PI, 1.224_646_799_147_353_2e-16);
 const LN_2: Precise = Precise(std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);
 
-/// Halvings of an argument before a power series, and its terms: 2⁻⁶ⁿ/n! is below 1e-34 from n = 14 on.
+/// Halvings of an argument before a power series, and its number of terms: 2⁻⁶ⁿ/n! is below 1e-34
+/// from n = 14 on.
 const HALVINGS: i32 = 6;
 const TERMS: u32 = 18;
 
-/// A decimal as it is written: 0.3 is three tenths.
+/// Reads a decimal as it is written: 0.3 is three tenths.
 pub fn n(decimal: f64) -> Precise {
     let text = decimal.to_string();
     let (whole, part) = text.split_once('.').unwrap_or((&text, ""));
@@ -25,7 +26,7 @@ pub fn n(decimal: f64) -> Precise {
     Precise(digits, 0.0) / Precise(10.0, 0.0).powi(part.len() as u32)
 }
 
-/// The sum of two numbers, the larger one first.
+/// Adds two numbers, the larger one first.
 fn quick_sum(a: f64, b: f64) -> Precise {
     let sum = a + b;
     Precise(sum, b - (sum - a))
@@ -76,7 +77,7 @@ impl Precise {
             sin = (Self(1.0, 0.0) - sin) * square / Self(k * (k + 1.0), 0.0);
             versine = (Self(1.0, 0.0) - versine) * square / Self(k * (k - 1.0), 0.0);
         }
-        // 1 - cos x is the first of the terms that alternate, and x - sin x over x.
+        // The alternating series have given 1 - cos x and (x - sin x)/x.
         let mut sin = part * (Self(1.0, 0.0) - sin);
         for _ in 0..HALVINGS {
             let double = Self(2.0, 0.0) * sin * (Self(1.0, 0.0) - versine);
@@ -104,7 +105,8 @@ impl Precise {
         (self + (self * self - Self(1.0, 0.0)).sqrt()).ln()
     }
 
-    /// Fifteen significant digits, rounded once, as a number that shows them and no more.
+    /// Rounds once to fifteen significant digits, and returns the number that prints as these
+    /// digits.
     pub fn rounded(self) -> f64 {
         self.rounded_to(15)
     }
@@ -127,7 +129,7 @@ impl Precise {
             } else {
                 near
             };
-            // The logarithm may have been rounded over a power of ten.
+            // Rounding may have carried the logarithm across a power of ten.
             if near.abs() < 10f64.powi(digits) {
                 return format!("{near}e{}", -shift).parse().expect("a number");
             }
@@ -189,7 +191,8 @@ impl Div for Precise {
     }
 }
 
-/// The root of a function near a start, by the secant: a step of 1e-18 leaves an error of 1e-29.
+/// Finds the root of a function near a start, by the secant method: a step of 1e-18 leaves an error
+/// of 1e-29.
 pub fn root(start: Precise, function: impl Fn(Precise) -> Precise) -> Precise {
     let (mut last, mut x) = (start, start * n(1.001));
     let mut last_value = function(last);
@@ -208,7 +211,7 @@ pub fn root(start: Precise, function: impl Fn(Precise) -> Precise) -> Precise {
     x
 }
 
-/// The greatest of a smooth function near a start, from where its slope is zero.
+/// Finds the maximum of a smooth function near a start, at a zero of its slope.
 pub fn greatest(start: Precise, function: impl Fn(Precise) -> Precise) -> [Precise; 2] {
     let step = n(1e-9);
     let place = root(start, |x| function(x + step) - function(x - step));

@@ -13,12 +13,12 @@ use linecontact::{
 };
 use std::error::Error;
 
-/// That of steel under a rigid body.
+/// Returns E* of steel under a rigid body.
 fn under_rigid() -> Precise {
     n(1.0) / compliance(STEEL)
 }
 
-/// A rigid body on steel.
+/// Makes a case of a rigid body on steel.
 fn rigid_on_steel(
     name: &'static str,
     title: &'static str,
@@ -64,7 +64,7 @@ pub fn wedge() -> Made {
     Ok(case)
 }
 
-/// `ln(sin((θ + φ)/2)/|sin((θ - φ)/2)|)` of two angles.
+/// Returns `ln(sin((θ + φ)/2)/|sin((θ - φ)/2)|)` of two angles.
 fn logarithm(one: Precise, other: Precise) -> Precise {
     let sine = |angle: Precise| (angle / n(2.0)).sin_cos()[0];
     let ratio = sine(one + other) / sine(one - other);
@@ -114,7 +114,7 @@ pub fn unequal_wedge() -> Made {
         solution.centre_of_pressure()?,
         "-L cos(phi)/2",
     )
-    .within(1e-11); // The solver's moment, across a kink.
+    .within(1e-11); // the solver's moment, across a kink
     Ok(case)
 }
 
@@ -193,7 +193,7 @@ pub fn flat_punch() -> Made {
     Ok(case)
 }
 
-/// A flat that is held at a slope: on both edges, or on one.
+/// Adds a flat punch held at a slope, in contact at both edges or at one.
 fn tilted(case: &mut Case, half: f64, slope: f64, load: f64) -> Result<(), Box<dyn Error>> {
     let modulus = under_rigid();
     let kappa = PI * modulus / n(2.0);
@@ -286,7 +286,7 @@ pub fn rounded_flat_punch() -> Made {
     let shape = rounded_punch(flat, radius, 8.0)?;
     let contact = Contact::new(&Flat, &shape)?.contact_modulus(modulus.value());
     let [d, r] = [flat, radius].map(n);
-    // The angle of the end of the flat, d = L cos φ, for a load.
+    // Angle φ of the end of the flat, d = L cos φ, under a load.
     let angle = |load: Precise| {
         root(n(0.8), |phi| {
             let [sin, cos] = phi.sin_cos();

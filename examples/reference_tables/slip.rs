@@ -1,4 +1,4 @@
-//! Hertz's contact with a force along it.
+//! Hertz's contact with a tangential force.
 
 use super::case::{Case, Given, HALF_WIDTH, LENGTH, Made, PEAK, Place, STICK, TRACTION};
 use super::hertz::{hertz, like_steel, steel_on_steel};
@@ -24,7 +24,7 @@ const SLIPPING: [Given; 4] = [
     ),
 ];
 
-/// Hertz's contact with a tangential force, and perhaps a tension in the lower body.
+/// Adds Hertz's contact with a tangential force, and perhaps a tension in the lower body.
 fn slipping(case: &mut Case, tension: f64, places: [f64; 3]) -> Result<(), Box<dyn Error>> {
     let modulus = like_steel();
     let roller = Parabola::new(RADIUS, [-2.0, 2.0])?;

@@ -1,4 +1,4 @@
-//! Contact in several places: a row of crests without end, two bumps, three.
+//! Contact in several places: an infinite row of crests, two bumps, three bumps.
 
 use super::case::{AT, HALF_WIDTH, LEFT, LENGTH, LOAD, MEAN, Made, PEAK, Place, RIGHT};
 use super::hertz::{hertz, like_steel, steel_on_steel};
@@ -6,7 +6,7 @@ use super::precise::{PI, Precise, n, root};
 use linecontact::reference::{Hertz, PolynomialMap, Quartic, Westergaard, body};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
 
-/// One crest of the row, in ξ = tan(π x/λ): there it is one contact.
+/// Makes the case of a row of crests. In ξ = tan(π x/λ) one crest is a single contact.
 pub fn wave() -> Made {
     let (amplitude, wavelength, load) = (1e-4, 1.0, 20.0);
     let mut case = steel_on_steel(
@@ -26,7 +26,7 @@ pub fn wave() -> Made {
     let sine = (n(load) / complete).sqrt();
     let angle = (sine / (n(1.0) - sine * sine).sqrt()).atan();
     let a = l * angle / PI;
-    // A body of the slope 4 π A/λ ξ/(1 + ξ²), as wide as that.
+    // A body over ξ with the slope 4 π A/λ ξ/(1 + ξ²).
     let steep = (n(4.0) * big / l).value();
     let unrolled = Curve::new([-9.0, 9.0], move |xi: f64| CurvePoint {
         x: xi,
@@ -96,7 +96,7 @@ pub fn two_contacts() -> Made {
         let formula = "2 E* D/r^4 |x| sqrt((x^2-i^2)(o^2-x^2)), i and o the limits";
         case.closed(AT, Place::At(x), at(n(x)), pressure.at(x)?, formula);
     }
-    // Of x² (x² - i²)(o² - x²): a quadratic equation for x².
+    // The largest x² (x² - i²)(o² - x²): a quadratic equation for x².
     let (sum, product) = (inner * inner + outer * outer, inner * inner * outer * outer);
     let square = (sum + (sum * sum - n(3.0) * product).sqrt()) / n(3.0);
     let peak = solution.peak()?;

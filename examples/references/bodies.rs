@@ -1,7 +1,7 @@
 //! The two bodies of a reference file, built from the expressions in it.
 //!
-//! A range of `k` without an end is cut: where `|X|` has reached four times the outermost `x` the
-//! file names, 1000 where it names none. A body with `X = k`, `Y = 0` is [`Flat`], and is not cut.
+//! An infinite range of `k` is cut where `|X|` has reached four times the outermost `x` that the
+//! file names, or 1000 if it names none. A body with `X = k`, `Y = 0` is [`Flat`], and is not cut.
 
 #[path = "expression.rs"]
 mod expression;
@@ -12,10 +12,10 @@ use linecontact::{CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError
 use serde_json::Value;
 use thiserror::Error;
 
-/// A body of any kind.
+/// Body of any kind.
 pub type Body<T> = Box<dyn ParametricProfile<T>>;
 
-/// A smooth piece of a body: four expressions in `k`, and its range.
+/// Smooth piece of a body: four expressions in `k`, and its range.
 pub struct Expressions<T: Number> {
     domain: [T; 2],
     x: Expression<T>,
@@ -50,26 +50,26 @@ impl<T: Number> ParametricProfile<T> for Expressions<T> {
     }
 }
 
-/// Why a body could not be built.
+/// Reason why a body could not be built.
 #[derive(Debug, Error)]
 pub enum BodyError<T: Number> {
-    /// The file does not say something, or not as text.
+    /// Entry that the file lacks, or has not as text.
     #[error("no {0:?} in the file")]
     Missing(&'static str),
-    /// A formula cannot be read.
+    /// Formula that cannot be read.
     #[error("the formula {text:?} cannot be read: {source}")]
     Formula {
-        /// The formula.
+        /// Text of the formula.
         text: String,
-        /// Where it cannot.
+        /// Place and kind of the syntax error.
         source: SyntaxError,
     },
-    /// The pieces do not make a body.
+    /// Pieces that do not make a body.
     #[error(transparent)]
     Pieces(#[from] PiecewiseError<T>),
 }
 
-/// The lower and the upper body of a file.
+/// Builds the lower and the upper body of a file.
 ///
 /// # Errors
 /// [`BodyError`].
@@ -108,8 +108,8 @@ fn formula<T: Number>(text: &str) -> Result<Expression<T>, BodyError<T>> {
     Expression::new(text).map_err(|source| BodyError::Formula { text: text.into(), source })
 }
 
-/// An end of `k`: a decimal, rounded once; a constant formula such as `-1/3`; or, where it is
-/// infinite, the first `k` on that side tried at which `|X|` has reached `reach`.
+/// Returns an end of `k`. The text is a decimal, rounded once; a constant formula such as `-1/3`;
+/// or infinite: then `k` is doubled on that side until `|X|` has reached `reach`.
 fn end<T: Number>(text: &str, x: &Expression<T>, reach: T) -> Result<T, BodyError<T>> {
     let Ok(end) = text.parse::<T>() else {
         return Ok(formula(text)?.at(T::zero()));
@@ -124,7 +124,7 @@ fn end<T: Number>(text: &str, x: &Expression<T>, reach: T) -> Result<T, BodyErro
     Ok(k)
 }
 
-/// How far a body without end is to go.
+/// Returns the length at which an infinite body is cut.
 fn reach<T: Number>(file: &Value) -> T {
     let list = |key: &str| file[key].as_array().cloned().unwrap_or_default();
     let mut named = vec![file["a"].clone(), file["b"].clone()];

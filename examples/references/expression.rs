@@ -1,19 +1,19 @@
-//! A formula in `k` as the reference files write it, compiled once.
+//! A formula in `k`, as written in the reference files, compiled once.
 //!
-//! Python's rules: `**`, from right to left, before a sign before `*` and `/` before `+` and `-`, and these
-//! from left to right, so that every rounding is that of the formula as written. The one difference: an
-//! exponent with a sign needs parentheses.
+//! The rules are Python's. `**` binds first, from right to left; then a sign; then `*` and `/`;
+//! then `+` and `-`, these from left to right. So every rounding is that of the formula as written.
+//! There is one difference: an exponent with a sign needs parentheses.
 
 use linecontact::Real;
 use std::fmt::Debug;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A real number that can be read: `f32`, `f64`.
+/// Real number that can be parsed: `f32`, `f64`.
 pub trait Number: Real + FromStr<Err: Debug> {}
 impl<T: Real + FromStr<Err: Debug>> Number for T {}
 
-/// What cannot be read, up to the end of the formula.
+/// Text that cannot be read, up to the end of the formula.
 #[derive(Debug, Error)]
 #[error("{wanted} is expected at {rest:?}")]
 pub struct SyntaxError {
@@ -21,7 +21,7 @@ pub struct SyntaxError {
     rest: String,
 }
 
-/// A formula in `k`, or a constant.
+/// Formula in `k`, or a constant.
 #[derive(Clone, Debug)]
 pub enum Expression<T: Number> {
     K,
@@ -34,7 +34,8 @@ impl<T: Number> Expression<T> {
     /// Compiles a formula.
     ///
     /// # Errors
-    /// Where the syntax ends; any variable but `k`, any function that does not occur in the files.
+    /// [`SyntaxError`] at the place where the syntax ends, and for any variable but `k` or any
+    /// function that the files do not use.
     pub fn new(text: &str) -> Result<Self, SyntaxError> {
         let text = text.replace(' ', "");
         let mut parser = Parser { rest: &text };
@@ -42,7 +43,7 @@ impl<T: Number> Expression<T> {
         if parser.rest.is_empty() { Ok(formula) } else { parser.missing("an operator") }
     }
 
-    /// The value at `k`.
+    /// Returns the value at `k`.
     pub fn at(&self, k: T) -> T {
         match self {
             Self::K => k,
@@ -57,7 +58,7 @@ impl<T: Number> Expression<T> {
     }
 }
 
-/// A recursive descent through the formula, a method for each precedence.
+/// Recursive descent through the formula, with a method for each precedence.
 struct Parser<'t> {
     rest: &'t str,
 }
@@ -147,7 +148,7 @@ impl<'t> Parser<'t> {
         digits.parse().map(Expression::Constant).or_else(|_| self.missing("a number before this"))
     }
 
-    /// Takes the characters up to one that does not belong to those before it.
+    /// Takes characters up to the first that does not belong to those before it.
     fn split(&mut self, belongs: impl Fn(&str, char) -> bool) -> &'t str {
         let mut ends = self.rest.char_indices();
         let end = ends.find(|&(i, c)| !belongs(&self.rest[..i], c)).map(|(i, _)| i);

@@ -5,15 +5,18 @@
 //! ```
 //!
 //! Each file (`tests/data` has them) holds two bodies as formulas in `k`, the load, and, to 30
-//! digits, the limits and the pressure; or says that there must be an error. The columns: errors
-//! of `a` and `b` as shares of the half-width; the largest relative error of the pressure and the
-//! highest floor, that is, what rounding and the noise of the formulas leave open; the cost.
-//! A file passes if every error is at most 1e-12 or, where that is more, 20 times the floor at
-//! that very point; one with several contacts (`contact-reference-2`), by the tolerances that it gives, of
-//! the limits as shares of the width and of the pressure as one of the largest. One whose solution in one
-//! interval is no contact passes if that solution is found and then denied by the error that the file names,
-//! and if boundary elements agree with the contacts in several places. Where an error is due, it
-//! must be of the variant that the file names. The program fails if a file does.
+//! digits, the limits and the pressure; or it says that there must be an error. The columns are the
+//! errors of `a` and `b` as shares of the half-width, the largest relative error of the pressure,
+//! the highest floor, and the cost. The floor is the error due to rounding and to the noise of the
+//! formulas.
+//!
+//! A file passes if every error is at most 1e-12 or, where that is more, 20 times the floor at that
+//! point. A file with several contacts (`contact-reference-2`) gives its own tolerances: of the
+//! limits as shares of the width, of the pressure as a share of the largest one. If the solution in
+//! one interval is no contact, the file passes if that solution is found, is then rejected with the
+//! error that the file names, and boundary elements agree with the contacts in several places.
+//! Where an error is due, it must be of the variant that the file names. The program fails if a
+//! file does.
 
 #[path = "../../tests/common/boundary_elements.rs"]
 mod boundary_elements;
@@ -34,7 +37,8 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The solver at work: all that depends on how it is called. The pressures are asked for at some places.
+/// Solves the contact of a file, with the pressures at the given places. All calls of the solver
+/// are here.
 fn solve(
     bodies: &[Body<f64>; 2],
     wanted: &Reference,
@@ -60,7 +64,7 @@ fn solve(
     Ok(Answer { contacts, pressures, cost: cost + pressure.cost() })
 }
 
-/// What comes of a file. An error is one that the file itself is to blame for.
+/// Checks a file. An error is returned only for a fault of the file itself.
 fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let file = serde_json::from_str(&std::fs::read_to_string(path)?)?;
@@ -108,7 +112,8 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
         return Ok(Report::of_error(&name, reference.kind_name, false, said));
     }
     let on = reference.limits.ok_or("no limits")?;
-    // Given edges enter the integral for the pressure with the root of both distances, and G with it.
+    // With given edges the integral for the pressure contains the root of both distances from the
+    // edges, and so does the weight of the slope.
     let weight =
         if reference.kind == Kind::Fixed { |angle: f64| angle.sin().powi(2) } else { |_| 1.0 };
     let rounded = &reference.rounded_breakpoints;
@@ -116,8 +121,8 @@ fn check(path: &Path) -> Result<Report, Box<dyn Error>> {
     Ok(Report::of_answer(&name, &reference, &answer, &noise))
 }
 
-/// The equations for one interval, whose solution is in the file, next to it: solved, and then denied by
-/// the error that the file names.
+/// Solves the equations for one interval, whose solution is in the file, and checks that this
+/// solution is rejected by the error that the file names.
 fn one_interval(name: &str, bodies: &[Body<f64>; 2], wanted: &Reference) -> Result<Report, String> {
     let said = |error: ContactError<f64>| format!("as one interval: {error}");
     let (on, error) = wanted.limits.zip(wanted.error.as_ref()).ok_or("no limits, or no error")?;
@@ -125,7 +130,7 @@ fn one_interval(name: &str, bodies: &[Body<f64>; 2], wanted: &Reference) -> Resu
     let start = Interval { left: on.left - wide, right: on.right + 0.5 * wide };
     let contact = Contact::new(&*bodies[0], &*bodies[1]).map_err(said)?.kappa(wanted.kappa);
     let contact = contact.single_interval(true).start(start);
-    // One load may have several such solutions, a width has one load.
+    // One load may have several such solutions; a width has one load.
     let load = wanted.c / PI;
     let control = if wanted.one_of_several {
         Control::HalfWidth(on.half_width())
@@ -155,12 +160,13 @@ fn one_interval(name: &str, bodies: &[Body<f64>; 2], wanted: &Reference) -> Resu
     Ok(report)
 }
 
-/// Whether a word is in what an error shows of itself: `Profile { body: Upper, source: TurnsBack { .. } }`.
+/// Tells whether a word is in the debug output of an error, such as `Profile { body: Upper, source:
+/// TurnsBack { .. } }`.
 fn is_in(word: &str, shown: &str) -> bool {
     shown.split(|c: char| !c.is_alphanumeric()).any(|part| part == word)
 }
 
-/// The contact by boundary elements.
+/// Solves the contact by boundary elements.
 fn elements(bodies: &[Body<f64>; 2], wanted: &Reference) -> Option<Oracle> {
     let [lower, upper] = [&*bodies[0], &*bodies[1]];
     let gap = |x| boundary_elements::height(upper, x) - boundary_elements::height(lower, x);
@@ -190,7 +196,7 @@ pub(crate) fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("{}", Report::heading());
     let mut failures = 0;
     for path in &paths {
-        // The others are still to be heard.
+        // One bad file does not stop the others.
         let report = check(path).unwrap_or_else(|error| {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();
             Report::of_error(&name, "cannot be read".to_owned(), false, error.to_string())

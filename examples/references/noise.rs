@@ -1,43 +1,44 @@
-//! How noisy the bodies' formulas are as they stand, in `f64`.
+//! Measures the noise of the bodies' formulas, evaluated in `f64` as written.
 //!
 //! Formulas that cancel large terms, such as `12 cos k - 12` at a small `k`, return `X` with an
-//! error far beyond the rounding of `X` itself, and where a body is steep its slope magnifies
-//! that. What it is shows in neighbouring values: over a millionth of the contact a formula is
-//! a straight line but for rounding, so that its sixth differences are all noise (Moré and Wild,
+//! error far beyond the rounding of `X` itself; where a body is steep, its slope magnifies that
+//! error. Neighbouring values show the noise: over a millionth of the contact a formula is a
+//! straight line but for rounding, so its sixth differences are all noise (Moré and Wild,
 //! *Estimating computational noise*, SIAM J. Sci. Comput. 33, 2011).
 
 use linecontact::profile::Piece;
 use linecontact::{Interval, ParametricProfile, ProfileError};
 use std::f64::consts::PI;
 
-/// Neighbours looked at in each place.
+/// Number of neighbouring values at each place.
 const NEIGHBOURS: usize = 64;
-/// Their distance, as a share of the contact, and at most of the distance to the end of the piece,
-/// where it may have a singularity.
+/// Distance of the neighbours, as a share of the contact, and its bound as a share of the distance
+/// to the end of the piece, where there may be a singularity.
 const STEP: [f64; 2] = [1.0 / (1u64 << 24) as f64, 1.0 / 1024.0];
 
-/// Root of the number of samples, whose errors are independent, that a solver takes at the least.
+/// Square root of the least number of samples of a solver, whose errors are independent.
 const ROOT_OF_SAMPLES: f64 = 10.0;
 
-/// What the formulas leave uncertain: the largest error of roundings with the deviation seen.
+/// Uncertainties due to the noise of the formulas: the largest rounding error that fits the
+/// observed deviation.
 #[derive(Clone, Debug)]
 pub struct Noise {
-    /// The edges of the contact, relative to its half-width.
+    /// Uncertainty of the edges of the contact, relative to its half-width.
     pub edges: f64,
-    /// The slope of the gap in each place.
+    /// Uncertainty of the slope of the gap at each place.
     pub slope: Vec<f64>,
-    /// Its mean over the contact, weighted.
+    /// Weighted mean of this uncertainty over the contact.
     pub mean_slope: f64,
-    /// The largest `|f₂' - f₁'|` in all places and at the edges.
+    /// Largest `|f₂' - f₁'|` at all places and at the edges.
     pub steepest: f64,
 }
 
-/// Measures the noise at places within a contact, given from left to right. The breakpoints `rounded` are
-/// not where the bodies' formulas have them. `weight` is that of the
-/// slope in its mean, by the angle θ of `x = c + L cos θ`.
+/// Measures the noise at places within a contact, given from left to right. The breakpoints
+/// `rounded` are not exactly those of the bodies' formulas. `weight` is the weight of the slope in
+/// its mean, as a function of the angle θ in `x = c + L cos θ`.
 ///
 /// # Errors
-/// Those of [`Piece::new`].
+/// The errors of [`Piece::new`].
 pub fn measure(
     bodies: [&dyn ParametricProfile<f64>; 2],
     on: Interval<f64>,
@@ -56,15 +57,15 @@ pub fn measure(
     let largest = |of: fn(&Local, &Local) -> f64| {
         inside.iter().fold(0.0f64, |most, (_, lower, upper)| most.max(of(lower, upper)))
     };
-    // Where all places are on a flat, only the edges have a slope.
+    // If all places are on a flat, only the edges have a slope.
     let slope = |(_, lower, upper): &(f64, Local, Local)| (upper.slope - lower.slope).abs();
     let finite = inside.iter().chain(&edges).map(slope).filter(|slope| slope.is_finite());
     let steepest = finite.fold(0.0f64, f64::max);
     let of_x = largest(|lower, upper| lower.of_x + upper.of_x);
     let of_slope = largest(|lower, upper| lower.of_slope + upper.of_slope);
 
-    // The edges follow from averages over the contact, and so does what the pressure takes from
-    // elsewhere.
+    // The edges follow from averages over the contact, and so does the nonlocal part of the
+    // pressure.
     let of_edges = (of_x / on.half_width() + of_slope / steepest) / ROOT_OF_SAMPLES;
     let jumps = jumps(&bodies, rounded);
     let of_jumps = |x: f64| jumps.iter().map(|jump| jump.noise(x, on)).sum::<f64>();
@@ -84,36 +85,37 @@ fn pieces(body: &dyn ParametricProfile<f64>) -> Result<Vec<Piece<'_, f64>>, Prof
     }
 }
 
-/// A breakpoint at which the slope of the gap jumps, or may.
+/// Breakpoint at which the slope of the gap jumps, or may jump.
 struct Jump {
     x: f64,
     by: f64,
-    /// By how much the slope jumps on top of that because the breakpoint is rounded: the curvature does.
+    /// Additional jump of the slope if the breakpoint is rounded, due to the jump of the curvature.
     perhaps: f64,
 }
 
 impl Jump {
-    /// The pressure has the logarithm of the distance from it, which is off by what rounding makes of
-    /// the place of a breakpoint such as 1/3: no more than that can be known, at the breakpoint itself nothing.
+    /// Returns the uncertainty of the pressure at x due to this jump. The pressure contains the
+    /// logarithm of the distance from the breakpoint, whose place, such as 1/3, is rounded. At the
+    /// breakpoint itself nothing is certain.
     fn noise(&self, x: f64, on: Interval<f64>) -> f64 {
         let rounded = place_rounding(self.x);
         let distance = (x - self.x).abs();
         if rounded <= 0.0 {
             return 0.0;
         }
-        // Infinite at the breakpoint, but only of a slope that jumps.
+        // Infinite at the breakpoint, but only if the slope jumps.
         let by = self.by.abs();
         let place = if by > 0.0 { by * (rounded / distance).ln_1p() } else { 0.0 };
         (place + self.perhaps * (on.half_width() / distance.max(rounded)).ln_1p()) / PI
     }
 }
 
-/// The most by which a breakpoint is rounded.
+/// Returns the largest rounding error of a breakpoint.
 fn place_rounding(x: f64) -> f64 {
     0.5 * f64::EPSILON * x.abs()
 }
 
-/// `d²Y/dX²` next to an end of a piece.
+/// Returns `d²Y/dX²` next to an end of a piece.
 fn end_bend(piece: &Piece<'_, f64>, end: usize) -> f64 {
     let slope = |k| piece.curve.dy(k) / piece.curve.dx(k);
     let [near, far] = [piece.k[end], piece.k[1 - end]];
@@ -127,7 +129,7 @@ fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2], rounded: &[f64]) -> Vec<Jump> {
         let jump = |two: &[Piece<'_, f64>]| {
             let [from, to] = [slope(&two[0], 1), slope(&two[1], 0)];
             let by = sign * (to - from);
-            // What the rounding of formulas makes is none.
+            // A jump as small as the rounding of the formulas does not count.
             let counts = by.is_finite() && by.abs() > 64.0 * f64::EPSILON * (from.abs() + to.abs());
             let by = if counts { by } else { 0.0 };
             let x = two[0].x()[1];
@@ -141,7 +143,7 @@ fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2], rounded: &[f64]) -> Vec<Jump> {
     let [lower, upper] = bodies;
     let mut all: Vec<Jump> = Vec::new();
     for jump in of_body(lower, -1.0).into_iter().chain(of_body(upper, 1.0)) {
-        // What both bodies have may cancel.
+        // Jumps of both bodies may cancel.
         match all.iter_mut().find(|other| other.x == jump.x) {
             Some(other) => {
                 other.by += jump.by;
@@ -153,7 +155,7 @@ fn jumps(bodies: &[Vec<Piece<'_, f64>>; 2], rounded: &[f64]) -> Vec<Jump> {
     all
 }
 
-/// A body next to a place.
+/// Slope, curvature and noise of a body at a place.
 struct Local {
     slope: f64,
     /// `d²Y/dX²`.
@@ -184,14 +186,14 @@ impl Local {
         local
     }
 
-    /// Noise of the slope at a given `x`, left out where the slope is infinite: at an end.
+    /// Returns the noise of the slope at a given `x`; 0 at an end where the slope is infinite.
     fn total(&self) -> f64 {
         let noise = self.of_slope + self.bend.abs() * self.of_x;
         if noise.is_finite() { noise } else { 0.0 }
     }
 }
 
-/// The `k` of `x`, by bisection.
+/// Finds the `k` of `x` by bisection.
 fn parameter(piece: &Piece<'_, f64>, x: f64) -> f64 {
     let [mut left, mut right] = piece.k;
     loop {
@@ -203,11 +205,11 @@ fn parameter(piece: &Piece<'_, f64>, x: f64) -> f64 {
     }
 }
 
-/// The noise in equidistant values of a smooth function: the largest error, if all errors up to it
-/// are equally likely.
+/// Returns the noise in equidistant values of a smooth function: the largest error, if all errors
+/// up to it are equally likely.
 fn noise(mut values: [f64; NEIGHBOURS]) -> f64 {
     const ORDER: usize = 6;
-    /// The variance of that difference, for noise of variance 1: 12!/(6!)².
+    /// Variance of the sixth difference for noise of variance 1: 12!/(6!)².
     const VARIANCE: f64 = 924.0;
     let largest = values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
     for count in (NEIGHBOURS - ORDER..NEIGHBOURS).rev() {
@@ -215,7 +217,7 @@ fn noise(mut values: [f64; NEIGHBOURS]) -> f64 {
             values[i] = values[i + 1] - values[i];
         }
     }
-    // Squared as shares of the largest, which may itself be 1e150.
+    // Squared relative to the largest value, which may itself be 1e150.
     let differences = &values[..NEIGHBOURS - ORDER];
     let sum: f64 = differences.iter().map(|value| (value / largest).powi(2)).sum();
     largest * (3.0 * sum / differences.len() as f64 / VARIANCE).sqrt()
@@ -228,8 +230,9 @@ mod tests {
 
     #[test]
     fn a_breakpoint_that_is_rounded() {
-        // x²/2, and from 1/3 on a curvature of 1 + bend. With the breakpoint off by u the slope jumps by
-        // bend u, and the pressure at a distance d has (bend u/π²) ln(L/d) more or less.
+        // x²/2 up to 1/3, and from there on a curvature of 1 + bend. If the breakpoint is off by u,
+        // the slope jumps by bend u, and the pressure at a distance d is uncertain by (bend u/π²)
+        // ln(L/d).
         let (bend, third) = (1e8, 1.0 / 3.0);
         let piece = |from: f64, to: f64, bend: f64| {
             Curve::new([from, to], move |k: f64| {

@@ -1,9 +1,9 @@
-//! Where bodies begin and end: corners, and the range of the boundary elements.
+//! The ends of bodies: corners, and the range of the boundary elements.
 
 use linecontact::ParametricProfile;
 use linecontact::profile::Piece;
 
-/// Where a body begins and ends; NaN if it has no ends.
+/// Returns the two ends of a body; NaN if it has none.
 pub fn of(body: &dyn ParametricProfile<f64>) -> [f64; 2] {
     let ends = |piece: Piece<f64>| piece.x();
     let [left, right] = match body.pieces() {

@@ -1,74 +1,76 @@
-//! What a reference file says of its solution.
+//! The solution in a reference file.
 
 use linecontact::Interval;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What a solver should make of a file.
+/// Result that a solver must return for a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The limits and the pressure.
+    /// Limits and pressure.
     Contact,
-    /// The pressure between limits that are given.
+    /// Pressure between given limits.
     Fixed,
-    /// The limits of all contacts, and the pressure.
+    /// Limits of all contacts, and the pressure.
     Several,
-    /// A contact in several places, of which the file says only that one interval is not enough.
+    /// Contact in several places; the file says only that one interval is not enough.
     Unphysical,
-    /// An error: there is no solution.
+    /// Error: there is no solution.
     Error,
 }
 
-/// What a file says of contacts in several places.
+/// Solution with several contacts.
 pub struct Several {
-    /// From left to right.
+    /// Contacts from left to right.
     pub contacts: Vec<Interval<f64>>,
-    /// Whether the outermost limit, on the left and on the right, is a corner that ends the upper body.
+    /// True where the outermost limit, on the left or on the right, is a corner that ends the upper
+    /// body.
     pub corners: [bool; 2],
-    /// The error of a limit that passes, as a share of the width of its contact.
+    /// Largest error of a limit that passes, as a share of the width of its contact.
     pub of_width: f64,
-    /// The error of a pressure that passes, as a share of the largest.
+    /// Largest error of a pressure that passes, as a share of the largest pressure.
     pub of_largest: f64,
 }
 
-/// A solution of some 30 digits.
+/// Solution of some 30 digits.
 pub struct Reference {
-    /// The kind by the file's own name for it.
+    /// Name of the kind in the file.
     pub kind_name: String,
-    /// What to expect.
+    /// Kind of result that is expected.
     pub kind: Kind,
-    /// The scale κ.
+    /// Scale κ.
     pub kappa: f64,
     /// π times the load.
     pub c: f64,
     /// `[-b, a]`, where there is a solution.
     pub limits: Option<Interval<f64>>,
-    /// What is known of several contacts.
+    /// Solution with several contacts, if the file has one.
     pub several: Option<Several>,
-    /// Whether the limits are one of several solutions in one interval under the same load.
+    /// True if the limits are one of several solutions in one interval under the same load.
     pub one_of_several: bool,
-    /// The variant of the error that must come, where the file names it.
+    /// Variant of the error that must come, if the file names it.
     pub error: Option<String>,
-    /// The breakpoints of both bodies.
+    /// Breakpoints of both bodies.
     pub breakpoints: Vec<f64>,
-    /// Breakpoints that are no numbers of 64 bits, such as 1/3, rounded.
+    /// Breakpoints that are not numbers of 64 bits, such as 1/3, rounded.
     pub rounded_breakpoints: Vec<f64>,
-    /// Points with a finite pressure that is not zero.
+    /// Points with a finite, nonzero pressure.
     pub points: Vec<Point>,
 }
 
-/// A pressure.
+/// Pressure at a point.
 pub struct Point {
-    /// Where, exactly.
+    /// Exact x of the point.
     pub x: f64,
-    /// What it is.
+    /// Pressure there.
     pub pressure: f64,
-    /// By how much a relative change of `C`, `x`, `a` and `b` is magnified in it, if said.
+    /// Factor by which relative changes of `C`, `x`, `a` and `b` are magnified in the pressure, if
+    /// given.
     pub amplification: Option<f64>,
 }
 
 impl Reference {
-    /// Reads what the solution is; `None` where something is missing.
+    /// Reads the solution; `None` if something is missing.
     pub fn read(file: &Value) -> Option<Self> {
         let kind_name = file["kind"].as_str()?.to_owned();
         let kind = match &*kind_name {
@@ -127,7 +129,7 @@ impl Reference {
     }
 }
 
-/// A scale without a value: `1`, `pi/2`, or `pi/2*E` with a decimal for E.
+/// Reads a scale without a value: `1`, `pi/2`, or `pi/2*E` with a decimal for E.
 fn scale(text: &str) -> Option<f64> {
     match text.strip_prefix("pi/2") {
         None => text.parse().ok(),
@@ -136,7 +138,7 @@ fn scale(text: &str) -> Option<f64> {
     }
 }
 
-/// A decimal without an exponent.
+/// Writes a decimal without an exponent.
 fn plain(text: &str) -> Option<String> {
     let Some((decimal, exponent)) = text.split_once(['e', 'E']) else {
         return Some(text.to_owned());
@@ -153,7 +155,7 @@ fn plain(text: &str) -> Option<String> {
     Some(format!("{sign}{whole}.{part}"))
 }
 
-/// Whether a decimal is a number of 64 bits, which has no more than 1074 places.
+/// Tells whether a decimal is exactly a number of 64 bits, which has at most 1074 decimal places.
 fn is_exact(value: &Value) -> bool {
     let trimmed = |text: &str| match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
@@ -163,7 +165,7 @@ fn is_exact(value: &Value) -> bool {
     exact == value.as_str().and_then(plain).map(|text| trimmed(&text))
 }
 
-/// A decimal in a string, correctly rounded, or a number as it is.
+/// Reads a decimal in a string, correctly rounded, or a number as it is.
 fn number(value: &Value) -> Option<f64> {
     value.as_f64().or_else(|| value.as_str()?.parse().ok())
 }

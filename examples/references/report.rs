@@ -1,4 +1,4 @@
-//! Compares what the solver returns with the reference, and says it in a line.
+//! Compares the solver's results with the reference, and reports in a line.
 
 use super::boundary_elements::Oracle;
 use super::noise::Noise;
@@ -6,51 +6,52 @@ use super::reference::{Kind, Point, Reference, Several};
 use linecontact::{Cost, Interval};
 use std::f64::consts::PI;
 
-/// What is expected of a result where nothing forbids it.
+/// Largest relative error that passes where the data allow it.
 const WANTED: f64 = 1e-12;
-/// By how much it may exceed the floor where that is higher.
+/// Factor by which an error may exceed the floor where the floor is higher.
 const MARGIN: f64 = 20.0;
-/// The unit of rounding.
+/// Unit roundoff.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
-/// How far a pressure may be off that of the boundary elements, as a share of the peak.
+/// Largest difference from the pressure of the boundary elements that passes, as a share of the
+/// peak.
 const ELEMENTS: f64 = 0.01;
 
-/// What the solver returns for a file.
+/// Result of the solver for a file.
 pub struct Answer {
-    /// The contacts, from left to right.
+    /// Contacts from left to right.
     pub contacts: Vec<Interval<f64>>,
-    /// The pressures at the points of the file, or why there is none.
+    /// Pressures at the points of the file, or the reason why there is none.
     pub pressures: Vec<Result<f64, String>>,
-    /// What it took.
+    /// Cost of the solve.
     pub cost: Cost,
 }
 
-/// What has come of a file.
+/// Result of the comparison for a file.
 pub struct Report {
     /// Name of the file.
     pub name: String,
-    /// Its kind.
+    /// Kind of the file.
     pub kind: String,
-    /// Whether it is as it must be.
+    /// True if the file passes.
     pub ok: bool,
-    /// Errors of `a` and `b`, each as a share of the half-width; of several contacts the largest of all
-    /// limits, on the right and on the left, as shares of the width of each.
+    /// Errors of `a` and `b` as shares of the half-width; with several contacts the largest errors
+    /// of the right and of the left limits, as shares of the width of each.
     limits: Option<[f64; 2]>,
-    /// The largest relative error of a pressure, and the highest floor.
+    /// Largest relative error of a pressure, and the highest floor.
     pressure: Option<[f64; 2]>,
     cost: Option<Cost>,
-    /// What else there is to say.
+    /// Further remarks.
     remarks: Vec<String>,
 }
 
 impl Report {
-    /// A file that has ended in an error.
+    /// Reports a file that ended in an error.
     pub fn of_error(name: &str, kind: String, ok: bool, error: String) -> Self {
         let (name, remarks) = (name.to_owned(), vec![error]);
         Self { name, kind, ok, limits: None, pressure: None, cost: None, remarks }
     }
 
-    /// A file that has been solved.
+    /// Reports a file that was solved.
     pub fn of_answer(name: &str, reference: &Reference, answer: &Answer, noise: &Noise) -> Self {
         let mut report = Self {
             name: name.to_owned(),
@@ -73,7 +74,7 @@ impl Report {
         report
     }
 
-    /// A file with several contacts that has been solved: within the tolerances that it gives.
+    /// Reports a solved file with several contacts, within the tolerances that it gives.
     pub fn of_several(name: &str, reference: &Reference, want: &Several, answer: &Answer) -> Self {
         let mut report = Self::of_error(name, reference.kind_name.clone(), true, String::new());
         report.remarks.clear();
@@ -114,8 +115,8 @@ impl Report {
         report
     }
 
-    /// A file that says only that one interval is not enough, against boundary elements; `pressures` are at
-    /// the oracle's nodes.
+    /// Compares a file that says only that one interval is not enough with boundary elements; the
+    /// pressures of `answer` are at the oracle's nodes.
     pub fn of_elements(
         name: &str,
         reference: &Reference,
@@ -143,7 +144,7 @@ impl Report {
         report
     }
 
-    /// With what another comparison of the same file says.
+    /// Adds the result of another comparison of the same file.
     pub fn and(mut self, other: Self) -> Self {
         self.ok &= other.ok;
         self.cost = other.cost;
@@ -151,7 +152,7 @@ impl Report {
         self
     }
 
-    /// Not as it must be, and why.
+    /// Marks the file as failed, with the reason.
     pub fn fail(&mut self, remark: String) {
         self.ok = false;
         self.remarks.push(remark);
@@ -184,7 +185,7 @@ impl Report {
             let floor = floor(reference, i, on, noise);
             (largest, highest) = (largest.max(error), highest.max(floor));
             let (allowed, x) = (allowed(floor), point.x);
-            // What is allowed may be infinite, an error that is infinite as well is none the less one.
+            // The allowed error may be infinite; an infinite error fails even then.
             let share = if error.is_finite() { error / allowed } else { f64::INFINITY };
             if share > worst {
                 worst = share;
@@ -197,7 +198,7 @@ impl Report {
         self.pressure = Some([largest, highest]);
     }
 
-    /// The heading of the table.
+    /// Returns the heading of the table.
     pub fn heading() -> String {
         line(
             ["NAME", "KIND", "", "ERR_A", "ERR_B", "ERR_P", "FLOOR_P", "SAMPLES", "EVALUATIONS"]
@@ -206,9 +207,9 @@ impl Report {
     }
 }
 
-/// How far off the pressure at a point may be, relatively, through no fault of the solver's:
-/// rounding, and the uncertainty of the edges, both times what this point makes of them; and
-/// the uncertain slope of the gap, of which `P/κ` is a conjugate function divided by π.
+/// Returns the relative error of the pressure at a point that is not the solver's fault: rounding
+/// and the uncertainty of the edges, both times the amplification at this point, and the uncertain
+/// slope of the gap, of which `P/κ` is a conjugate function divided by π.
 fn floor(reference: &Reference, i: usize, on: Interval<f64>, noise: &Noise) -> f64 {
     let Point { x, pressure, amplification } = reference.points[i];
     let unit = reference.kappa / (PI * pressure.abs());
@@ -217,8 +218,8 @@ fn floor(reference: &Reference, i: usize, on: Interval<f64>, noise: &Noise) -> f
         let edges = amplification.unwrap_or(1.0) * noise.edges;
         return rounded + edges + unit * (noise.slope[i] + noise.mean_slope);
     }
-    // Fixed edges: P = (C - κ PV∫ ...)/(π² root), whose terms are of the order of κ |G| L; and
-    // the distances from the edges, which are in the root.
+    // Fixed edges: P = (C - κ PV∫ ...)/(π² root). Its terms are of the order of κ |G| L, and the
+    // distances from the edges are in the root.
     let share = |edge: f64| (x.abs() + edge.abs()) / (2.0 * (x - edge).abs());
     let edges = (share(on.left) + share(on.right)) * ROUNDING;
     let rise = on.half_width() / on.chebyshev_weight(x);
@@ -226,7 +227,7 @@ fn floor(reference: &Reference, i: usize, on: Interval<f64>, noise: &Noise) -> f
     rounded + edges + unit * (noise.slope[i] + rise * terms)
 }
 
-/// The error that passes.
+/// Returns the largest error that passes.
 fn allowed(floor: f64) -> f64 {
     WANTED.max(MARGIN * floor)
 }

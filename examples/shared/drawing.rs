@@ -1,6 +1,6 @@
-//! The pictures of the examples: panels of lines, areas and points in one look, as SVG.
+//! The pictures of the examples: panels of lines, areas and points in one style, as SVG.
 //!
-//! A picture goes to `target/figures`, or, if the example is run with `-- --docs`, to `docs/images`.
+//! A picture goes to `target/figures`, or to `docs/images` if the example is run with `-- --docs`.
 #![allow(dead_code, reason = "each example draws with its own part")]
 
 use plotters::coord::Shift;
@@ -11,9 +11,10 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-/// Plotters counts in whole pixels: a picture is drawn ten times as large, and shown at its size.
+/// Magnification: Plotters counts in whole pixels, so a picture is drawn ten times as large and
+/// shown at its size.
 const FINE: i32 = 10;
-/// What a panel needs around its plot, in pixels: left, right, above, below.
+/// Margins of a panel around its plot, in pixels: left, right, above, below.
 const ROOM: [i32; 4] = [60, 16, 34, 42];
 const FONT: i32 = 13;
 
@@ -31,22 +32,23 @@ enum Shape {
     Note { x: f64, y: f64, text: String, color: RGBColor },
 }
 
-/// A diagram with its axes.
+/// Diagram with its axes.
 pub struct Panel {
     title: String,
-    /// Quantity and unit of x and y.
+    /// Quantity and unit of x and of y.
     labels: [String; 2],
     ranges: [[f64; 2]; 2],
-    /// Of the plot, in pixels.
+    /// Width and height of the plot, in pixels.
     size: [i32; 2],
-    /// Whether an axis counts powers of ten.
+    /// True for an axis that shows powers of ten.
     powers: [bool; 2],
     legend: SeriesLabelPosition,
     shapes: Vec<Shape>,
 }
 
 impl Panel {
-    /// A plot of 480 by 240 pixels. Axes by quantity with unit, and range.
+    /// Makes a plot of 480 by 240 pixels. Each axis is given by its quantity with unit, and its
+    /// range.
     pub fn new(title: &str, x: (&str, [f64; 2]), y: (&str, [f64; 2])) -> Self {
         Self {
             title: title.to_owned(),
@@ -64,13 +66,13 @@ impl Panel {
         self
     }
 
-    /// As wide as given and as high as equal scales on both axes make it.
+    /// Sets the width, and the height that gives equal scales on both axes.
     pub fn with_equal_scales(self, width: i32) -> Self {
         let [x, y] = self.ranges.map(|[from, to]| to - from);
         self.size(width, (f64::from(width) * y / x).round() as i32)
     }
 
-    /// Axes that count powers of ten: x and y are logarithms.
+    /// Makes axes show powers of ten: x or y are logarithms.
     pub fn powers(mut self, x: bool, y: bool) -> Self {
         self.powers = [x, y];
         self
@@ -81,7 +83,7 @@ impl Panel {
         self
     }
 
-    /// A line; without a label it is not in the legend.
+    /// Adds a line; without a label it is not in the legend.
     pub fn line(self, points: Points, color: RGBColor, label: &str) -> Self {
         self.with(Shape::Line { points, color, dashed: false, label: label.to_owned() })
     }
@@ -94,12 +96,12 @@ impl Panel {
         self.with(Shape::Dots { points, color, label: label.to_owned() })
     }
 
-    /// What a closed line surrounds.
+    /// Fills the area inside a closed line.
     pub fn area(self, points: Points, color: RGBColor) -> Self {
         self.with(Shape::Area { points, color })
     }
 
-    /// A body: its outline, and all between it and y.
+    /// Adds a body: its outline, and the area between the outline and y.
     pub fn body(self, outline: Points, y: f64, color: RGBColor, label: &str) -> Self {
         let (first, last) = (outline[0].0, outline[outline.len() - 1].0);
         let mut around = outline.clone();
@@ -107,7 +109,7 @@ impl Panel {
         self.area(around, tint(color, 0.18)).line(outline, color, label)
     }
 
-    /// A vertical line with its name on top, as for a limit of the contact.
+    /// Adds a vertical line with its name on top, as for a limit of the contact.
     pub fn limit(self, x: f64, name: &str) -> Self {
         let [from, to] = self.ranges[1];
         let pixel = (to - from) / f64::from(self.size[1]);
@@ -115,12 +117,12 @@ impl Panel {
         self.dashed(line, GRAY, "").note(x, to - 3.0 * pixel, name, BLACK)
     }
 
-    /// A text, centred on x, its top at y.
+    /// Adds a text, centred on x, with its top at y.
     pub fn note(self, x: f64, y: f64, text: &str, color: RGBColor) -> Self {
         self.with(Shape::Note { x, y, text: text.to_owned(), color })
     }
 
-    /// The levels of a function between the lowest and the highest, the higher the darker.
+    /// Fills the levels of a function between the lowest and the highest, darker for higher ones.
     pub fn levels(mut self, function: &Grid, levels: &[f64], color: RGBColor) -> Self {
         for (i, &level) in levels.iter().enumerate() {
             let shade = tint(color, 0.08 + 0.8 * i as f64 / levels.len() as f64);
@@ -136,7 +138,7 @@ impl Panel {
         self
     }
 
-    /// Width and height with all that is around the plot.
+    /// Returns width and height, margins included.
     fn whole(&self) -> [i32; 2] {
         let below = if self.labels[0].is_empty() { 10 } else { ROOM[3] };
         [self.size[0] + ROOM[0] + ROOM[1], self.size[1] + ROOM[2] + below]
@@ -194,7 +196,7 @@ impl Panel {
             match shape {
                 Shape::Line { points, color, dashed, label } => {
                     let style = color.stroke_width(if *dashed { 12 } else { 18 });
-                    // The parts of it that are seen.
+                    // Visible parts of the line.
                     for part in points.split(|point| !inside(point)).filter(|part| part.len() > 1) {
                         if *dashed {
                             let line = DashedLineSeries::new(part.iter().copied(), 70, 50, style);
@@ -255,7 +257,7 @@ impl Panel {
                 .label_font(font(FONT - 1));
             labels.draw()?;
         }
-        // The frame, over what ends at it.
+        // The frame, on top of lines that end at it.
         let [width, height] = self.size.map(|size| FINE * size);
         let corner = (FINE * ROOM[0], FINE * ROOM[2]);
         let (right, bottom) = (corner.0 + width, corner.1 + height);
@@ -265,7 +267,7 @@ impl Panel {
     }
 }
 
-/// Draws panels, one column beside the other, and says where.
+/// Draws panels in columns side by side, and returns a line that names the file.
 pub fn save(name: &str, columns: Vec<Vec<Panel>>) -> Result<String, Box<dyn Error>> {
     let docs = std::env::args().any(|argument| argument == "--docs");
     let folder = if docs { "docs/images" } else { "target/figures" };
@@ -306,12 +308,12 @@ pub fn write(path: &Path, columns: Vec<Vec<Panel>>) -> Result<(), Box<dyn Error>
     Ok(())
 }
 
-/// A colour mixed with white; a share of 1 leaves it as it is.
+/// Mixes a colour with white; a share of 1 leaves it unchanged.
 pub fn tint(color: RGBColor, share: f64) -> RGBColor {
     mix(WHITE, color, share)
 }
 
-/// A colour between two.
+/// Mixes two colours.
 pub fn mix(from: RGBColor, to: RGBColor, share: f64) -> RGBColor {
     let part = |from: u8, to: u8| {
         (f64::from(from) + share * (f64::from(to) - f64::from(from))).round() as u8
@@ -324,7 +326,7 @@ fn anchor() -> plotters::style::text_anchor::Pos {
     Pos::new(HPos::Center, VPos::Top)
 }
 
-/// A number without the noise of its last digits.
+/// Formats a number without the noise of its last digits.
 fn decimal(x: f64) -> String {
     let text = format!("{x:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -345,22 +347,22 @@ fn power(exponent: f64) -> String {
     format!("10{}", format!("{exponent:.0}").chars().map(digit).collect::<String>())
 }
 
-/// A function on a grid.
+/// Function on a grid.
 pub struct Grid {
     x: Vec<f64>,
     y: Vec<f64>,
-    /// By row, one for each y.
+    /// Values by row, one row for each y.
     values: Vec<Vec<f64>>,
 }
 
-/// An edge of the grid: from the node in a column and a row to the next one along x (0) or y (1).
+/// Edge of the grid: from the node in a column and a row to the next one along x (0) or y (1).
 type GridEdge = (usize, usize, usize);
 
 impl Grid {
-    /// Values at equal distances, some many along x and y.
+    /// Evaluates a function at equal distances, with `counts` intervals along x and y.
     ///
     /// # Errors
-    /// Those of the function.
+    /// The errors of the function.
     pub fn new<E>(
         x: [f64; 2],
         y: [f64; 2],
@@ -376,8 +378,8 @@ impl Grid {
         Ok(Self { x, y, values })
     }
 
-    /// Closed lines, with all that is higher than a level on their left (marching squares). Around the
-    /// grid everything is low.
+    /// Returns closed lines that have all values above a level on their left (marching squares).
+    /// Points around the grid count as low.
     fn surrounding(&self, level: f64) -> Vec<Points> {
         let (columns, rows) = (self.x.len(), self.y.len());
         let outside = |i: usize, j: usize| i == 0 || j == 0 || i > columns || j > rows;
@@ -390,8 +392,8 @@ impl Grid {
             let high =
                 [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| value(i, j) > level);
             let edges = [(i, j, 0), (i + 1, j, 1), (i, j + 1, 0), (i, j, 1)];
-            // Anticlockwise around the cell: a line comes in where high turns low, and leaves where,
-            // backwards from there, low has turned high.
+            // Going anticlockwise around the cell, a line enters where high turns low. It leaves at
+            // the nearest edge before that where low turns high.
             for edge in (0..4).filter(|&edge| high[edge] && !high[(edge + 1) % 4]) {
                 let back = (1..4).map(|step| (edge + 4 - step) % 4);
                 let leaves = back.into_iter().find(|&edge| !high[edge] && high[(edge + 1) % 4]);

@@ -1,4 +1,4 @@
-//! Error against work, a diagram for each scene, as SVG.
+//! Diagrams of error against work, one for each scene, as SVG.
 
 use super::drawing::{self, Panel, Points, RGBColor, SeriesLabelPosition};
 use super::methods::{DEFAULT, METHODS};
@@ -15,18 +15,18 @@ const COLORS: [RGBColor; 7] = [
     RGBColor(150, 130, 20),
     RGBColor(122, 63, 160),
 ];
-/// Exponents of the errors drawn; an error of zero is drawn at the least.
+/// Exponents of the errors drawn; an error of zero is drawn at the lowest.
 const EXPONENTS: [f64; 2] = [-17.0, 0.0];
-/// The scenes in the picture of the documentation.
+/// Scenes in the picture of the documentation.
 const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.99", "gear teeth"]];
 
-/// Draws some scenes into one picture, by evaluations, and says where.
+/// Draws some scenes into one picture, by evaluations, and returns a line that names the file.
 pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
     let columns = SHOWN.map(|pair| pair.map(|scene| diagram(rows, scene, WORK[0])).into());
     drawing::save("speed_vs_error", columns.into())
 }
 
-/// Draws each scene by evaluations and by time into a folder, and says how many there are.
+/// Draws each scene by evaluations and by time into a folder, and returns the number of scenes.
 pub fn all(rows: &[Row], folder: &Path) -> Result<usize, Box<dyn Error>> {
     let scenes = scenes(rows);
     for (i, scene) in scenes.iter().enumerate() {
@@ -36,7 +36,7 @@ pub fn all(rows: &[Row], folder: &Path) -> Result<usize, Box<dyn Error>> {
     Ok(scenes.len())
 }
 
-/// A kind of work: its name, and how much of it a row has taken.
+/// Kind of work: its name, and its amount for a row.
 type Work = (&'static str, fn(&Row) -> Option<f64>);
 const WORK: [Work; 2] = [
     ("evaluations of the curves", |row| row.outcome.map(|outcome| outcome.cost.evaluations as f64)),

@@ -1,5 +1,5 @@
-//! Speed against error: what each method takes, in evaluations of the curves and in time, for
-//! limits and pressures that are known to 15 digits.
+//! Speed against error: the evaluations of the curves and the time of each method, for limits and
+//! pressures that are known to 15 digits.
 //!
 //! ```sh
 //! cargo run --release --example speed_vs_error              # two minutes at most
@@ -7,24 +7,25 @@
 //! cargo run --release --example speed_vs_error -- --update  # keeps those of this run
 //! ```
 //!
-//! Thirteen contacts, each by the panels on a ladder of tolerances, by the paper's rule on a
-//! ladder of N (its ET = 0, 1, 2 with its powers of the segment width; the right powers, up to ET
-//! = 4; and ET = 2 with the paper's Eq. (6) for the limits, one segment inside), and with each
-//! search in each of its two places (`methods.rs`).
+//! Thirteen contacts are solved by the panels on a ladder of tolerances, by the paper's rule on a
+//! ladder of N, and with each search in each of its two places (`methods.rs`). The paper's rule is
+//! tried with ET = 0, 1, 2 and its own powers of the segment width; with the right powers, up to ET
+//! = 4; and with ET = 2 and the paper's Eq. (6) for the limits, one segment inside.
 //!
-//! `Midpoint` leaves the search for free edges to adaptive integrals of full accuracy, which take
-//! most of the evaluations at small N; the column `for_limits` tells them apart. Evaluations for the heights of
-//! the bodies are in a column of their own.
+//! For free edges `Midpoint` leaves the search to adaptive integrals of full accuracy. They take
+//! most of the evaluations at small N; the column `for_limits` shows them. Evaluations for the
+//! heights of the bodies have a column of their own.
 //!
-//! A solve starts from the bodies and ends with the pressure at 101 equidistant points: for this
-//! the samples of the slope, the evaluations of the curves and the time are taken. Errors are
-//! relative: of a, of b, and the largest of P, inside (at those 101 points if P has a closed form,
-//! else at the points of the reference file that are no closer to an edge) and at a millionth of
-//! the half-width from an edge, where rounding of x alone makes some 1e-10.
+//! A solve starts from the bodies and ends with the pressure at 101 equidistant points; samples of
+//! the slope, evaluations of the curves and time are measured for all of it. Errors are relative:
+//! of a, of b, and the largest of P. The error of P is taken inside (at those 101 points if P has a
+//! closed form, else at the points of the reference file that are no closer to an edge), and at a
+//! millionth of the half-width from an edge, where the rounding of x alone causes some 1e-10.
 //!
 //! Everything goes to `target/speed_vs_error`: `measured.tsv`, and for each contact its diagrams of
-//! evaluations and of time; some of them to `target/figures/speed_vs_error.svg`. What does not depend on the machine is kept in
-//! `tests/data/speed_vs_error.tsv`, and compared by `--check`.
+//! evaluations and of time. Some of them go to `target/figures/speed_vs_error.svg`. The results
+//! that do not depend on the machine are kept in `tests/data/speed_vs_error.tsv`, and compared by
+//! `--check`.
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
@@ -83,7 +84,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Solves everything every way.
+/// Solves every scene in every way.
 fn rows(timed: bool) -> Vec<Row> {
     let (scenes, start, mut rows) = (scenes::all(), Instant::now(), Vec::new());
     for (i, scene) in scenes.iter().enumerate() {
@@ -91,7 +92,7 @@ fn rows(timed: bool) -> Vec<Row> {
         let count = ways.len();
         for (j, way) in ways.into_iter().enumerate() {
             let (number, of, seconds) = (i + 1, scenes.len(), start.elapsed().as_secs());
-            // A line that changes on a terminal; in a log one for each scene.
+            // On a terminal one line that changes; in a log one line per scene.
             if std::io::stderr().is_terminal() {
                 eprint!("\r\x1b[K{seconds:3} s  {number}/{of} {}  {}/{count}", scene.name, j + 1);
                 let _ = std::io::stderr().flush();
@@ -107,8 +108,8 @@ fn rows(timed: bool) -> Vec<Row> {
     rows
 }
 
-/// The default integrator at its default tolerance is as good as the data allow; a search of one limit
-/// at a time may stop a few units in the last place earlier.
+/// Checks that the default integrator at its default tolerance is as exact as the data allow; a
+/// search of one limit at a time may stop a few units in the last place earlier.
 fn check_default(rows: &[Row]) {
     for scene in scenes::all() {
         for row in rows.iter().filter(|row| row.scene == scene.name && row.setting == "tol=full") {
@@ -119,7 +120,7 @@ fn check_default(rows: &[Row]) {
     }
 }
 
-/// Where the pressures compared with are from.
+/// Lists the sources of the exact pressures.
 fn sources() -> String {
     let scenes = scenes::all();
     let of = |source: &str| {
@@ -135,7 +136,7 @@ fn text(rows: &[Row], heading: &str, line: impl Fn(&Row) -> String) -> String {
     format!("{heading}\n{}\n", lines.join("\n"))
 }
 
-/// The processor, as far as the system tells.
+/// Returns the name of the processor, if the system has it.
 fn machine() -> String {
     let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let named = info.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));

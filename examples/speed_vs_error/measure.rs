@@ -1,4 +1,4 @@
-//! One contact, solved one way: what it costs, and how far off it is.
+//! Cost and errors of one contact, solved in one way.
 
 use super::common::NanSafe;
 use super::methods::{self, Way};
@@ -7,20 +7,20 @@ use linecontact::{Contact, ContactError, Cost, Solution};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Counts and errors.
+/// Cost and errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
     pub cost: Cost,
-    /// The evaluations of the curves that finding the limits has taken.
+    /// Evaluations of the curves for the limits alone.
     pub for_limits: usize,
     /// Relative errors of a and of b.
     pub limits: [f64; 2],
-    /// The largest relative errors of P, inside and next to an edge.
+    /// Largest relative errors of P, inside and next to an edge.
     pub pressure: [f64; 2],
 }
 
 impl Outcome {
-    /// The largest error of what is asked for: both limits and the pressure inside.
+    /// Returns the largest error of the two limits and the pressure inside.
     pub fn error(&self) -> f64 {
         self.limits.into_iter().fold(self.pressure[0], NanSafe::nan_max)
     }
@@ -40,7 +40,7 @@ fn contact<'a>(scene: &'a Scene, way: &'a Way) -> Result<Contact<'a, f64>, Conta
     Ok(contact)
 }
 
-/// Counts what the limits and the pressure at 101 points take, and compares.
+/// Counts the work for the limits and the pressure at 101 points, and compares the results.
 pub fn outcome(scene: &Scene, way: &Way) -> Result<Outcome, ContactError<f64>> {
     let contact = contact(scene, way)?;
     let solution = contact.solve(scene.load())?;
@@ -53,7 +53,7 @@ pub fn outcome(scene: &Scene, way: &Way) -> Result<Outcome, ContactError<f64>> {
     let largest = |points: &[[f64; 2]]| -> Result<f64, ContactError<f64>> {
         let mut largest = 0.0;
         for &[x, exact] in points {
-            // Doubtful or not.
+            // Taken even if doubtful.
             let error = (pressure.estimate(x, &mut Cost::default())?.value / exact - 1.0).abs();
             largest = if error > largest || error.is_nan() { error } else { largest };
         }
@@ -68,8 +68,8 @@ fn of_limits(scene: &Scene, solution: &Solution<f64>) -> [f64; 2] {
     [got.right / want.right - 1.0, got.left / want.left - 1.0].map(f64::abs)
 }
 
-/// Microseconds of a solve from the bodies on, with the pressure at 101 points: the least of five
-/// batches, of one where a solve takes long.
+/// Measures the microseconds of a solve from the bodies on, with the pressure at 101 points: the
+/// least of five batches, or of one if a solve takes long.
 pub fn micros(scene: &Scene, way: &Way) -> Result<f64, ContactError<f64>> {
     let (x, mut p) = (scene.grid(), [0.0; 101]);
     let mut solve = || -> Result<(), ContactError<f64>> {

@@ -1,7 +1,7 @@
-//! What is tried on each contact: quadratures on a ladder of settings, and searches.
+//! The methods tried on each contact: quadratures on a ladder of settings, and searches.
 //!
-//! Not every quadrature with every search: the quadratures with the default searches, and the
-//! searches, one at a time, with the default quadrature. The paper's rule inverts the curves at
+//! Not every quadrature is tried with every search: the quadratures have the default searches, and
+//! the searches, one at a time, have the default quadrature. The paper's rule inverts the curves at
 //! each of its points, so the searches that invert are tried with it, too.
 
 use super::scenes::Scene;
@@ -9,7 +9,7 @@ use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
 use linecontact::{EdgePressure, Exponents, Interval, Midpoint, Panels};
 
-/// The quadratures, as they are named everywhere.
+/// Names of the quadratures.
 pub const PANELS: &str = "panels";
 pub const METHODS: [&str; 7] = [
     PANELS,
@@ -21,11 +21,11 @@ pub const METHODS: [&str; 7] = [
     "paper ET=2, Eq. (6)",
 ];
 
-/// What stands for a search that is not set.
+/// Name that stands for a search that is not set.
 pub const DEFAULT: &str = "default";
 pub const SEARCHES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
 
-/// A search by its name; the default has none.
+/// Returns a search by its name; none for the default.
 pub fn search(name: &str) -> Option<&'static dyn LimitSearch<f64>> {
     use linecontact::search::StoppingCriteria;
     const FULL: StoppingCriteria = StoppingCriteria::FULL;
@@ -38,14 +38,14 @@ pub fn search(name: &str) -> Option<&'static dyn LimitSearch<f64>> {
     })
 }
 
-/// A way to solve a contact.
+/// Way to solve a contact.
 pub struct Way {
     pub method: &'static str,
     pub setting: String,
     pub inversion: &'static str,
     pub limits: &'static str,
     pub quadrature: Box<dyn Quadrature<f64>>,
-    /// The paper's condition for the limits, in place of free edges.
+    /// Condition of the paper for the limits, in place of free edges.
     pub edge_pressure: Option<EdgePressure<f64>>,
 }
 
@@ -63,9 +63,9 @@ fn midpoint(method: &'static str, rule: Midpoint) -> Way {
     Way { method, setting, inversion, limits, quadrature: Box::new(rule), edge_pressure }
 }
 
-/// All ways to solve this contact.
+/// Returns all ways to solve this contact.
 pub fn all(scene: &Scene) -> Vec<Way> {
-    // What is right depends on how the slope of the gap times the root ends.
+    // The right exponents depend on how the slope of the gap times the root ends.
     let right = if scene.fixed { Exponents::Even } else { Exponents::HalfInteger };
     let mut ways: Vec<Way> = [1e-3, 1e-6, 1e-9, 1e-12, 0.0].map(panels).into();
     for (method, extrapolations, exponents) in [
@@ -91,7 +91,7 @@ pub fn all(scene: &Scene) -> Vec<Way> {
         return ways;
     }
     for segments in [64, 256, 1024] {
-        // The condition is put one segment inside, as close as the rule allows.
+        // The condition holds one segment inside, as close to the edge as the rule allows.
         let Interval { left, right } = scene.limits;
         let distance = (right - left) / segments as f64;
         let zero = EdgePressure::zero(distance, 1e-6 * scene.mean_pressure());

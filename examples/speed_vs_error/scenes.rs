@@ -1,4 +1,4 @@
-//! The contacts, and what is known of them.
+//! The contacts, with their known solutions.
 
 use super::common::{self, Profile, paper, reference};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
@@ -11,24 +11,24 @@ pub struct Scene {
     pub upper: Profile,
     kappa: f64,
     c: f64,
-    /// Whether the limits are given.
+    /// True if the limits are given.
     pub fixed: bool,
     pub limits: Interval<f64>,
-    /// x and P(x), no closer to an edge than the outermost of 101 equidistant points.
+    /// Pairs of x and P(x), no closer to an edge than the outermost of 101 equidistant points.
     pub inside: Vec<[f64; 2]>,
-    /// The same at about a millionth of the half-width from an edge.
+    /// Pairs of x and P(x) at about a millionth of the half-width from an edge.
     pub edge: Vec<[f64; 2]>,
-    /// Where P(x) is from.
+    /// Source of P(x).
     pub source: &'static str,
-    /// What the default is held to for the limits and for the pressure inside: 1e-12, or more
-    /// where the data do not allow that.
+    /// Largest error of the default that passes, for the limits and the pressure inside: 1e-12, or
+    /// more if the data do not allow that.
     pub allowed: f64,
 }
 
 pub const CLOSED_FORM: &str = "101 points, closed form";
 pub const FILE: &str = "points of the reference file";
 
-/// The outermost of 101 equidistant points, in half-widths from the centre.
+/// Place of the outermost of 101 equidistant points, in half-widths from the centre.
 const OUTERMOST: f64 = 100.0 / 102.0;
 
 impl Scene {
@@ -50,13 +50,13 @@ impl Scene {
         self.c / PI / (self.limits.right - self.limits.left)
     }
 
-    /// 101 equidistant points.
+    /// Returns 101 equidistant points.
     pub fn grid(&self) -> [f64; 101] {
         let (c, half) = (self.limits.centre(), self.limits.half_width());
         std::array::from_fn(|i| c + half * (-1.0 + 2.0 * (i + 1) as f64 / 102.0))
     }
 
-    /// A scene whose pressure has a closed form.
+    /// Makes a scene whose pressure has a closed form.
     fn exact(
         name: &'static str,
         [lower, upper]: [Profile; 2],
@@ -75,7 +75,7 @@ impl Scene {
         scene
     }
 
-    /// A scene with a reference file.
+    /// Makes a scene from a reference file.
     fn of_file(name: &'static str, file: &str, [lower, upper]: [Profile; 2]) -> Self {
         let want = reference(file);
         let limits = Interval { left: -want.b, right: want.a };
@@ -84,7 +84,7 @@ impl Scene {
         let inside = finite.clone().filter(|&[x, _]| near(x) <= OUTERMOST).collect();
         let edge = finite.filter(|&[x, _]| near(x) > 1.0 - 1e-5).collect();
         let (kappa, c) = (want.kappa, want.c);
-        // Of the rounding of data and limits the pressure makes this much.
+        // Effect of the rounding of data and limits on the pressure.
         let weighed = want.points.iter().zip(&want.amplification);
         let magnified = weighed.filter(|([x, _], _)| near(*x) <= OUTERMOST).map(|(_, &by)| by);
         let allowed = 10.0 * f64::EPSILON * magnified.fold(0.0, f64::max);
@@ -93,7 +93,7 @@ impl Scene {
     }
 }
 
-/// All of them.
+/// Returns all scenes.
 pub fn all() -> Vec<Scene> {
     let of = |paper::Example { lower, upper, .. }| [lower, upper];
     let printed = |name, file, example| Scene::of_file(name, file, of(example));
@@ -111,7 +111,7 @@ pub fn all() -> Vec<Scene> {
             load_1,
             [-1.0, 1.0],
             |x| match common::example_1_exact(x) {
-                // Zero, of which nothing is a share.
+                // A pressure of zero has no relative error.
                 0.0 => f64::NAN,
                 p => p,
             },
@@ -121,7 +121,7 @@ pub fn all() -> Vec<Scene> {
         Scene { fixed: true, ..one },
         two,
         printed("Example 3", "paper_example_3_scale_one", paper::three()),
-        // The formulas of these two have a noise of 6e-13 and 1e-13 of the slope.
+        // The formulas of these two examples have a noise of 6e-13 and 1e-13 of the slope.
         Scene {
             allowed: 1e-11,
             ..printed("Example 4", "paper_example_4_scale_one", paper::four())
@@ -143,13 +143,13 @@ pub fn all() -> Vec<Scene> {
     scenes
 }
 
-/// A circle of radius 1 on a flat.
+/// Makes a circle of radius 1 on a flat.
 ///
-/// `P = (1/π) ∫ F'(l)/sqrt(l² - x²) dl` from |x| to L, of positive terms, where F is the load that
-/// makes the half-width l: `F' = (2/π) l E(l)/(1 - l²)`, E the complete elliptic integral.
+/// `P = (1/π) ∫ F'(l)/sqrt(l² - x²) dl` from |x| to L, with positive terms only. F is the load for
+/// the half-width l: `F' = (2/π) l E(l)/(1 - l²)`, E the complete elliptic integral.
 fn circle(name: &'static str, half_width: f64) -> Scene {
     let share = |l: f64| {
-        // A periodic function: equal steps converge like a geometric series.
+        // The integrand is periodic: equal steps converge like a geometric series.
         let sines = (0..256).map(|i| (PI * (f64::from(i) + 0.5) / 256.0).sin());
         let mean = sines.map(|s| (1.0 - (l * s).powi(2)).sqrt()).sum::<f64>() / 256.0;
         mean / ((1.0 - l) * (1.0 + l))
@@ -169,7 +169,7 @@ fn circle(name: &'static str, half_width: f64) -> Scene {
     Scene::exact(name, bodies, (1.0, c), [-half_width, half_width], pressure)
 }
 
-/// An integral from 0 to 1, by the doubly exponential rule.
+/// Integrates from 0 to 1 by the doubly exponential rule.
 fn integral(f: impl Fn(f64) -> f64) -> f64 {
     const STEP: f64 = 1.0 / 32.0;
     let nodes = (-112..=112).map(|i| {
@@ -180,8 +180,8 @@ fn integral(f: impl Fn(f64) -> f64) -> f64 {
     STEP * nodes.sum::<f64>()
 }
 
-/// Of the kernel Λ that makes the pressure from the derivative of the slope, the jump by 2 at 0
-/// is left: `P = (2/π²) Λ(x, 0)`.
+/// Makes a wedge. The pressure is the integral of a kernel Λ times the derivative of the slope;
+/// here only the jump by 2 at 0 remains: `P = (2/π²) Λ(x, 0)`.
 fn wedge() -> Scene {
     let want = reference("tilted_wedge");
     let (a, b) = (want.a, want.b);

@@ -1,20 +1,21 @@
-//! Who needs the fewest evaluations for an error, and by how much the next one needs more.
+//! The method with the fewest evaluations for an error, and the factor by which the next one needs
+//! more.
 
 use super::methods::{DEFAULT, METHODS, PANELS, SEARCHES};
 use super::table::Row;
 
 const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
-/// The fewest evaluations with which some of the rows reach an error.
+/// Returns the fewest evaluations with which some of the rows reach an error.
 fn fewest<'r>(rows: impl Iterator<Item = &'r Row>, target: f64) -> Option<f64> {
     let reached = rows.filter_map(|row| row.outcome).filter(|outcome| outcome.error() <= target);
     reached.map(|outcome| outcome.cost.evaluations.max(1) as f64).min_by(f64::total_cmp)
 }
 
-/// Evaluations of each competitor, `None` where it does not get there, on each scene.
+/// Evaluations of each competitor on each scene; `None` if it does not reach the error.
 struct Race {
     names: Vec<&'static str>,
-    /// By scene and competitor.
+    /// Evaluations by scene and competitor.
     evaluations: Vec<Vec<Option<f64>>>,
 }
 
@@ -34,7 +35,7 @@ impl Race {
         Self { names: names.to_vec(), evaluations: evaluations.collect() }
     }
 
-    /// "panels 18, 14 x paper ET=2": first and second on a scene.
+    /// Names the first and the second on a scene: "panels 18, 14 x paper ET=2".
     fn on_scene(&self, scene: usize) -> String {
         let count = |i: usize| self.evaluations[scene][i];
         let mut order: Vec<usize> = (0..self.names.len()).filter(|&i| count(i).is_some()).collect();
@@ -50,8 +51,9 @@ impl Race {
         }
     }
 
-    /// First the one that gets there on the most scenes with, as a geometric mean, the fewest
-    /// evaluations. With each other one the factor on the scenes on which both do.
+    /// Names first the competitor that reaches the error on the most scenes, and among equals the
+    /// one with the fewest evaluations (geometric mean). Each other competitor has a factor over
+    /// the scenes that both reach.
     fn overall(&self) -> String {
         let mean = |pairs: &dyn Fn(&Vec<Option<f64>>) -> Option<f64>| {
             let logarithms: Vec<f64> =
@@ -85,7 +87,7 @@ fn factor(times: f64) -> String {
     if times < 10.0 { format!("{times:.2}") } else { format!("{times:.0}") }
 }
 
-/// The whole summary.
+/// Writes the whole summary.
 pub fn summary(rows: &[Row]) -> String {
     let mut scenes: Vec<&str> = rows.iter().map(|row| row.scene).collect();
     scenes.dedup();
@@ -134,11 +136,12 @@ pub fn summary(rows: &[Row]) -> String {
                 } else {
                     [row.inversion, row.limits]
                 };
-                // The searches have been tried on three rungs of the ladder, and so counts the default.
+                // The searches are tried on three rungs of the ladder, so the default counts on
+                // these alone.
                 let rung = !["tol=1e-9", "tol=1e-12"].contains(&&*row.setting);
                 row.method == method && this == name && other == DEFAULT && rung
             });
-            // At the noise of the formulas it is luck who gets there: only where all do.
+            // At the noise of the formulas success is luck: only scenes that all reach count.
             race.evaluations.retain(|scene| scene.iter().all(Option::is_some));
             text += &format!("  {target:.0e}  {}\n", race.overall());
         }

@@ -5,14 +5,14 @@ use super::measure::Outcome;
 use super::methods::Way;
 use super::scenes::Scene;
 
-/// A line of the table.
+/// Line of the table.
 pub struct Row {
     pub scene: &'static str,
     pub method: &'static str,
     pub setting: String,
     pub inversion: &'static str,
     pub limits: &'static str,
-    /// `None` where the solve ended in an error.
+    /// Outcome; `None` if the solve ended in an error.
     pub outcome: Option<Outcome>,
     pub micros: Option<f64>,
 }
@@ -26,7 +26,7 @@ impl Row {
         Self { scene: scene.name, method, setting, inversion, limits, outcome, micros }
     }
 
-    /// Without the time, errors to one digit.
+    /// Writes the line without the time, with errors to one digit.
     pub fn line(&self) -> String {
         let Self { scene, method, setting, inversion, limits, .. } = self;
         let results = self.outcome.map_or(["-"; 8].join("\t"), |outcome| {
@@ -42,7 +42,7 @@ impl Row {
     }
 }
 
-/// What is wrong with the lines as compared with those kept.
+/// Lists the differences between the lines and those kept.
 pub fn differences(kept: &str, rows: &[Row]) -> Vec<String> {
     let mut wrong = Vec::new();
     let kept: Vec<&str> = kept.lines().skip(1).collect();
