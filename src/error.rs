@@ -336,8 +336,8 @@ pub enum ContactError<T: Real> {
     /// The body lifts off at a fixed edge: the singularity of the pressure there is negative, or
     /// the contact ends before the corner.
     #[error(
-        "the contact is said to end at the corner x = {x}, but under the load {load} the body lifts off there (the \
-         strength of the singularity is {strength}): use Edge::FreeUntil, for a corner that is free until it is reached",
+        "the edge Fixed({x}) would be in tension under the load {load} (K = {strength}): the contact does not reach this \
+         corner; use Edge::FreeUntil({x}), for a corner that is free until it is reached",
         x = six(*x), strength = six(*strength), load = six(*load)
     )]
     LiftsOff {
@@ -416,7 +416,7 @@ pub enum ContactError<T: Real> {
     },
     /// The tolerance of the panels is negative, one or more, or NaN.
     #[error(
-        "{tolerance} is no tolerance: give a number below 1, and not negative; a table needs one above 0",
+        "tolerance {tolerance} is out of range: use 0 <= tolerance < 1 (SpringTable: > 0)",
         tolerance = six(*tolerance)
     )]
     InvalidTolerance {

@@ -288,7 +288,7 @@ pub enum SearchError<T: Real> {
         residual: T,
     },
     /// A tolerance is negative, NaN or infinite.
-    #[error("{} is no tolerance: give a finite number that is not negative", six(*value))]
+    #[error("tolerance {} is out of range: use a finite number >= 0", six(*value))]
     Tolerance {
         /// The tolerance as given.
         value: f64,

@@ -256,7 +256,7 @@ pub enum PiecewiseError<T: Real> {
         source: ProfileError<T>,
     },
     /// The tolerance is negative, NaN or infinite.
-    #[error("{} is no tolerance: give a finite number that is not negative", six(*tolerance))]
+    #[error("tolerance {} is out of range: use a finite number >= 0", six(*tolerance))]
     Tolerance {
         /// The tolerance as given.
         tolerance: T,

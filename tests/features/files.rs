@@ -135,7 +135,7 @@ fn bad_bodies_are_refused_as_by_their_constructors() {
         (placed("[[1.0, 0.0], [0.0, 1.0]]", "[0.0, null]"), "null"),
         (joined("", 0.0), "at least one piece"),
         (joined(&format!("{left}, {right}"), 1e-12), "gap of 0.5 between pieces 0 and 1"),
-        (joined(&left, -1.0), "-1 is no tolerance"),
+        (joined(&left, -1.0), "tolerance -1 is out of range"),
         (joined(&format!("{left}, {backwards}"), 1e-12), "k cannot run from 1 to 0:"),
     ];
     for (message, expected) in said {

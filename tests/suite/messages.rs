@@ -116,7 +116,7 @@ fn contact_errors() -> Vec<(E<f64>, &'static [&'static str], ErrorKind)> {
         (E::FeatureMissed { x: 1.5, slope: 2.5, assumed: 3.5 }, &["x = 1.5 is 2.5"], Solve),
         (E::Unbalanced { x: 1.5, strength: 2.5, allowed: 3.5 }, &["within 3.5"], Solve),
         (E::Undecided { x: 1.5, evaluations: 46, samples: 47 }, &["46 evaluations"], Solve),
-        (E::InvalidTolerance { tolerance: -6.5 }, &["-6.5", "below 1"], Input),
+        (E::InvalidTolerance { tolerance: -6.5 }, &["-6.5", "tolerance < 1"], Input),
         (E::InvalidAdhesion { work: -5.5 }, &["-5.5", "not negative"], Input),
         (E::BothLimitsGiven { interval: ON }, &["-b = -11.5", "the load must be given"], Input),
         (E::InvalidMoment { value: f64::INFINITY }, &["inf", "finite"], Input),
@@ -253,7 +253,7 @@ fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
         assert_eq!(error.kind(), Solve, "{error}");
     }
     let lifts = E::LiftsOff { x: 2.5, strength: -3.5, interval, load }.to_string();
-    let words = ["x = 2.5", "-3.5", "the load 1.5", "FreeUntil"];
+    let words = ["Fixed(2.5)", "-3.5", "the load 1.5", "FreeUntil(2.5)"];
     assert!(words.iter().all(|word| lifts.contains(word)), "{lifts}");
 }
 
@@ -354,7 +354,7 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
             SearchError::NotConverged { x: 1.5, residual: 2.5 },
             "still 2.5: tighten the tolerance, if one was set, or write",
         ),
-        (SearchError::Tolerance { value: -1.5 }, "-1.5 is no tolerance"),
+        (SearchError::Tolerance { value: -1.5 }, "tolerance -1.5 is out of range"),
     ] {
         assert_says(&error, &[words]);
     }

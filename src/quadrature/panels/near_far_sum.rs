@@ -77,8 +77,8 @@ impl<T: Real> NearFarSum<T> {
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
-    /// Lists the nodes of all panels with the slope there times the weight; `None` for a point, given
-    /// by its distances from others, that is near to a panel.
+    /// Lists the nodes of all panels with the slope there times the weight; `None` for a point,
+    /// given by its distances from others, that is near to a panel.
     pub fn nodes_seen_from(&self, distance: impl Fn(T) -> T) -> Option<Vec<[T; 2]>> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for part in &self.parts {
