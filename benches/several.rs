@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo bench --bench several                      # the table, tab-separated
 //! cargo bench --bench several -- repeat ten cold 100   # only this, 100 times: for instructions.sh
+//! cargo bench --bench several -- many             # contacts against time: docs/several_contacts.md
 //! cargo bench --bench several -- heights CELLS     # the profile, for benches/rivals/bem_rough.py
 //! ```
 //!
@@ -133,6 +134,57 @@ fn solves(name: &str, visit: &mut Visit<'_>) {
     });
 }
 
+/// Scenes with more and more contacts: points of a parabola through which a spline runs, standard
+/// deviation of their independent noise as a share of the load, and load.
+const MANY: [(usize, f64, f64); 7] = [
+    (1500, 0.02, 2.5e-3),
+    (2000, 0.06, 8e-3),
+    (1700, 0.03, 2e-2),
+    (3000, 0.03, 2e-2),
+    (4300, 0.03, 2e-2),
+    (6000, 0.03, 2e-2),
+    (4800, 0.03, 9e-2),
+];
+
+/// Returns a spline through points of a parabola with independent noise.
+fn noisy(count: usize, deviation: f64) -> Spline<f64> {
+    let mut state = 1u64;
+    let mut uniform = || {
+        // Knuth's linear congruential generator; its upper bits are random enough.
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1u64 << 31) as f64
+    };
+    let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+    let point = |i: usize| {
+        let x = 2.0 * i as f64 / (count - 1) as f64 - 1.0;
+        [x, 0.5 * x * x + deviation * normal()]
+    };
+    let points: Vec<[f64; 2]> = (0..count).map(point).collect();
+    Spline::through(&points).expect("the points are in order")
+}
+
+/// Prints contacts, milliseconds of a first solve and of the next, 2 % heavier, each done once, and
+/// the sets of contacts tried.
+fn many() {
+    println!("|points|contacts|first solve, ms|sets tried|next load, ms|sets tried|");
+    println!("|---|---|---|---|---|---|");
+    for (count, noise, load) in MANY {
+        let body = noisy(count, noise * load);
+        let contact = Contact::new(&Flat, &body).expect("they overlap");
+        let (mut solver, mut contacts) = (Solver::new(), 0);
+        let row = [1.0, 1.02].map(|factor| {
+            let start = std::time::Instant::now();
+            let solution = solver.solve(&contact, Control::Load(factor * load));
+            let millis = 1e3 * start.elapsed().as_secs_f64();
+            let Ok(solution) = solution else { return format!("{millis:.0}|refused") };
+            contacts = contacts.max(solution.intervals().len());
+            format!("{millis:.0}|{}", solution.report().attempts().len())
+        });
+        println!("|{count}|{contacts}|{}|", row.join("|"));
+    }
+}
+
 /// Prints a problem for boundary elements: κ, F, the ends and the heights at the middles of `cells`
 /// cells.
 fn heights(cells: u32) {
@@ -154,6 +206,7 @@ pub(crate) fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
+        ["many"] => many(),
         ["heights", cells] => heights(cells.parse().expect("a number")),
         ["repeat", name, way, times] => solves(name, &mut |found, call| {
             if found == way {
@@ -176,6 +229,6 @@ pub(crate) fn main() {
                 });
             }
         }
-        _ => panic!("nothing, `heights CELLS`, or `repeat SCENE WAY TIMES`"),
+        _ => panic!("nothing, `many`, `heights CELLS`, or `repeat SCENE WAY TIMES`"),
     }
 }

@@ -118,7 +118,7 @@ fn instructions_are_those_kept() {
         let thousands = |&column: &usize| match cells[column].parse::<f64>().unwrap() / 1e3 {
             count if count < 10.0 => format!("{count:.1}"),
             count if count < 1e3 => format!("{count:.0}"),
-            count => format!("{:.0} {:03.0}", (count / 1e3).floor(), count % 1e3),
+            count => grouped(count.round() as u64),
         };
         columns.iter().map(thousands).collect::<Vec<_>>()
     };
@@ -128,6 +128,23 @@ fn instructions_are_those_kept() {
             format!("|`{scalar}`|{}|", counts(&[scalar, "1", ""], &[2, 3, 4, 7, 8, 9]).join("|"));
         assert!(text.contains(&row), "{row}");
     }
+    let several = include_str!("../../docs/several_contacts.md");
+    for (scene, name, contacts) in [
+        ("word", "circle, convexity declared", 1),
+        ("one", "circle, convexity unknown", 1),
+        ("two", "quartic", 2),
+        ("ten", "polynomial map", 10),
+        ("rough", "measured profile", 86),
+    ] {
+        let row = format!("|{name}|{contacts}|{}|", counts(&[scene, ""], &[1, 2]).join("|"));
+        assert!(several.contains(&row), "{row}");
+    }
     let unknown = format!("(of unknown shape: {} for", counts(&["one", ""], &[1, 2]).join(" and "));
     assert!(text.contains(&unknown), "{unknown}");
+}
+
+/// Groups the digits of a number by thousands.
+fn grouped(count: u64) -> String {
+    let rest = |before: u64| format!("{} {:03}", grouped(before), count % 1000);
+    if count < 1000 { count.to_string() } else { rest(count / 1000) }
 }

@@ -83,7 +83,7 @@ impl<T: Real> NearFarSum<T> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for part in &self.parts {
             let [from, to] = part.panel.x;
-            if distance(from) + distance(to) <= part.around() {
+            if distance(from) + distance(to) <= part.reach * (to - from) {
                 return None;
             }
             let own = &self.nodes[part.nodes.clone()];
@@ -99,16 +99,14 @@ impl<T: Real> NearFarSum<T> {
 
     /// Shows the panels and groups seen from a point of the surface, from left to right.
     pub fn seen_from(&self, x: T, show: impl FnMut(Distance<'_, T>)) {
-        self.seen_at(|from, to| (x - from).abs() + (x - to).abs(), show);
+        self.show(|group| group.is_near(x), show);
     }
 
-    /// Shows the panels and groups seen from any point, given the sum of its distances from two
-    /// others.
-    fn seen_at(&self, distances: impl Fn(T, T) -> T, mut show: impl FnMut(Distance<'_, T>)) {
+    /// Shows the parts of groups that are near, and the other groups, from left to right.
+    fn show(&self, is_near: impl Fn(&Group<T>) -> bool, mut show: impl FnMut(Distance<'_, T>)) {
         let mut number = 0;
         while let Some(group) = self.groups.get(number) {
-            let [from, to] = group.ends();
-            if distances(from, to) >= group.around {
+            if !is_near(group) {
                 show(Distance::Group(group));
                 number = group.next;
                 continue;
@@ -197,19 +195,22 @@ impl<T: Real> NearFarSum<T> {
         let zero = Complex::new(T::zero(), T::zero());
         let (by_width, mut sum) = (T::one() / width, [zero; 2]);
         let mut add = |term: WithDerivative<T>| sum = [0, 1].map(|j| sum[j] + term[j]);
-        self.seen_at(
-            |from, to| (length(place(from)) + length(place(to))) * width,
+        // No part reaches further than a group does.
+        let reaches = |[from, to]: [T; 2], reach: T| {
+            (length(place(from)) + length(place(to))) * width <= reach * (to - from)
+        };
+        self.show(
+            |group| reaches(group.ends(), T::of(REACH_IN_PLANE)),
             |seen| match seen {
                 Distance::Group(group) => {
                     add(pulls(place(group.ends()[0]), group.charges(), by_width));
                 }
                 Distance::FarPanel(_, part) => {
-                    let [from, to] = part.panel.x.map(place);
-                    if (length(from) + length(to)) * width > part.around() {
-                        let nodes = self.nodes[part.nodes.clone()].iter().copied();
-                        add(pulls(from, nodes, by_width));
-                    } else {
+                    if reaches(part.panel.x, part.reach) {
                         add(part.below(place, on, width));
+                    } else {
+                        let nodes = self.nodes[part.nodes.clone()].iter().copied();
+                        add(pulls(place(part.panel.x[0]), nodes, by_width));
                     }
                 }
             },
@@ -297,11 +298,13 @@ impl<T: Real> FarPanel<T> {
         Self { panel, breakpoint, integrals, reach, nodes: start..nodes.len() }
     }
 
-    /// Returns the sum of the distances from both ends up to which the polynomial is used.
-    pub fn around(&self) -> T {
+    /// Returns the span of the surface on which the polynomial is used.
+    pub fn reached(&self) -> [T; 2] {
+        let [from, to] = self.panel.x;
         // Without nodes the polynomial is used everywhere, however x is rounded.
         let reach = if self.nodes.is_empty() { self.reach + self.reach } else { self.reach };
-        (reach + reach) * self.panel.half()
+        let beyond = (reach - T::one()) * self.panel.half();
+        [from - beyond, to + beyond]
     }
 
     /// Returns `∫ q dθ` and the polynomial at a place near the panel; from far off, the whole

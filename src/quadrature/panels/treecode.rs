@@ -29,8 +29,8 @@ const FEW: usize = 8;
 pub(super) struct Group<T> {
     /// Numbers of the panels.
     pub parts: Range<usize>,
-    /// Sum of the distances from both ends up to which the panels are taken one by one.
-    pub around: T,
+    /// Span of the surface from which the parts are to be looked at one by one.
+    near: [T; 2],
     /// Left end, and half the length.
     left: T,
     half: T,
@@ -54,16 +54,16 @@ pub(super) fn group<T: Real>(
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
     let (left, right) = (first.panel.x[0], last.panel.x[1]);
     let length = right - left;
-    let (mut around, mut tail) = (T::of(3.0) * length, T::zero());
+    let (mut near, mut tail) = ([left - length, right + length], T::zero());
     for part in within {
-        let own = part.panel.half() + part.panel.half();
-        tail += part.panel.tail * own;
-        around = around.max(part.around() + (length - own));
+        tail += part.panel.tail * (part.panel.half() + part.panel.half());
+        let [from, to] = part.reached();
+        near = [near[0].min(from), near[1].max(to)];
     }
     let half = T::of(0.5) * length;
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
     let (parts_of, next) = (numbers.clone(), number + 1);
-    groups.push(Group { parts: parts_of, around, left, half, weights, tail, next });
+    groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
     let mut sums = GroupMoments { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] };
     if numbers.len() <= FEW {
         for part in within {
@@ -135,6 +135,11 @@ impl<T: Real> Group<T> {
     /// share of the integral of g.
     pub fn charges(&self) -> impl Iterator<Item = [T; 2]> + use<'_, T> {
         self.points().into_iter().zip(self.weights).map(|(along, weight)| [along, weight])
+    }
+
+    /// Tells whether the parts are to be looked at one by one from a place on the surface.
+    pub fn is_near(&self, x: T) -> bool {
+        x > self.near[0] && x < self.near[1]
     }
 
     /// Tells whether the group is not divided.
