@@ -89,7 +89,8 @@ fn questions(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost
 /// heights of the last two.
 fn table() {
     println!(
-        "|scene|100 stresses, µs|largest shear, ms|approach, µs|solve by approach, µs|evaluations|certificate, ms|evaluations|"
+        "|scene|100 stresses, µs|largest shear, ms|approach, µs|solve by approach, µs|evaluations|\
+         certificate, ms|evaluations|"
     );
     println!("|---|---|---|---|---|---|---|---|");
     for name in SCENES {

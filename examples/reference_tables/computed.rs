@@ -162,7 +162,10 @@ pub fn wavy_parabola() -> Made {
     let contacts = solution.contacts()?;
     // The limits are known to 3e-12 of the width.
     let (error, digits) = (1e-11, 12);
-    case.source("tests/data/several of linecontact: Newton's method on all limits, at two node counts; the solver agrees");
+    case.source(
+        "tests/data/several of linecontact: Newton's method on all limits, at two node counts; the \
+         solver agrees",
+    );
     let names = [
         [("left_limit_1", "1"), ("right_limit_1", "1"), ("load_1", "1")],
         [("left_limit_2", "1"), ("right_limit_2", "1"), ("load_2", "1")],

@@ -59,7 +59,8 @@ pub fn json(cases: &[Case]) -> String {
 }
 
 const CONVENTIONS: &str = "Plane strain, elastic half-planes, no friction unless said. x along the contact, \
-    bodies by Y upwards; stresses, the same in both bodies, with y and the depth into the body. Pressure positive in compression, stresses positive in tension. Loads per unit length. \
+    bodies by Y upwards; stresses, the same in both bodies, with y and the depth into the body. \
+    Pressure positive in compression, stresses positive in tension. Loads per unit length. \
     E* = 1/((1 - nu1^2)/E1 + (1 - nu2^2)/E2). relative_error: half a unit of the last digit, or the estimate.";
 
 /// Formats a field of a table, in quotes if necessary.

@@ -99,7 +99,8 @@ pub fn hertz_cylinder() -> Made {
         let values = hertz_stress(a, peak, x, y);
         let found = below.at(x, y)?;
         let formulas = [
-            "-p0/a (m (1 + (y^2+n^2)/(m^2+n^2)) - 2 y), y = depth, m^2 = (sqrt((a^2-x^2+y^2)^2 + 4 x^2 y^2) + a^2 - x^2 + y^2)/2, n = x y/m",
+            "-p0/a (m (1 + (y^2+n^2)/(m^2+n^2)) - 2 y), y = depth, \
+             m^2 = (sqrt((a^2-x^2+y^2)^2 + 4 x^2 y^2) + a^2 - x^2 + y^2)/2, n = x y/m",
             "-p0/a m (1 - (y^2+n^2)/(m^2+n^2))",
             "-p0/a n (m^2-y^2)/(m^2+n^2), y into the body",
         ];
@@ -161,13 +162,17 @@ pub fn hertz_cylinder() -> Made {
     let lower = n(2.0) * share * n(load) * (t.asinh() - nu * t / (far + t));
     let rate = share * (n(2.0) * t.asinh() - t / far / (n(1.0) - ratio));
     let [upper, upper_rate] = disc(STEEL, load, radius, a);
-    case.source("integral of the strains of Johnson 1985, Eqs. 4.46; for d much larger than a it is Weber and Banaschek 1953");
+    case.source(
+        "integral of the strains of Johnson 1985, Eqs. 4.46; for d much larger than a it is Weber \
+         and Banaschek 1953",
+    );
     case.closed(
         ("approach_lower", LENGTH),
         Place::Whole,
         lower,
         approach.lower,
-        "2 (1-nu^2) F/(pi E) (asinh(d/a) - nu/(1-nu) d/(sqrt(a^2+d^2)+d)): of the surface at x = 0 towards the point at depth d",
+        "2 (1-nu^2) F/(pi E) (asinh(d/a) - nu/(1-nu) d/(sqrt(a^2+d^2)+d)): of the surface at x = 0 \
+         towards the point at depth d",
     );
     case.source("Johnson 1985, section 5.6");
     case.closed(
@@ -337,13 +342,17 @@ pub fn cylinder_in_groove() -> Made {
     let a = root(n(1.15), |a| borne(a) - n(load));
     let [groove_part, roller_part] = parts(a);
     let peak = modulus * a / PI * (roller_part[0] / n(radii[1]) - groove_part[0] / n(radii[0]));
-    case.source("superposition of flat punches (Barber, Contact Mechanics, 2018; Johnson 1985, section 5.3) over the slope x/sqrt(R^2-x^2)");
+    case.source(
+        "superposition of flat punches (Barber, Contact Mechanics, 2018; Johnson 1985, section 5.3) \
+         over the slope x/sqrt(R^2-x^2)",
+    );
     case.closed(
         HALF_WIDTH,
         Place::Whole,
         a,
         solution.a(),
-        "root of F = E* (R2 (K(k2)-E(k2)) - R1 (K(k1)-E(k1))), ki = a/Ri, K and E complete elliptic integrals of modulus k",
+        "root of F = E* (R2 (K(k2)-E(k2)) - R1 (K(k1)-E(k1))), ki = a/Ri, K and E complete \
+         elliptic integrals of modulus k",
     );
     case.closed(
         PEAK,

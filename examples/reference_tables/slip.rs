@@ -58,7 +58,8 @@ fn slipping(case: &mut Case, tension: f64, places: [f64; 3]) -> Result<(), Box<d
         let formula = if tension == 0.0 {
             "mu p0 (sqrt(1-(x/a)^2) - c/a sqrt(1-(x/c)^2)), the second where |x| < c"
         } else {
-            "mu p0 (sqrt(1-(x/a)^2) - c/a sqrt(1-((x-e)/c)^2)), the second where |x-e| < c, e the centre of the stick zone"
+            "mu p0 (sqrt(1-(x/a)^2) - c/a sqrt(1-((x-e)/c)^2)), the second where |x-e| < c, e the \
+             centre of the stick zone"
         };
         case.closed(TRACTION, Place::At(x), mu * peak * value, traction.at(x)?, formula);
     }

@@ -337,3 +337,12 @@ fn a_flat_body_is_never_evaluated() {
     // x = k, so that one evaluation inverts it; only the flat could have doubled the count.
     assert!(cost.evaluations <= cost.samples + 4, "{cost:?}");
 }
+
+#[test]
+fn no_number_of_points_is_too_many() {
+    let contact = on_flat(graph(-1.0, 1.0, |x: f64| [x * x / 2.0, x]));
+    let solution = contact.solve(Control::Load(0.02)).unwrap();
+    let points = solution.pressure().unwrap().sample(usize::MAX).unwrap();
+    assert!(points.len() == 1 << 20 && points.is_sorted_by(|a, b| a[0] <= b[0]));
+    assert_eq!(solution.pressure().unwrap().sample(0).unwrap().len(), 2);
+}

@@ -299,7 +299,7 @@ fn tall_narrow_asperities() {
         let Err(ContactError::Overlap { x, .. }) = found else { panic!("{at}: {found:?}") };
         assert!((x - at).abs() < width, "{at}: {found:?}");
     }
-    // It used to take seconds for each.
+    // Seconds for each are too many.
     assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
 }
 

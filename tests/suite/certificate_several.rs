@@ -3,12 +3,14 @@
 #![allow(missing_docs)]
 
 use crate::common::NanSafe;
-use crate::common::{Profile, graph, intervals, join, several};
+use crate::common::{Profile, graph, intervals, join, on_flat, several};
 
 use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Piecewise,
+};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -354,4 +356,38 @@ fn heights_that_do_not_go_with_the_contacts() {
     let factor = 2.0 * b * (2.0 * Pair::new().d * 2.0 * b).sqrt();
     let due = factor * off / 2.0 * (2.0 / half_width).sqrt();
     assert!((strength / due - 1.0).abs() < 1e-3, "{strength:e} for {due:e}");
+}
+
+#[test]
+fn several_tilted_contacts_are_certified() {
+    let contact =
+        on_flat(graph(-2.0, 2.0, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]))
+            .contact_modulus(1.0);
+    for at in [0.1, -0.3] {
+        let solution = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap();
+        assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);
+        solution.certify().unwrap();
+    }
+}
+
+/// The middle of the gap lies next to the roof by rounding: if the rest of a panel is continued
+/// there, the gap stays undecided.
+#[test]
+fn a_roof_between_two_contacts() {
+    for (roof, bend, load) in [(0.6, 2.0, 0.05), (1.0, 0.5, 0.2), (0.6, 0.5, 0.1), (0.3, 2.0, 0.01)]
+    {
+        let half = |side: f64, domain: [f64; 2]| {
+            Curve::new(domain, move |k: f64| CurvePoint {
+                x: k,
+                y: bend * k * k - side * roof / 2.0 * k,
+                dx: 1.0,
+                dy: 2.0 * bend * k - side * roof / 2.0,
+            })
+        };
+        let body = Piecewise::new(vec![half(-1.0, [-2.0, 0.0]), half(1.0, [0.0, 2.0])]).unwrap();
+        let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+        assert!(solution.gap_at(0.0).unwrap() > 0.0);
+        assert_eq!(solution.certify().unwrap().gap, None, "{roof} {bend} {load}");
+    }
 }

@@ -5,6 +5,7 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{graph, on_flat, parabola};
+use linecontact::profile::Parabola;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Solution, Solver,
 };
@@ -169,4 +170,26 @@ fn two_contacts_grow_to_their_corners_and_leave_them() {
             }
         }
     }
+}
+
+/// `Fixed` corners that the load does not reach. K = (F/L - κ L/2)/π is negative there.
+#[test]
+fn corners_that_the_load_does_not_reach() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for edges in [[Edge::Fixed(-0.5), Edge::Free], [Edge::Free, Edge::Fixed(0.5)]] {
+        let held = contact.clone().edges(edges[0], edges[1]);
+        let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+        assert!(error.to_string().contains("FreeUntil"), "{error}");
+    }
+    let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
+    let error = given.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
+    assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+    // As a single interval it solves the equation, and is reported as not checked.
+    let solution = given.single_interval(true).solve(Control::Load(0.01)).unwrap();
+    assert!(!solution.report().is_checked() && solution.edge_singularities().left < 0.0);
+    let up_to = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
+    let solution = up_to.solve(Control::Load(0.01)).unwrap();
+    assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
 }

@@ -3,6 +3,7 @@
 
 use crate::common;
 
+use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
@@ -225,7 +226,11 @@ fn no_input_is_fatal() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        rng_seed: RngSeed::Fixed(7),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     /// A parabola of any curvature under any load is Hertz's, or does not fit.
     #[test]
@@ -372,4 +377,97 @@ fn distances_and_loads_that_numbers_cannot_hold() {
     let pressure = held.solve(Control::Load(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
     let exact = 1e300 / (std::f64::consts::PI * 0.08);
     assert!((pressure / exact - 1.0).abs() < 1e-14, "{pressure:e}");
+}
+
+/// A step of Y that does not show in the slopes. Heights may have a large offset.
+#[test]
+fn a_step_of_the_heights() {
+    let with = |at: f64, step: f64, from: f64| {
+        graph(-1.0, 1.0, move |x| [from + x * x / 2.0 + if x > at { step } else { 0.0 }, x])
+    };
+    for load in [0.02, 0.001] {
+        for from in [0.0, 1e4, 1e8] {
+            let body = with(0.0, 0.0, from);
+            let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(load)).unwrap();
+            assert_relative_eq!(solution.a(), (2.0 * load).sqrt(), max_relative = 1e-14);
+            assert_eq!(solution.cost().evaluations, 12);
+            solution.certify().unwrap();
+        }
+        // An error in every solve if the step lies within the contact, or outside it and the bodies
+        // would overlap; elsewhere only a certificate finds it.
+        for at in [0.0, 0.03, -0.0123, 0.044, 0.0711, 0.5, -0.777] {
+            for (step, from) in [(1e-4, 0.0), (-1e-3, 0.0), (0.01, 0.0), (0.01, 1e4)] {
+                let body = with(at, step, from);
+                let solved = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(load));
+                let seen = f64::abs(at) < (2.0 * load).sqrt();
+                let at_once = solved.is_err();
+                let overlaps = step < 0.0 && at == 0.0711;
+                let expected = seen || overlaps;
+                assert!(at_once == expected || step == 1e-4 && !at_once, "{step} at {at}");
+                let error = solved.and_then(|found| found.certify().map(|_| ())).unwrap_err();
+                let ContactError::InconsistentHeights {
+                    between: [one, two],
+                    by_heights,
+                    by_slopes,
+                } = error
+                else {
+                    panic!("{step} at {at}: {error}")
+                };
+                assert!(one.min(two) <= at && at <= one.max(two), "{step} at {at}: {error}");
+                let found = (by_heights - by_slopes) * (two - one).signum();
+                assert!((found / step - 1.0).abs() < 1e-6, "{step} at {at}: {error}");
+                assert!(!at_once || two - one < 1e-3, "{step} at {at}: {error}");
+            }
+        }
+    }
+    // A steep ramp between the nodes is resolved.
+    let ramp = |step: f64| {
+        graph(-1.0, 1.0, move |x| {
+            let t = (1e3 * (x - 0.07)).tanh();
+            [x * x / 2.0 + step * t, x + 1e3 * step * (1.0 - t * t)]
+        })
+    };
+    let body = ramp(-1e-5);
+    let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(0.02)).unwrap();
+    assert!(solution.cost().evaluations > 50);
+    solution.certify().unwrap();
+}
+
+/// Body whose slope by x disagrees with its points.
+struct WrongSlope(f64, linecontact::Convexity);
+
+impl ParametricProfile<f64> for WrongSlope {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k }
+    }
+    fn slope_at(&self, x: f64) -> Option<f64> {
+        Some(x + self.0 * x * x)
+    }
+    fn convexity(&self) -> linecontact::Convexity {
+        self.1
+    }
+}
+
+/// For a body declared convex a wrong slope is found only by a certificate.
+#[test]
+fn a_slope_by_x_that_is_wrong() {
+    use linecontact::Convexity::{Convex, Unknown};
+    for off in [1e-3, 0.3, -0.3] {
+        let body = WrongSlope(off, Unknown);
+        let error = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap_err();
+        let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
+        else {
+            panic!("{error}")
+        };
+        assert_eq!(quantity, "slope_at(x)");
+        let body = WrongSlope(off, Convex);
+        let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap();
+        let error = solution.certify().unwrap_err();
+        assert!(matches!(error, ContactError::InconsistentHeights { .. }), "{error}");
+    }
+    let body = WrongSlope(0.0, Unknown);
+    Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();
 }

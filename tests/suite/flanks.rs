@@ -9,7 +9,7 @@ use linecontact::search::SearchError;
 use linecontact::{Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Least count of evaluations under half the load: a survey of the heights once took as many.
+/// Least count of evaluations under half the load that others are compared with.
 const LEAST_TAKEN: usize = 124;
 
 /// Flank of a base circle of this radius that touches at the roll angle `at`.

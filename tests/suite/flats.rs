@@ -1,5 +1,6 @@
 //! Punches with a flat that is tilted or bulges by rounding only, or is joined from arcs by running
-//! sums: the lowest corner is a matter of chance, and the contact spans the flat.
+//! sums: the lowest corner is a matter of chance, and the contact spans the flat. At the end a flat
+//! on a circle, which the contact does not span.
 //!
 //! With the slope g = s + b x on the flat, and `more` the slope added by a parabola or an arc
 //! beyond its corners, the two conditions of a contact about c are sums of integrals over the
@@ -14,6 +15,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Shares, graph};
+use linecontact::profile::{Ellipse, Placed, Placement, rounded_punch};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
 use linecontact::{Interval, ParametricProfile};
 use std::f64::consts::PI;
@@ -263,4 +265,27 @@ fn random_flats_with_heights_that_are_rounding_are_solved_and_certified() {
     }
     println!("{} of {scenes} refused: {refused:?}", refused.len());
     assert!(200 * refused.len() <= scenes, "{}: {}", refused[0].0, refused[0].1);
+}
+
+/// The flat of a punch on a circle centred at 0.13: warm or cold, within the estimate. The circle
+/// carries F = L²/2 and a little more, about its centre.
+#[test]
+fn the_flat_of_a_punch_on_a_circle() {
+    let up = Placement::default().flipped().shifted(0.13, 0.0);
+    let circle = Placed::new(Ellipse::circle(1.0, [-1.2, 1.2]).unwrap(), up).unwrap();
+    let punch = rounded_punch(0.6, 1.0, 0.9).unwrap();
+    let contact = Contact::new(&circle, &punch).unwrap();
+    let mut solver = Solver::new();
+    for step in 0..400 {
+        // Up and down.
+        let wave = (f64::from(step) * 0.37).sin();
+        let load = 1e-3 * 50f64.powf(0.5 + 0.5 * wave);
+        let warm = solver.solve(&contact, Control::Load(load)).unwrap();
+        let (on, said) = (warm.hull(), warm.limits_error().unwrap());
+        let off = (on.centre() - 0.13).abs() / on.half_width();
+        let cold = contact.solve(Control::Load(load)).unwrap();
+        assert!(off < 10.0 * said + 1e-15, "F = {load}: {off:e}, but {said:e} is said");
+        let off = (cold.hull().centre() - 0.13).abs() / on.half_width();
+        assert!(off < 10.0 * cold.limits_error().unwrap(), "F = {load}: {off:e} cold");
+    }
 }

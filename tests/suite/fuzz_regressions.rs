@@ -334,7 +334,7 @@ fn a_search_spends_no_more_than_its_budget() {
 }
 
 /// Seed 405059: bodies too short for the adhesion at one edge. The search goes down to the smallest
-/// numbers; it used to keep the panels of all widths on its way, without end.
+/// numbers, and must not keep the panels of all widths on its way, or it has no end.
 #[test]
 fn a_search_down_to_the_smallest_numbers_ends() {
     let calls = AtomicUsize::new(0);
@@ -526,8 +526,8 @@ fn a_narrow_step_far_from_the_middle_of_the_bodies() {
     }
 }
 
-/// The half-width used to be rounded at the start of the search and stay so. (Seed 152203: error of
-/// the limits 1.7e-11 of the half-width, at an estimate of 9.6e-15.)
+/// Rounding of the half-width at the start of the search must not stay. (Seed 152203: error of the
+/// limits 1.7e-11 of the half-width, at an estimate of 9.6e-15.)
 #[test]
 fn a_half_width_is_what_was_given_however_far_the_start() {
     for half_width in [1e-6, 1.0999302512625333e-5, 7.790386094239691e-5, 1e-3] {

@@ -382,3 +382,23 @@ fn random_punches_between_two_corners() {
     }
     println!("right, refused, wrong: {counts:?}");
 }
+
+#[test]
+fn corners_on_both_sides_that_pull_are_refused() {
+    let corners =
+        |left: Edge<f64>, right: Edge<f64>| Contact::new(&Flat, &Flat).unwrap().edges(left, right);
+    let held = corners(Edge::Fixed(-5.0), Edge::Fixed(5.0));
+    for at in [4.0, -4.0] {
+        let control = Control::CentreOfPressure { load: 1000.0, at };
+        let error = held.solve(control).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
+        // The punch lifts off until its contact is four times as wide as the distance from the load
+        // to its corner.
+        let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));
+        let hull = free.solve(control).unwrap().hull();
+        let inner = if at > 0.0 { hull.left } else { -hull.right };
+        assert!((inner - 1.0).abs() < 1e-12, "{hull:?}");
+    }
+    let pressed = held.solve(Control::CentreOfPressure { load: 1000.0, at: 2.0 }).unwrap();
+    assert!(pressed.edge_singularities().into_iter().all(|strength| strength > 0.0));
+}

@@ -156,3 +156,16 @@ fn units_do_not_decide() {
         assert!(solution.limits_error().unwrap() < 1e-13);
     }
 }
+
+/// F = L I₁(L) of cosh: a contact of 1.4e-3 on bodies with slopes of e^300.
+#[test]
+fn a_small_contact_on_steep_bodies() {
+    let contact = on_flat(graph(-300.0, 300.0, |x| [(x - 3.7).cosh(), (x - 3.7).sinh()]));
+    let half_width = 1.4e-3;
+    let load = half_width * half_width / 2.0 * (1.0 + half_width * half_width / 8.0);
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    let on = solution.hull();
+    // To the rounding of x = 3.7.
+    assert!((on.centre() - 3.7).abs() < 1e-12 * half_width + 2e-15, "{on:?}");
+    assert_relative_eq!(on.half_width(), half_width, epsilon = 0.0, max_relative = 3e-12);
+}

@@ -82,4 +82,3 @@ mod tilt;
 mod undeclared;
 mod unseen;
 mod what_is_checked;
-mod wrong_answers;

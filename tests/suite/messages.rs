@@ -4,8 +4,8 @@
 use linecontact::profile::{Parabola, SplineError, rounded_punch, wedge};
 use linecontact::search::{Root, SearchError};
 use linecontact::{
-    Body, Contact, ContactError, Control, Edge, Ends, ErrorKind, Flat, Interval, PiecewiseError,
-    ProfileError,
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, Ends, ErrorKind, Flat, Interval,
+    PiecewiseError, ProfileError,
 };
 
 use ContactError as E;
@@ -358,4 +358,43 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
     ] {
         assert_says(&error, &[words]);
     }
+}
+
+/// Errors name the prescribed quantity, E* and not κ where it was given, and degrees only if they
+/// may have been used.
+#[test]
+fn errors_name_what_was_given() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let text = |contact: &Contact<f64>, control| {
+        contact.solve(control).map(|_| ()).unwrap_err().to_string()
+    };
+    for (name, control) in [
+        ("the load is", Control::Load as fn(f64) -> _),
+        ("the half-width is", Control::HalfWidth),
+        ("the peak pressure is", Control::PeakPressure),
+    ] {
+        for value in [f64::NAN, -1.0, 5e-324, 1e-310] {
+            let text = text(&contact, control(value));
+            assert!(text.starts_with(name), "{text}");
+            assert_eq!(text.contains("digits are lost"), value > 0.0, "{text}");
+        }
+    }
+    for modulus in [-2.0, f64::NAN, 1.7e308] {
+        let contact = contact.clone().contact_modulus(modulus);
+        let error = contact.solve(Control::Load(0.01)).map(|_| ()).unwrap_err();
+        assert!(matches!(error, ContactError::InvalidModulus { .. }), "{error}");
+        assert!(error.to_string().starts_with("E* = "), "{error}");
+    }
+    let arc = |from: f64, to: f64| {
+        let arc = Curve::new([from, to], |k: f64| {
+            let (sin, cos) = k.sin_cos();
+            CurvePoint { x: sin, y: 1.0 - cos, dx: cos, dy: sin }
+        });
+        let solved =
+            Contact::new(&Flat, &arc).and_then(|c| c.solve(Control::Load(0.01)).map(|_| ()));
+        solved.unwrap_err().to_string()
+    };
+    assert!(arc(-90.0, 90.0).contains("degrees") && arc(0.0, 90.0).contains("degrees"));
+    assert!(!arc(-3.0, 3.0).contains("degrees"));
 }

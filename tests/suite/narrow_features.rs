@@ -1,7 +1,10 @@
 //! Bumps in and next to a contact that are narrower than the spacing of survey points or nodes.
 
+use crate::common::{NanSafe, Profile, graph};
 use crate::random_scenes::Dice;
-use linecontact::{Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, ParametricProfile, Piecewise,
+};
 
 /// Full width at half height of a bump, as a share of the contact.
 const WIDTH: f64 = 0.02;
@@ -120,5 +123,45 @@ fn nor_is_one_in_one_of_two_contacts() {
         let bump = [place, sigma, 0.1 * half * sigma];
         let [found, known] = peaks(quartic, bump, load).unwrap();
         assert!((found / known - 1.0).abs() < 1e-6, "at {place}: {found} for {known}");
+    }
+}
+
+/// Returns x²/2 and a smooth rise of its slope: `s (1 - tanh²((x - x₀)/w))`, and its integral.
+fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
+    graph(-1.0, 1.0, move |x| {
+        let t = ((x - x0) / w).tanh();
+        [x * x / 2.0 + s * w * t, x + s * (1.0 - t * t)]
+    })
+}
+
+/// A feature missed by the solve's own panels is an error of the certified contact, not `Ok`. The
+/// limits are from the two conditions at the edges with mpmath in 30 digits.
+#[test]
+fn a_bump_of_the_slope_that_the_panels_miss() {
+    let cases = [
+        (
+            0.152304969,
+            0.001317286,
+            0.001118924,
+            0.0,
+            [0.199_987_243_451_778, 0.200_001_726_064_144],
+        ),
+        (0.138, 0.0194, 0.014, 1e-6, [0.197_838_024_568_720_8, 0.200_364_503_261_907]),
+    ];
+    for (x0, w, s, tolerance, [a, b]) in cases {
+        let body = with_a_bump(x0, w, s);
+        let panels = Panels { tolerance };
+        let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels).certified(true);
+        match contact.solve(Control::Load(0.02)) {
+            Err(ContactError::FeatureMissed { x, .. }) => {
+                assert!((x - x0).abs() < 4.0 * w, "missed at {x}, but the bump is at {x0}");
+            }
+            Err(error) => panic!("{error}"),
+            Ok(solution) => {
+                let off = (solution.a() - a).abs().nan_max((solution.b() - b).abs()) / 0.2;
+                let said = solution.limits_error().unwrap();
+                assert!(off < 10.0 * said + 1e-13, "{off:e}, but {said:e} is said: {solution:?}");
+            }
+        }
     }
 }

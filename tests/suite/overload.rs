@@ -2,8 +2,9 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counting, Profile, graph};
-use linecontact::profile::{Involute, Parabola, rounded_punch, wedge};
+use approx::assert_relative_eq;
+use common::{Counting, Profile, graph, on_flat};
+use linecontact::profile::{Involute, Parabola, Placed, Placement, rounded_punch, wedge};
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -280,4 +281,210 @@ fn the_peak_of_the_widest_contact_with_one_adhesive_edge() {
             assert!((got / due - 1.0).abs() < error, "{glued:?}: {got} for {due}");
         }
     }
+}
+
+/// Returns `Yⁿ⁺¹ - m x` from its own edge, x ≥ 0: the slope `(p + 1) x^p - m`.
+fn one_sided(p: f64, m: f64, reach: f64) -> Profile {
+    graph(0.0, reach, move |k| [k.powf(p + 1.0) - m * k, (p + 1.0) * k.powf(p) - m])
+}
+
+/// Returns the capacity and its half-width. The contact reaches the edge at x = 0 if the mean of
+/// `cos^2p(θ/2)` over θ, μ = Γ(p + 1/2)/(√π Γ(p + 1)), gives `(p + 1) (2L)^p μ = m`; then
+/// `F = κ L m p/(p + 1)`.
+fn one_sided_most(p: f64, m: f64, mu: f64) -> [f64; 2] {
+    let half_width = 0.5 * (m / ((p + 1.0) * mu)).powf(1.0 / p);
+    [half_width * m * p / (p + 1.0), half_width]
+}
+
+/// Asserts that an overload is an error that names the capacity.
+fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, end: f64, rel: f64) {
+    match contact.solve(Control::Load(load)) {
+        Err(ContactError::DomainTooShort { end: at, carried, .. }) => {
+            let off = carried / most - 1.0;
+            assert!(
+                off.abs() < rel,
+                "{name}, F = {load}: carried {carried:e}, but {most:e} is true"
+            );
+            assert!(
+                (at - end).abs() <= 1e-6 * end.abs(),
+                "{name}, F = {load}: end {at:e}, not {end:e}"
+            );
+        }
+        Err(error) => panic!("{name}, F = {load}: {error:?}"),
+        Ok(solution) => panic!("{name}, F = {load}: {solution:?}"),
+    }
+}
+
+/// `x^1.5 - m x` carries π² m³/54, with L = π² m²/18; no larger load has a contact.
+#[test]
+fn an_overloaded_body_is_an_error() {
+    for m in [1.0, 0.3, 0.1] {
+        let body = one_sided(0.5, m, 4.0);
+        let [most, half_width] = one_sided_most(0.5, m, 2.0 / PI);
+        assert_relative_eq!(most, PI * PI * m.powi(3) / 54.0, max_relative = 1e-14);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        for load in [0.1832 / 0.182_77, 2.7, 5.5, 28.0, 1e3, 1e5] {
+            assert_too_short(&format!("m = {m}"), &contact, load * most, most, 0.0, 1e-9);
+        }
+        for step in 0..60 {
+            let load = 1.002 * most * 1e5f64.powf(f64::from(step) / 59.0);
+            assert_too_short(&format!("m = {m}"), &contact, load, most, 0.0, 1e-9);
+        }
+        for wide in [1.0 + 0.05 * m, 1.8, 2.7] {
+            let answer = contact.solve(Control::HalfWidth(wide * half_width));
+            assert!(answer.is_err(), "L = {wide} times the widest: {answer:?}");
+        }
+        // 90 % of the capacity has a contact.
+        let solution = contact.solve(Control::Load(0.9 * most)).unwrap();
+        assert!(solution.limits_error().unwrap() < 1e-9, "{solution:?}");
+    }
+}
+
+/// `y = k ln(k/p) - k` touches from 0 on with L = 2p, and carries 2p.
+#[test]
+fn an_overloaded_logarithm_is_an_error() {
+    let p = 1e-3;
+    let contact = on_flat(graph(0.0, 2.0, move |k: f64| {
+        [if k == 0.0 { 0.0 } else { k * (k / p).ln() - k }, (k / p).ln()]
+    }));
+    for load in [2.1e-3, 0.01, 0.1, 1.0] {
+        assert_too_short("k ln k", &contact, load, 2.0 * p, 0.0, 1e-6);
+    }
+}
+
+/// A gear's flank begins at the base circle.
+#[test]
+fn a_flank_is_not_pressed_beyond_its_beginning() {
+    for (origin, modulus, half_width) in [(1e-3, 2.0 / PI, 0.266), (1e-6, 115e3, 0.2)] {
+        let flank = Involute::new(50.0, origin, [0.0, 0.8]).unwrap();
+        let contact = Contact::new(&Flat, &flank).unwrap().contact_modulus(modulus);
+        let answer = contact.solve(Control::HalfWidth(half_width));
+        assert!(answer.is_err(), "{answer:?}");
+    }
+}
+
+/// The capacity of the bodies, and the end reached, do not depend on the prescribed load. The wedge
+/// with slopes -m₁ and m₂ has its tip at φ = π m₁/(m₁ + m₂): a = L (1 - cos φ), F = L (m₁ + m₂) sin
+/// φ/π.
+#[test]
+fn what_a_body_bears_does_not_depend_on_the_load_asked_for() {
+    for (left, right) in [(1.0, 0.1), (0.1, 1e-6)] {
+        let body = wedge([-left, right], 1.0).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let phi = PI * right / (left + right);
+        let most = (left + right) * phi.sin() / (PI * (1.0 + phi.cos()));
+        for load in [1.3 * most, 20.0 * most, 1.0, 91.0, 1e3, 1e6] {
+            assert_too_short(&format!("wedge {left}, {right}"), &contact, load, most, 1.0, 1e-6);
+        }
+    }
+    for short in [0.1, 1e-9] {
+        let body = Parabola::new(1.0, [-short, 1.0]).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let most = short * short / 2.0;
+        for load in [1.3 * most, 1e3 * most, 1e-3, 0.1, 1.0, 255.0, 1e4] {
+            if load > 1.1 * most {
+                let name = format!("parabola from -{short}");
+                assert_too_short(&name, &contact, load, most, -short, 1e-6);
+            }
+        }
+    }
+}
+
+/// Two gears, of 50 and 75 mm, whose flanks begin next to the point of touch: at r t₀²/2.
+#[test]
+fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
+    for origin in [0.01f64, 1e-4] {
+        let flank = |radius| Involute::new(radius, origin, [0.0, 0.8]).unwrap();
+        let turned = Placement::default().mirrored().flipped();
+        let mate = Placed::new(flank(75.0), turned).unwrap();
+        let body = flank(50.0);
+        let contact = Contact::new(&mate, &body).unwrap();
+        let mut carried: Vec<f64> = Vec::new();
+        for load in [1e-4, 1e-2, 1.0, 100.0, 1e3] {
+            match contact.solve(Control::Load(load)) {
+                Err(ContactError::DomainTooShort { carried: most, end, .. }) => {
+                    let first = -25.0 * origin * origin;
+                    assert!((end / first - 1.0).abs() < 1e-3, "{origin}, {load}: {end}, {first}");
+                    carried.push(most);
+                }
+                other => panic!("{origin}, {load}: {other:?}"),
+            }
+        }
+        for most in &carried {
+            assert!((most / carried[0] - 1.0).abs() < 1e-6, "{origin}: {carried:?}");
+        }
+        // Slightly below the capacity there is a contact, slightly above it there is none.
+        assert!(contact.solve(Control::Load(0.99 * carried[0])).is_ok());
+        assert!(contact.solve(Control::Load(1.01 * carried[0])).is_err());
+    }
+}
+
+/// A capacity of 1e-19 of the load is no overflow.
+#[test]
+fn a_body_that_bears_next_to_nothing() {
+    // Γ(0.7)/(√π Γ(1.2))
+    let mu = 0.797_619_504_704_847_6;
+    let [most, _] = one_sided_most(0.2, 1e-3, mu);
+    let body = one_sided(0.2, 1e-3, 2.0);
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    for load in [0.3, 1e-6] {
+        assert_too_short("k^1.2", &contact, load, most, 0.0, 1e-6);
+    }
+}
+
+/// Returns the evaluations of a solve, and its result.
+fn evaluations(body: Profile, load: Control<f64>) -> (usize, Result<f64, ContactError<f64>>) {
+    let calls = AtomicUsize::new(0);
+    let counted = Counting(body, &calls);
+    let contact = Contact::new(&Flat, &counted).unwrap();
+    let answer = contact.solve(load).map(|solution| solution.load());
+    (calls.load(Ordering::Relaxed), answer)
+}
+
+/// A peak above the capacity: the error names the same largest peak for any control, without
+/// hundreds of thousands of evaluations. `x = k²`, `y = k³ - m k²`, that is `x^1.5 - m x`.
+#[test]
+fn a_peak_that_the_body_does_not_bear() {
+    let m = 1e-6;
+    let body = || -> Profile {
+        Box::new(Curve::new([0.0, 0.5], move |k: f64| {
+            let (dx, dy) = (2.0 * k, 3.0 * k * k - 2.0 * m * k);
+            CurvePoint { x: k * k, y: k * k * k - m * k * k, dx, dy }
+        }))
+    };
+    let [_, most] = one_sided_most(0.5, m, 2.0 / PI);
+    let mut peaks = Vec::new();
+    for wanted in [1e-6, 1e-3, 0.03, 0.3, 3.0] {
+        let (calls, answer) = evaluations(body(), Control::PeakPressure(wanted));
+        match answer {
+            Err(ContactError::PeakTooHigh { half_width, found, .. }) => {
+                assert!((half_width / most - 1.0).abs() < 1e-6, "{wanted}: L = {half_width:e}");
+                peaks.push(found);
+            }
+            other => panic!("{wanted}: {other:?}"),
+        }
+        let (half, answer) = evaluations(body(), Control::PeakPressure(0.5 * peaks[0]));
+        assert!(answer.is_ok(), "{answer:?}");
+        assert!(calls <= 20 * half, "{wanted}: {calls} evaluations, and {half} for half the peak");
+    }
+    for peak in &peaks {
+        assert!(
+            (peak / peaks[0] - 1.0).abs() < 1e-6 && (peak / 2.1e-7 - 1.0).abs() < 0.03,
+            "{peaks:?}"
+        );
+    }
+}
+
+/// A flank that begins where it touches.
+#[test]
+fn a_peak_that_a_flank_does_not_bear() {
+    let flank = || -> Profile { Box::new(Involute::new(50.0, 1e-6, [0.0, 0.8]).unwrap()) };
+    let (calls, answer) = evaluations(flank(), Control::PeakPressure(0.3));
+    let Err(ContactError::PeakTooHigh { half_width, found, .. }) = answer else {
+        panic!("{answer:?}")
+    };
+    // The flank begins 25e-12 from the point of touch, with a radius of 5e-5.
+    assert!(half_width < 1e-10 && found < 1e-6, "{half_width:e}, {found:e}");
+    let (half, answer) = evaluations(flank(), Control::PeakPressure(0.5 * found));
+    assert!(answer.is_ok() && calls <= 20 * half, "{calls}, {half}: {answer:?}");
 }

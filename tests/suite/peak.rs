@@ -4,6 +4,8 @@
 use crate::common;
 
 use common::{graph, on_flat, parabola, power};
+use linecontact::profile::rounded_punch;
+use linecontact::reference::{ClosedForm, RoundedPunch};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise,
 };
@@ -142,4 +144,36 @@ fn of_one_crest_of_many() {
         );
         assert!((found.a() - under.a()).abs() < 1e-7 * under.hull().half_width());
     }
+}
+
+/// The peak of a contact leads back to it, even if the contact hardly extends beyond a flat.
+#[test]
+fn peaks_of_a_punch_with_a_flat() {
+    let body = rounded_punch(1.0, 1.0, 1.5).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for beyond in [1e-5f64, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.1, 0.3] {
+        let form = RoundedPunch::new(1.0, 1.0, 1.0 + beyond).unwrap();
+        let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
+        let peak = solution.peak().unwrap().pressure;
+        let again = contact.solve(Control::PeakPressure(peak));
+        let again = again.unwrap_or_else(|error| panic!("L = 1 + {beyond}: {error}"));
+        let off = (again.a() - 1.0 - beyond).abs() / beyond;
+        assert!(off < 1e-9, "L = 1 + {beyond}: off by {off:e}");
+    }
+}
+
+/// The largest of 20 000 pressures does not exceed the peak.
+#[test]
+fn the_peak_among_fine_waves() {
+    let q = 400.0;
+    let contact = on_flat(graph(-1.0, 1.0, move |x: f64| {
+        [x * x / 2.0 + 0.15 / q / q * (q * x + 0.3).sin(), x + 0.15 / q * (q * x + 0.3).cos()]
+    }));
+    let solution = contact.solve(Control::Load(0.08)).unwrap();
+    let points = solution.pressure().unwrap().sample(20_000).unwrap();
+    let most = points.iter().map(|point| point[1]).max_by(f64::total_cmp).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    assert!(peak >= most && peak < most * (1.0 + 1e-6), "{peak} {most}");
+    let again = contact.solve(Control::PeakPressure(peak)).unwrap();
+    assert!((again.load() / 0.08 - 1.0).abs() < 1e-9, "{}", again.load());
 }

@@ -1,7 +1,7 @@
 //! Curves that turn back, and curves that stand still, far from the contact.
 #![allow(missing_docs)]
 
-use crate::common::circle;
+use crate::common::{NanSafe, circle};
 use linecontact::profile::Ellipse;
 use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, ProfileError};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -94,4 +94,39 @@ fn where_x_has_saturated_is_no_matter() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A saturated X far from the contact has no slope there, and needs none.
+#[test]
+fn a_parameter_that_saturates() {
+    type Curves = (&'static str, f64, fn(f64) -> [f64; 2]);
+    let curves: [Curves; 4] = [
+        ("tanh(400 k)", 1.0, |k| {
+            let t = (400.0 * k).tanh();
+            [t, 400.0 * (1.0 - t * t)]
+        }),
+        ("tanh(20 k)", 1.0, |k| {
+            let t = (20.0 * k).tanh();
+            [t, 20.0 - 20.0 * t * t]
+        }),
+        ("logistic", 100.0, |k| {
+            let e = (-k.abs()).exp();
+            [k.signum() * (0.5 - e / (1.0 + e)), e / (1.0 + e).powi(2)]
+        }),
+        ("tanh(30 k)", 1.0, |k| {
+            let t = (30.0 * k).tanh();
+            [t, 30.0 * (1.0 - t * t)]
+        }),
+    ];
+    for (name, reach, at) in curves {
+        let body = Curve::new([-reach, reach], move |k: f64| {
+            let [x, dx] = at(k);
+            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let solution = contact.solve(Control::Load(0.02));
+        let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let off = (solution.a() - 0.2).abs().nan_max((solution.b() - 0.2).abs()) / 0.2;
+        assert!(off < 1e-12, "{name}: {off:e}");
+    }
 }

@@ -623,3 +623,21 @@ fn in_single_precision_estimates_are_honest() {
         assert!(rates.limits.iter().all(|rates| rates.left < 0.0 && rates.right > 0.0));
     }
 }
+
+/// Steepness counts the slopes in each contact only, whatever was sampled before.
+#[test]
+fn steepness_of_several_contacts() {
+    let body = |scale: f64| {
+        graph(-2.0, 2.0, move |x: f64| {
+            [scale * x * x * (x * x - 2.0), 4.0 * scale * x * (x * x - 1.0)]
+        })
+    };
+    for (scale, steep) in [(0.01, false), (1.0, true)] {
+        let body = body(scale);
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let solution = contact.solve(Control::Load(0.3 * scale)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+        assert_eq!(solution.is_steep(), steep);
+        assert_eq!(solution.steepest_slope().unwrap() > linecontact::STEEPEST_HALF_PLANE, steep);
+    }
+}

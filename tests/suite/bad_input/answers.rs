@@ -56,9 +56,18 @@ fn what_is_asked_of_a_solution() {
     let rates = solution.load_rates().unwrap();
     let (middle, beside) = (0.5 * (on.left + on.right), on.right + 0.1);
     for x in [NAN, INF, -INF, 1.3, -1.3, f64::MAX] {
-        let outside = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::OutsideBodies { x: at, range: [-1.2, 1.2] }) if same(*at, x));
-        let misplaced = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: true, interval }) if same(*at, x) && *interval == on);
-        let above = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::AboveSurface { x: at, depth: 0.1 }) if same(*at, x));
+        let outside = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::OutsideBodies { x: at, range: [-1.2, 1.2] })
+                if same(*at, x))
+        };
+        let misplaced = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: true, interval })
+                if same(*at, x) && *interval == on)
+        };
+        let above = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::AboveSurface { x: at, depth: 0.1 })
+                if same(*at, x))
+        };
         table.row(&format!("pressure at {x}"), 0, || Ok(pressure.at(x)?), outside);
         table.row(
             &format!("estimate at {x}"),
@@ -99,14 +108,21 @@ fn what_is_asked_of_a_solution() {
     for x in [middle, on.right.next_down(), on.left.next_up()] {
         for asked in [solution.gap_at(x), solution.gap_slope(x)] {
             table.row("gap inside", 0, || Ok(asked?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: false, .. }) if *at == x)
+                matches!(wrong, Wrong::Contact(ContactError::InvalidPosition { x: at, inside: false, .. })
+                    if *at == x)
             });
         }
     }
     for depth in [NAN, INF, -INF, -1.0, -TINY] {
-        table.row(&format!("depth {depth}"), 0, || Ok(below().at(middle, depth)?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::AboveSurface { x, depth: d }) if *x == middle && same(*d, depth))
-        });
+        table.row(
+            &format!("depth {depth}"),
+            0,
+            || Ok(below().at(middle, depth)?),
+            |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::AboveSurface { x, depth: d })
+                    if *x == middle && same(*d, depth))
+            },
+        );
     }
     for (x, depth) in [
         (middle, TINY),
@@ -132,7 +148,10 @@ fn what_is_asked_of_a_solution() {
     }
     let stress = Stress { sigma_x: -1.0, sigma_y: -2.0, tau_xy: 0.5 };
     for poisson in [NAN, INF, -INF, -TINY, -0.1, 0.5f64.next_up(), 1.0] {
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidPoissonRatio { ratio }) if same(*ratio, poisson));
+        let is_it = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::InvalidPoissonRatio { ratio })
+                if same(*ratio, poisson))
+        };
         table.row(&format!("σ_z with ν = {poisson}"), 0, || Ok(stress.sigma_z(poisson)?), is_it);
         table.row(
             &format!("von Mises with ν = {poisson}"),
@@ -149,9 +168,15 @@ fn what_is_asked_of_a_solution() {
     }
     for (x, places) in [(vec![], 1), (vec![middle], 0), (vec![middle; 3], 2), (vec![NAN; 40], 41)] {
         let (given, mut out) = (x.len(), vec![0.0; places]);
-        table.row(&format!("{given} x, {places} places"), 0, || Ok(pressure.at_many(&x, &mut out)?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::LengthMismatch { x, pressures }) if (*x, *pressures) == (given, places))
-        });
+        table.row(
+            &format!("{given} x, {places} places"),
+            0,
+            || Ok(pressure.at_many(&x, &mut out)?),
+            |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::LengthMismatch { x, pressures })
+                    if (*x, *pressures) == (given, places))
+            },
+        );
     }
     // At an infinite pressure, or with zero load.
     let punch = contact.clone().edges(Edge::Fixed(-0.2), Edge::Fixed(0.3));
@@ -165,7 +190,10 @@ fn what_is_asked_of_a_solution() {
         }
     }
     let below = punch.subsurface().unwrap();
-    let singular = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Singular { x }) if [-0.2, 0.3].contains(x));
+    let singular = |wrong: &Wrong| {
+        matches!(wrong, Wrong::Contact(ContactError::Singular { x })
+            if [-0.2, 0.3].contains(x))
+    };
     table.row("largest shear at a corner", 0, || Ok(below.max_shear()?), singular);
     table.row("largest von Mises at a corner", 0, || Ok(below.max_von_mises(0.3)?), singular);
     table.row("peak at a corner", 0, || Ok(punch.peak()?), singular);

@@ -111,10 +111,16 @@ fn ranges_of_bodies() {
     let mut table = Table::new("reference::body");
     let form = Hertz::new(1.0, 0.3).unwrap();
     for (from, to) in [(NAN, 1.0), (-1.0, NAN), (-INF, 1.0), (-1.0, INF), (1.0, -1.0), (0.2, 0.2)] {
-        table.row(&format!("{from} to {to}"), 0, || Ok(body_of(&form, from, to).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 0, source: ProfileError::Domain { from: f, to: t } })
-                if same(*f, from) && same(*t, to))
-        });
+        table.row(
+            &format!("{from} to {to}"),
+            0,
+            || Ok(body_of(&form, from, to).map(|_| ())?),
+            |wrong| {
+                matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece {
+                    piece: 0, source: ProfileError::Domain { from: f, to: t },
+                }) if same(*f, from) && same(*t, to))
+            },
+        );
     }
     table.finish();
 }

@@ -17,10 +17,17 @@ fn budgets_of_searches() {
             let contact =
                 Contact::new(&Flat, &*inverted).unwrap().inversion(&**strategy).quadrature(&rule);
             let contact = contact.single_interval(true);
-            table.row(&format!("inversion {i}, {max_evaluations}"), 40, || Ok(contact.solve(load).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Inversion { body: Body::Upper, x, source: SearchError::Budget { best } })
-                    if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
-            });
+            let name = format!("inversion {i}, {max_evaluations}");
+            table.row(
+                &name,
+                40,
+                || Ok(contact.solve(load).map(|_| ())?),
+                |wrong| {
+                    matches!(wrong, Wrong::Contact(ContactError::Inversion {
+                        body: Body::Upper, x, source: SearchError::Budget { best },
+                    }) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
+                },
+            );
             let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&**strategy);
             let contact = contact.single_interval(true);
             table.outcome(

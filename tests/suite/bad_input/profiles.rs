@@ -15,18 +15,33 @@ fn bodies() {
         [-1.5e308, 1.5e308],
     ];
     for domain in domains {
-        let wanted = move |source: &ProfileError<f64>| matches!(source, ProfileError::Domain { from, to } if same(*from, domain[0]) && same(*to, domain[1]));
+        let wanted = move |source: &ProfileError<f64>| {
+            matches!(source, ProfileError::Domain { from, to }
+                if same(*from, domain[0]) && same(*to, domain[1]))
+        };
         let name = format!("domain {domain:?}");
-        table.row(&name, 0, || Ok(Contact::new(&Flat, &*curve(domain, point)).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source }) if wanted(source))
-        });
-        let below = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Lower, source }) if wanted(source));
+        table.row(
+            &name,
+            0,
+            || Ok(Contact::new(&Flat, &*curve(domain, point)).map(|_| ())?),
+            |wrong| {
+                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source })
+                    if wanted(source))
+            },
+        );
+        let below = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Lower, source })
+                if wanted(source))
+        };
         let lower = curve(domain, point);
         table.row(&name, 2, || Ok(Contact::new(&*lower, &*body()).map(|_| ())?), below);
         let checked = |wrong: &Wrong| matches!(wrong, Wrong::Profile(source) if wanted(source));
         table.row(&name, 0, || Ok(Piece::checked(&*curve(domain, point)).map(|_| ())?), checked);
         table.row(&name, 0, || Ok(Piece::new(&*curve(domain, point)).map(|_| ())?), checked);
-        let joined = |wrong: &Wrong| matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 1, source }) if wanted(source));
+        let joined = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 1, source })
+                if wanted(source))
+        };
         let pieces = vec![curve([-2.0, -1.0], point), curve(domain, point)];
         table.row(&name, 39, || Ok(Piecewise::new(pieces).map(|_| ())?), joined);
     }
@@ -43,8 +58,12 @@ fn bodies() {
             x: if k == 1.0 { value } else { k },
             ..point(k)
         });
-        let wanted = |source: &ProfileError<f64>| matches!(source, ProfileError::NotFinite { quantity: "X", k: 1.0, value: v } if same(*v, value));
-        table.row(&format!("X({value}) at the end"), 2, || Ok(Contact::new(&Flat, &*end).map(|_| ())?), |wrong| {
+        let wanted = |source: &ProfileError<f64>| {
+            matches!(source, ProfileError::NotFinite { quantity: "X", k: 1.0, value: v }
+                if same(*v, value))
+        };
+        let name = format!("X({value}) at the end");
+        table.row(&name, 2, || Ok(Contact::new(&Flat, &*end).map(|_| ())?), |wrong| {
             matches!(wrong, Wrong::Contact(ContactError::Profile { source, .. }) if wanted(source))
         });
         table.row(
@@ -147,8 +166,10 @@ fn breakpoints() {
     );
     for tolerance in [NAN, INF, -INF, -1.0, -TINY] {
         let pieces = || vec![line(-1.0, 0.0, 0.0), line(0.0, 1.0, 0.0)];
-        table.row(&format!("tolerance {tolerance}"), 0, || Ok(Piecewise::with_tolerance(pieces(), tolerance).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Breakpoint(PiecewiseError::Tolerance { tolerance: t }) if same(*t, tolerance))
+        let joined = || Ok(Piecewise::with_tolerance(pieces(), tolerance).map(|_| ())?);
+        table.row(&format!("tolerance {tolerance}"), 0, joined, |wrong| {
+            matches!(wrong, Wrong::Breakpoint(PiecewiseError::Tolerance { tolerance: t })
+                if same(*t, tolerance))
         });
     }
     let mut pair = |name: &str, right: Profile, expected: fn(&PiecewiseError<f64>) -> bool| {
@@ -199,12 +220,18 @@ fn curves() {
               table: &mut Table| {
         for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
             table.row(name, 40_000, || solve(&*upper, load), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source }) if expected(source))
+                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source })
+                    if expected(source))
             });
         }
     };
     let inside = |k: f64| (0.11..0.3).contains(&k);
-    let hole = |name| move |source: &ProfileError<f64>| matches!(source, ProfileError::NotFinite { quantity, k, value } if *quantity == name && inside(*k) && !value.is_finite());
+    let hole = |name| {
+        move |source: &ProfileError<f64>| {
+            matches!(source, ProfileError::NotFinite { quantity, k, value }
+                if *quantity == name && inside(*k) && !value.is_finite())
+        }
+    };
     let slope = "the slope Y'/X'";
     for value in [NAN, INF, -INF] {
         let with = move |k: f64| if inside(k) { value } else { 1.0 };

@@ -18,7 +18,8 @@ fn loads_scales_and_edges() {
         for (name, says, way) in ways {
             let given = if name == "Constant" { value / PI } else { value };
             table.solve(&format!("{name}({value:e})"), 0, &contact, way(value), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { quantity, value }) if *quantity == says && same(*value, given))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { quantity, value })
+                    if *quantity == says && same(*value, given))
             });
         }
         table.solve(&format!("κ = {value:e}"), 0, &contact.clone().kappa(value), good, |wrong| {
@@ -84,13 +85,17 @@ fn loads_scales_and_edges() {
             let contact = contact.clone().edges(left, right);
             for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
                 table.solve(&format!("{edges:?}, {load:?}"), 0, &contact, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval }) if same(interval.left, x) || same(interval.right, x))
+                    matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval })
+                        if same(interval.left, x) || same(interval.right, x))
                 });
             }
         }
     }
     for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval }) if same(interval.left, left) && same(interval.right, right));
+        let is_it = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval })
+                if same(interval.left, left) && same(interval.right, right))
+        };
         for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
             let contact = contact.clone().start(Interval { left, right });
             table.solve(&format!("start {left} to {right}"), 0, &contact, load, is_it);
@@ -149,7 +154,8 @@ fn edge_pressures_rules_and_tolerances() {
             }
             let contact = contact.clone().edge_pressure(edges);
             table.solve(&format!("{wrong_one} = {value}"), 0, &contact, load, |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidEdgePressure { name, value: v }) if *name == wrong_one && same(*v, value))
+                matches!(wrong, Wrong::Contact(ContactError::InvalidEdgePressure { name, value: v })
+                    if *name == wrong_one && same(*v, value))
             });
         }
         let by_pressure = contact.clone().edge_pressure(good);
@@ -177,7 +183,10 @@ fn edge_pressures_rules_and_tolerances() {
     ] {
         let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
         let contact = contact.clone().quadrature(&rule);
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidSegments { segments: s, extrapolations: e }) if (*s, *e) == (segments, extrapolations));
+        let is_it = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::InvalidSegments { segments: s, extrapolations: e })
+                if (*s, *e) == (segments, extrapolations))
+        };
         table.solve(&format!("{rule:?}"), 0, &contact, load, is_it);
         let of_solver = || Ok(Solver::new().solve(&contact, load).map(|_| ())?);
         table.row(&format!("solver of {rule:?}"), 0, of_solver, is_it);
@@ -185,7 +194,10 @@ fn edge_pressures_rules_and_tolerances() {
     for tolerance in [NAN, INF, -INF, -1.0, -TINY, 1.0, 7.0] {
         let panels = Panels { tolerance };
         let contact_by = contact.clone().quadrature(&panels);
-        let is_it = |wrong: &Wrong| matches!(wrong, Wrong::Contact(ContactError::InvalidTolerance { tolerance: t }) if same(*t, tolerance));
+        let is_it = |wrong: &Wrong| {
+            matches!(wrong, Wrong::Contact(ContactError::InvalidTolerance { tolerance: t })
+                if same(*t, tolerance))
+        };
         table.solve(&format!("{panels:?}"), 0, &contact_by, load, is_it);
         let of_solver = || Ok(Solver::new().solve(&contact_by, load).map(|_| ())?);
         table.row(&format!("solver of {panels:?}"), 0, of_solver, is_it);
@@ -204,13 +216,22 @@ fn edge_pressures_rules_and_tolerances() {
             let [one, two, three, four] = strategies(tolerance);
             for strategy in [&one, &two, &three, &four] {
                 let inverting = contact.clone().inversion(&**strategy).quadrature(&rule);
-                table.solve(&format!("inversion by {tolerance:?}"), 200, &inverting, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Inversion { source: SearchError::Tolerance { value }, .. }) if same(*value, bad))
-                });
+                table.solve(
+                    &format!("inversion by {tolerance:?}"),
+                    200,
+                    &inverting,
+                    load,
+                    |wrong| {
+                        matches!(wrong, Wrong::Contact(ContactError::Inversion {
+                            source: SearchError::Tolerance { value }, ..
+                        }) if same(*value, bad))
+                    },
+                );
                 let searching = contact.clone().limit_search(&**strategy);
                 table.solve(&format!("search by {tolerance:?}"), 200, &searching, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::LimitSearch { best, source: SearchError::Tolerance { value } })
-                        if same(*value, bad) && best.left < best.right)
+                    matches!(wrong, Wrong::Contact(ContactError::LimitSearch {
+                        best, source: SearchError::Tolerance { value },
+                    }) if same(*value, bad) && best.left < best.right)
                 });
             }
         }

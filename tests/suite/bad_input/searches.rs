@@ -46,19 +46,20 @@ fn searches() {
             *found == Err(SearchError::NoSignChange { lo: -1.0, hi: 2.0, f_lo: 1.0, f_hi: 1.0 })
         });
         for [at_lo, at_hi] in [[NAN, 1.0], [-1.0, INF], [-INF, 1.0], [-1.0, NAN]] {
-            run(
-                "values that are none",
-                good.values(at_lo, at_hi),
-                &|x| x - 0.3,
-                &|found| matches!(found, Err(SearchError::NotFinite { x, value }) if (same(*value, at_lo) && *x == -1.0) || (same(*value, at_hi) && *x == 2.0)),
-            );
+            run("values that are none", good.values(at_lo, at_hi), &|x| x - 0.3, &|found| {
+                matches!(found, Err(SearchError::NotFinite { x, value })
+                    if (same(*value, at_lo) && *x == -1.0) || (same(*value, at_hi) && *x == 2.0))
+            });
         }
         for value in [NAN, INF, -INF] {
             run(
                 "values not finite inside",
                 good,
                 &|x| if x.abs() < 0.9 { value } else { x },
-                &|found| matches!(found, Err(SearchError::NotFinite { x, value: v }) if x.abs() < 0.9 && same(*v, value)),
+                &|found| {
+                    matches!(found, Err(SearchError::NotFinite { x, value: v })
+                        if x.abs() < 0.9 && same(*v, value))
+                },
             );
         }
         for guess in [NAN, INF, -INF, 9.0, -1.0, 2.0] {

@@ -4,6 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 
+use approx::assert_relative_eq;
 use common::{Counting, graph, on_flat, paper, power, scenes};
 use linecontact::profile::Ellipse;
 use linecontact::{
@@ -11,7 +12,7 @@ use linecontact::{
     ParametricProfile, Solution, Solver,
 };
 use std::f64::consts::PI;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Limits and pressures, compared relative to the half-width and to the largest pressure.
 struct Result {
@@ -377,5 +378,50 @@ fn a_load_that_rises_slowly() {
             load *= rate;
         }
         assert!(evaluations < most, "{evaluations} at {rate}");
+    }
+}
+
+/// Body that is x²/2 or x²/8, depending on its flag.
+struct Turncoat(AtomicBool);
+
+impl ParametricProfile<f64> for Turncoat {
+    fn domain(&self) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+    fn at(&self, k: f64) -> CurvePoint<f64> {
+        let curvature = if self.0.load(Ordering::Relaxed) { 0.25 } else { 1.0 };
+        CurvePoint { x: k, y: curvature * k * k / 2.0, dx: 1.0, dy: curvature * k }
+    }
+}
+
+/// A body that has changed: the samples kept by a warm solver are not those of `certify`.
+#[test]
+fn a_body_that_changes_behind_the_solver() {
+    let body = Turncoat(AtomicBool::new(false));
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let mut solver = Solver::new();
+    let a = solver.solve(&contact, Control::Load(0.02)).unwrap().a();
+    assert_relative_eq!(a, 0.2, epsilon = 0.0, max_relative = 1e-14);
+    body.0.store(true, Ordering::Relaxed);
+    let solution = solver.solve(&contact, Control::Load(0.02)).unwrap();
+    let right = (solution.a() - 0.4).abs() < 1e-13;
+    assert!(right || solution.certify().is_err(), "certified: {solution:?}");
+}
+
+#[test]
+fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
+    let two = |tilt: f64| {
+        graph(-1.2, 1.2, move |x: f64| {
+            [(x * x - 0.25).powi(2) + tilt * x, 4.0 * x * (x * x - 0.25) + tilt]
+        })
+    };
+    let (one, other) = (two(0.05), two(-0.05));
+    let [one, other] = [&one, &other].map(|body| Contact::new(&Flat, &**body).unwrap());
+    let control = Control::HalfWidth(0.005);
+    let mut solver = Solver::new();
+    for contact in [&one, &other, &one] {
+        let cold = contact.solve(control).unwrap().hull();
+        let warm = solver.solve(contact, control).unwrap().hull();
+        assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
     }
 }
