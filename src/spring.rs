@@ -183,16 +183,18 @@ impl<T: Real> SpringTable<T> {
         self.stiffness_error
     }
 
-    /// Returns the state at an approach within the table.
+    /// Returns the state at an approach within the table, whose ends may be passed by rounding.
     ///
     /// # Errors
     /// [`ContactError::OutsideTable`].
     pub fn at(&self, approach: T) -> Result<SpringPoint<T>, ContactError<T>> {
         let last = self.points.len() - 1;
         let range = [self.points[0].point.approach, self.points[last].point.approach];
-        if !(approach >= range[0] && approach <= range[1]) {
+        let rounding = T::of(4.0) * T::epsilon() * range[1];
+        if !(approach >= range[0] - rounding && approach <= range[1] + rounding) {
             return Err(ContactError::OutsideTable { approach, range });
         }
+        let approach = approach.max(range[0]).min(range[1]);
         let next = self.points.partition_point(|node| node.point.approach < approach);
         let next = next.clamp(1, last);
         Ok(between(&[self.points[next - 1], self.points[next]], approach).point)

@@ -91,4 +91,10 @@ fn what_makes_no_table_is_refused() {
     let ends: Vec<f64> = table.points().map(|point| point.approach).collect();
     assert!((table.at(ends[0]).unwrap().load / 0.01 - 1.0).abs() < 1e-14);
     assert!((table.at(ends[ends.len() - 1]).unwrap().load / 0.1 - 1.0).abs() < 1e-14);
+    // An end that was worked out anew may be off by rounding.
+    let last = ends[ends.len() - 1];
+    for (end, off) in [(ends[0], -f64::EPSILON), (last, f64::EPSILON)] {
+        assert_eq!(table.at(end * (1.0 + off)).unwrap(), table.at(end).unwrap());
+        assert!(table.at(end * (1.0 + 1e6 * off)).is_err());
+    }
 }
