@@ -33,10 +33,10 @@ pub(crate) type Watch<'b, T> = &'b (dyn Fn(Cost, crate::Interval<T>) -> ControlF
 
 /// Number of evaluations of smooth bodies after which a search gives up: thousands of times the
 /// usual number.
-const MOST_EVALUATIONS: usize = 1 << 20;
+const MAX_EVALUATIONS: usize = 1 << 20;
 
 /// Number of further evaluations for each piece.
-const MOST_FOR_A_PIECE: usize = 1 << 10;
+const MAX_FOR_A_PIECE: usize = 1 << 10;
 
 /// Slope of the gap between two bodies, not yet sampled. A clone is the same gap, and costs no
 /// allocation.
@@ -399,11 +399,11 @@ impl<'b, T: Real> Gap<'b, T> {
     ) -> Result<(), ContactError<T>> {
         self.check_watch(cost, last)?;
         let evaluations = cost.evaluations.max(cost.samples);
-        if evaluations <= MOST_EVALUATIONS {
+        if evaluations <= MAX_EVALUATIONS {
             return Ok(());
         }
         let pieces: usize = self.bodies.iter().map(Surface::len).sum();
-        let each = MOST_EVALUATIONS.saturating_add(MOST_FOR_A_PIECE.saturating_mul(pieces));
+        let each = MAX_EVALUATIONS.saturating_add(MAX_FOR_A_PIECE.saturating_mul(pieces));
         let budget = each.saturating_mul(times).saturating_add(more);
         if evaluations <= budget {
             Ok(())

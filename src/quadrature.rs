@@ -35,7 +35,7 @@ use std::any::Any;
 const UNKEPT: usize = 16;
 
 /// Number of times, beyond its budget, that a search may take all samples for a pressure.
-const MOST_PRESSURES: usize = 4096;
+const MAX_PRESSURES: usize = 4096;
 
 /// Takes the samples still missing for the pressure, as part of a search that has spent `cost`.
 pub(crate) fn complete<T: Real>(
@@ -46,7 +46,7 @@ pub(crate) fn complete<T: Real>(
 ) -> Result<(), ContactError<T>> {
     let more = integrator.complete(gap)?;
     *cost += more;
-    let pressures = more.evaluations.max(more.samples).saturating_mul(MOST_PRESSURES);
+    let pressures = more.evaluations.max(more.samples).saturating_mul(MAX_PRESSURES);
     if pressures > 0 { gap.check_budget(*cost, UNKEPT, pressures, on) } else { Ok(()) }
 }
 

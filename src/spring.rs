@@ -10,7 +10,7 @@
 use crate::{Contact, ContactError, Control, Interval, Real, References, Solution, Solver};
 
 /// Largest number of points of a table.
-const MOST_POINTS: usize = 4096;
+const MAX_POINTS: usize = 4096;
 
 /// Least distance of two points, as a share of the load: closer ones follow a kink, as where a
 /// corner is reached.
@@ -155,7 +155,7 @@ impl<T: Real> SpringTable<T> {
                 stiffness_error = stiffness_error.max(T::of(MARGIN) * of_stiffness);
             }
             let is_apart = ratio > T::one() + T::of(CLOSEST);
-            if error > tolerance && is_apart && table.points.len() + pending.len() < MOST_POINTS {
+            if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_POINTS {
                 pending.extend([[middle, to], [from, middle]]);
                 continue;
             }

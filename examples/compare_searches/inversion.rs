@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 const TARGETS: i32 = 101;
 
 /// Largest error of k that passes, in units of the attainable error.
-const MOST_EXCESS: f64 = 4.0;
+const MAX_EXCESS: f64 = 4.0;
 
 /// Curve, and the k towards which the targets crowd from the far end of its domain.
 struct Case {
@@ -163,7 +163,7 @@ pub fn cold() -> Tally {
             print!("{name:<26} {:<10} {mean:>7.1} {most:>5} {k:>9.1e} {x:>9.1e}", NAMES[i]);
             println!(" {excess:>8.2}");
             tally.count(i, mean);
-            if excess > MOST_EXCESS {
+            if excess > MAX_EXCESS {
                 tally.fail(i, "k is less accurate than the numbers allow");
             }
             if let Some(error) = outcome.failure {

@@ -19,6 +19,6 @@ impl<T: Real> Gap<'_, T> {
         let highest = ends.map(|y| y.abs()).into_iter().filter(|y| y.is_finite());
         let y = T::of(2.0) * T::epsilon() * highest.fold(T::zero(), T::max);
         let measured = Noise::of_rounding(piece, k, evaluations);
-        measured.map_or(Noise::nothing(), |noise| noise.max(Noise { x: T::zero(), y }))
+        measured.map_or(Noise::zero_tolerance(), |noise| noise.max(Noise { x: T::zero(), y }))
     }
 }

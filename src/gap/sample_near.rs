@@ -27,7 +27,7 @@ use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 
 /// Largest number of targets at a time.
-const MOST: usize = 32;
+const MAX_TARGETS: usize = 32;
 
 /// Largest number of steps of Newton's rule to a target, before the user's strategy takes over.
 const STEPS: usize = 4;
@@ -87,13 +87,13 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     body: Body,
     targets: &[T; N],
     room: &[T; N],
-    trace: &mut SampleCache<T>,
+    cache: &mut SampleCache<T>,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
-    const { assert!(N <= MOST) };
+    const { assert!(N <= MAX_TARGETS) };
     let (index, piece) = gap.piece_with(body, targets[N / 2], Side::Left)?;
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
-        (trace.direct, trace.piece) = (true, None);
+        (cache.direct, cache.piece) = (true, None);
         let zero = T::zero();
         let mut curve_samples =
             targets.map(|x| CurveSample { k: zero, x, y: zero, dx: zero, slope });
@@ -105,28 +105,28 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
                 return Err(not_finite(body, "slope_at(x)", curve_sample.x, curve_sample.slope));
             }
         }
-        trace.curve_samples.set([curve_samples[0], curve_samples[N - 1]], &curve_samples);
+        cache.curve_samples.set([curve_samples[0], curve_samples[N - 1]], &curve_samples);
         return Ok(());
     }
-    trace.direct = false;
-    if trace.piece != Some(index) {
+    cache.direct = false;
+    if cache.piece != Some(index) {
         let ends = [0, 1].map(|i| {
             let slope = piece.end_slope(i, &mut cost.evaluations);
             CurveSample { slope, ..CurveSample::new(piece.k[i], piece.ends[i]) }
         });
-        trace.piece = Some(index);
-        trace.curve_samples.set(ends, &[]);
+        cache.piece = Some(index);
+        cache.curve_samples.set(ends, &[]);
     }
-    let (ends, rises) = (trace.curve_samples.ends(), piece.k[0] < piece.k[1]);
-    let shot = TargetBatch { gap, body, piece, ends, rises, targets, room };
-    for guide in &mut trace.guides {
+    let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
+    let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
+    for guide in &mut cache.guides {
         if let Some((_, guide)) = guide.take_if(|(piece, _)| *piece == index)
-            && trace.curve_samples.len() == 0
+            && cache.curve_samples.len() == 0
         {
-            shot.follow(&guide, &mut trace.curve_samples, cost);
+            batch.follow(&guide, &mut cache.curve_samples, cost);
         }
     }
-    shot.take(&mut trace.curve_samples, cost).map_err(|error| turns(piece, error))
+    batch.take(&mut cache.curve_samples, cost).map_err(|error| turns(piece, error))
 }
 
 /// Places near which samples are wanted.

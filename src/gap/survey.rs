@@ -41,8 +41,8 @@ pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
 use std::cmp::Ordering;
 
 /// Largest number of rounds of halving, and of evaluations, for one load.
-const MOST_ROUNDS: usize = 40;
-const MOST_HEIGHTS: usize = 1 << 14;
+const MAX_ROUNDS: usize = 40;
+const MAX_HEIGHTS: usize = 1 << 14;
 
 /// Heights and slopes of two bodies.
 #[derive(Clone, Debug)]
@@ -197,7 +197,7 @@ impl<T: Real> Survey<T> {
             return Ok(());
         }
         let before = cost.heights;
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let load = self.load_of(asked);
             let presses = load > T::zero();
             if !presses {
@@ -221,7 +221,7 @@ impl<T: Real> Survey<T> {
             let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
             let mut wanted = std::mem::take(&mut self.marked);
             self.list_wanted(gap, level, tolerance, &mut wanted[0]);
-            let is_dear = cost.heights - before > MOST_HEIGHTS;
+            let is_dear = cost.heights - before > MAX_HEIGHTS;
             let refined = match wanted[0].is_empty() || is_dear {
                 true => Ok(false),
                 false => self.refine_at(gap, [&wanted[0]; 2], tolerance, cost),

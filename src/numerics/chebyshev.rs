@@ -14,7 +14,7 @@ use std::sync::LazyLock;
 /// Numbers of nodes in use, multiples of four for the sake of vector instructions.
 pub(crate) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
 /// Largest of the [`SIZES`].
-pub(crate) const MOST: usize = 32;
+pub(crate) const MAX_SIZE: usize = 32;
 
 /// Calls an expression for one of the [`SIZES`], with the number of nodes known to the compiler.
 macro_rules! by_size {
@@ -28,7 +28,7 @@ macro_rules! by_size {
                 $call
             })*
             _ => {
-                const $size: usize = crate::numerics::chebyshev::MOST;
+                const $size: usize = crate::numerics::chebyshev::MAX_SIZE;
                 $call
             }
         }
@@ -36,24 +36,24 @@ macro_rules! by_size {
 }
 pub(crate) use by_size;
 
-/// Coefficients or values of a panel, one for each of its nodes.
-pub(crate) type Row<T> = [T; MOST];
+/// Row or values of a panel, one for each of its nodes.
+pub(crate) type Row<T> = [T; MAX_SIZE];
 
 /// Zeros of `T_n`, and the transform from values there to coefficients.
 #[derive(Default)]
 pub(crate) struct Table {
     /// Nodes, rising, and `sin θ` there.
-    pub z: [f64; MOST],
-    pub sine: [f64; MOST],
+    pub z: [f64; MAX_SIZE],
+    pub sine: [f64; MAX_SIZE],
     /// Distance from each node to the nearest other.
-    pub spacing: [f64; MOST],
+    pub spacing: [f64; MAX_SIZE],
     /// Share of the value at node j in coefficient k, as `transform[j][k]`.
-    transform: [[f64; MOST]; MOST],
+    transform: [[f64; MAX_SIZE]; MAX_SIZE],
     /// Share of the value at node j in the value at the right end.
-    at_end: [f64; MOST],
+    at_end: [f64; MAX_SIZE],
     /// Share of the value at node j in the integrals from the first node to a [middle](middle) one,
     /// and from there to the last.
-    in_rises: [[f64; MOST]; 2],
+    in_rises: [[f64; MAX_SIZE]; 2],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
@@ -247,7 +247,7 @@ pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
 }
 
-/// Number of coefficients treated together; [`MOST`] is a multiple of it.
+/// Number of coefficients treated together; [`MAX_SIZE`] is a multiple of it.
 const ABREAST: usize = 4;
 
 /// Returns the coefficients of the same polynomial on the range from `left` to `right`, which need
@@ -256,7 +256,7 @@ const ABREAST: usize = 4;
 /// Clenshaw's recurrence for `s = middle + reach t`. Each of its numbers is itself a series in t,
 /// one term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
-    let mut row = [T::zero(); MOST];
+    let mut row = [T::zero(); MAX_SIZE];
     expand_to(&mut row, coefficients, [left, right]);
     row
 }
@@ -266,8 +266,8 @@ pub(crate) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, ri
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
     let [last, others @ ..] = coefficients else { return };
-    // Coefficients from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
-    let [mut one, mut other] = [[T::zero(); MOST + 2]; 2];
+    // Row from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
+    let [mut one, mut other] = [[T::zero(); MAX_SIZE + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
     for (length, a) in others.iter().rev().enumerate() {
         step(b1, b2, length, [middle + middle, reach], *a);
@@ -275,20 +275,20 @@ pub(crate) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, ri
     }
     // The last step has half the factors of the others.
     step(b1, b2, others.len(), [middle, half * reach], *last);
-    row.copy_from_slice(&b2[1..=MOST]);
+    row.copy_from_slice(&b2[1..=MAX_SIZE]);
     row[0] *= half;
 }
 
 /// Replaces the last but one number of the recurrence by the next; the last has `length` terms.
 #[inline(always)]
 fn step<T: Real>(
-    b1: &[T; MOST + 2],
-    b2: &mut [T; MOST + 2],
+    b1: &[T; MAX_SIZE + 2],
+    b2: &mut [T; MAX_SIZE + 2],
     length: usize,
     [by_middle, by_reach]: [T; 2],
     a: T,
 ) {
-    for block in 0..(length / ABREAST + 1).min(MOST / ABREAST) {
+    for block in 0..(length / ABREAST + 1).min(MAX_SIZE / ABREAST) {
         let first = ABREAST * block;
         let around: [T; ABREAST + 2] = std::array::from_fn(|i| b1[first + i]);
         let next: [T; ABREAST] = std::array::from_fn(|i| {
@@ -303,5 +303,5 @@ fn step<T: Real>(
 
 /// Returns the smallest of the [`SIZES`] that holds n coefficients.
 pub(crate) fn size_for(n: usize) -> usize {
-    SIZES.into_iter().find(|&size| size >= n).unwrap_or(MOST)
+    SIZES.into_iter().find(|&size| size >= n).unwrap_or(MAX_SIZE)
 }

@@ -5,17 +5,17 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Largest number of nodes of a Gauss-Legendre rule.
-pub(crate) const MOST_NODES: usize = 64;
+pub(crate) const MAX_NODES: usize = 64;
 
 /// Gauss-Legendre rule on [-1, 1].
 pub(crate) struct GaussLegendre {
     pub n: usize,
-    pub nodes: [f64; MOST_NODES],
-    pub weights: [f64; MOST_NODES],
+    pub nodes: [f64; MAX_NODES],
+    pub weights: [f64; MAX_NODES],
 }
 
 static RULES: LazyLock<[GaussLegendre; 7]> =
-    LazyLock::new(|| [8, 16, 24, 32, 40, 48, MOST_NODES].map(GaussLegendre::new));
+    LazyLock::new(|| [8, 16, 24, 32, 40, 48, MAX_NODES].map(GaussLegendre::new));
 
 impl GaussLegendre {
     /// Returns the rule for a polynomial of n coefficients on a span with this tangent. The
@@ -44,7 +44,7 @@ impl GaussLegendre {
 
     /// Computes the nodes, the zeros of the Legendre polynomial, by Newton's method.
     fn new(n: usize) -> Self {
-        let mut rule = Self { n, nodes: [0.0; MOST_NODES], weights: [0.0; MOST_NODES] };
+        let mut rule = Self { n, nodes: [0.0; MAX_NODES], weights: [0.0; MAX_NODES] };
         for i in 0..n {
             let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
             let mut derivative = 1.0;

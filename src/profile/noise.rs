@@ -23,7 +23,7 @@ pub(crate) struct Noise<T> {
 
 impl<T: Real> Noise<T> {
     /// Returns zero noise.
-    pub fn nothing() -> Self {
+    pub fn zero_tolerance() -> Self {
         Self { x: T::zero(), y: T::zero() }
     }
 

@@ -27,7 +27,7 @@ mod treecode;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap, Guides};
-use crate::numerics::chebyshev::{MOST, SIZES};
+use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use cauchy_transform::{CauchyTransform, cauchy_transform};
 pub(crate) use edge_integrals::rise as rises_over;
@@ -35,7 +35,7 @@ use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
-pub(crate) use panel_set::{MOST_MISSED, PanelSet, Rises};
+pub(crate) use panel_set::{MAX_MISSED, PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 /// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
 /// the largest slope; `None` for other integrators, and for several contacts.
@@ -179,11 +179,11 @@ impl<T: Real> Quadrature<T> for Panels {
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set: PanelSet::new(tolerance),
-            conjugate: HilbertTransform::new(),
+            transform: HilbertTransform::new(),
             is_prepared: false,
             moments: None,
             over: None,
-            fall: None,
+            decay: None,
             several: Several::new(tolerance),
             is_several: false,
         }))
@@ -200,15 +200,15 @@ impl<T: Real> Quadrature<T> for Panels {
 pub struct PanelIntegrator<T> {
     rule: Panels,
     panel_set: PanelSet<T>,
-    conjugate: HilbertTransform<T>,
-    /// True if the conjugate belongs to the moments last remembered.
+    transform: HilbertTransform<T>,
+    /// True if the transform belongs to the moments last remembered.
     is_prepared: bool,
-    /// Interval last integrated over, in the end the one of the conjugate, and its moments.
+    /// Interval last integrated over, in the end the one of the transform, and its moments.
     moments: Option<(Interval<T>, Moments<T>)>,
     /// Series over the interval, if one panel holds it.
     over: Option<Series<T>>,
     /// First estimate only: ratio of coefficients two apart, and the half-width covered.
-    fall: Option<[T; 2]>,
+    decay: Option<[T; 2]>,
     /// Several contacts at once, and a flag: they were last in use.
     several: Several<T>,
     is_several: bool,
@@ -217,7 +217,7 @@ pub struct PanelIntegrator<T> {
 impl<T: Real> PanelIntegrator<T> {
     /// Returns the panels of the only contact, and the contact; `None` with several.
     fn only(&self) -> Option<(&PanelSet<T>, Interval<T>)> {
-        (!self.is_several).then_some((&self.panel_set, self.conjugate.on))
+        (!self.is_several).then_some((&self.panel_set, self.transform.on))
     }
 
     /// Returns the panels that hold one contact, and the contact.
@@ -258,14 +258,14 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the number of nodes that should suffice, from the decay of the first estimate's
     /// coefficients.
     fn expected_size(&self, on: Interval<T>) -> usize {
-        let Some([fall, half_width]) = self.fall else { return LEAST };
+        let Some([decay, half_width]) = self.decay else { return LEAST };
         let shrunk = on.half_width() / half_width;
-        let fall = fall * shrunk * shrunk;
+        let decay = decay * shrunk * shrunk;
         let mut expected = T::one();
-        for n in (2..=MOST).step_by(2) {
-            expected *= fall;
-            // Coefficients may fall more slowly than the first of them.
-            let left = expected * T::of(20.0) * fall;
+        for n in (2..=MAX_SIZE).step_by(2) {
+            expected *= decay;
+            // Row may fall more slowly than the first of them.
+            let left = expected * T::of(20.0) * decay;
             if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
@@ -298,14 +298,14 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.panel_set.clear(true);
         (self.panel_set.coarse, self.panel_set.initial) = (coarse, self.expected_size(on));
         self.panel_set.extend(gap, on)?;
-        self.fall = coarse.then(|| {
+        self.decay = coarse.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
             let largest = |max: T, panel: &Panel<T>| max.max(ratio(&panel.series));
-            let fall = self.panel_set.panels.iter().fold(T::epsilon(), largest);
-            [fall.min(T::one()), on.half_width()]
+            let decay = self.panel_set.panels.iter().fold(T::epsilon(), largest);
+            [decay.min(T::one()), on.half_width()]
         });
         self.panel_set.coarse = false;
-        Ok(Some(self.fall.map_or(self.panel_set.tolerance, |[fall, _]| fall * fall)))
+        Ok(Some(self.decay.map_or(self.panel_set.tolerance, |[decay, _]| decay * decay)))
     }
 
     fn moments(
@@ -330,7 +330,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
                 return Err(ContactError::OutsideBodies { x, range });
             }
         }
-        if self.fall.is_some() {
+        if self.decay.is_some() {
             return Ok(edge_integrals::moments(&self.panel_set.panels, on, true, &mut self.over));
         }
         self.panel_set.extend(gap, on)?;
@@ -347,15 +347,15 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.turn_to_one();
         let m = self.moments(gap, on)?;
         // It may also be too large for a short part of the contact beyond a breakpoint.
-        if self.fall.is_none() && self.is_poor(&m) && self.panel_set.overshoots(gap, on) {
+        if self.decay.is_none() && self.is_poor(&m) && self.panel_set.overshoots(gap, on) {
             let sampled = self.sample_anew(gap, on)?;
             // Limits and load still come from the earlier panels.
             self.moments = Some((on, Moments { error: m.error.max(sampled.error), ..sampled }));
         }
         if !self.is_prepared {
             let PanelSet { panels, size, tolerance, .. } = &self.panel_set;
-            self.conjugate.set(panels, self.over.as_ref(), on, *size, *tolerance);
-            self.is_prepared = self.fall.is_none();
+            self.transform.set(panels, self.over.as_ref(), on, *size, *tolerance);
+            self.is_prepared = self.decay.is_none();
         }
         Ok(())
     }
@@ -400,9 +400,9 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             let error = kappa * self.several.error(x) + T::of(4.0) * T::epsilon() * value[0].abs();
             return Ok(Estimate { value: value[0], error });
         }
-        let on = self.conjugate.on;
+        let on = self.transform.on;
         let of_series =
-            kappa * self.conjugate.error(&self.panel_set.panels, x) / (T::pi() * T::pi());
+            kappa * self.transform.error(&self.panel_set.panels, x) / (T::pi() * T::pi());
         // An error of the edge integrals is an error of the strengths.
         let strength = self.moments.map_or(T::zero(), |(_, m)| kappa * on.half_width() * m.error);
         let of_edges = T::of(6.0) * strength / (T::pi() * on.chebyshev_weight(x));
@@ -415,7 +415,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     }
 
     fn sampled_interval(&self) -> Option<Interval<T>> {
-        self.panel_set.interval().filter(|_| self.fall.is_none())
+        self.panel_set.interval().filter(|_| self.decay.is_none())
     }
 
     fn prescribe_limits(&mut self, gap: &Gap<'_, T>, limits: Ends<Option<T>>) {
@@ -437,7 +437,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 
     fn clear_samples(&mut self) {
         self.panel_set.clear(true);
-        (self.fall, self.moments) = (None, None);
+        (self.decay, self.moments) = (None, None);
     }
 
     fn reset(&mut self, same_bodies: bool) {
@@ -447,7 +447,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.turn_to_one();
         if !same_bodies {
             self.panel_set.clear(false);
-            (self.fall, self.moments) = (None, None);
+            (self.decay, self.moments) = (None, None);
         }
     }
 }
@@ -456,12 +456,12 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the pressure at `count` points strictly inside the contact.
     #[inline(always)]
     fn in_lanes(&self, load_case: &LoadCase<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
-        let on = self.conjugate.on;
+        let on = self.transform.on;
         let scale = load_case.kappa / (T::pi() * T::pi());
         let (half, least) = (T::of(0.5), T::of(0.1));
         let [free, bound] = self.strengths(load_case);
         let edges = Edges::of(on, x);
-        let regular = self.conjugate.at(x, count, &edges);
+        let regular = self.transform.at(x, count, &edges);
         std::array::from_fn(|i| {
             let (left, right) = (edges.left[i], edges.right[i]);
             let by_root = half / edges.root[i];
@@ -478,7 +478,7 @@ impl<T: Real> PanelIntegrator<T> {
     fn strengths(&self, load_case: &LoadCase<T>) -> [Ends<T>; 2] {
         let zero = T::zero();
         let Some((_, m)) = self.moments else { return [Ends::both(zero); 2] };
-        let mean_pressure = load_case.load / self.conjugate.on.half_width();
+        let mean_pressure = load_case.load / self.transform.on.half_width();
         let strength = |sum: T| (mean_pressure - load_case.kappa * sum) / T::pi();
         let both = Ends { left: strength(m.m1 - m.m0), right: strength(m.m1 + m.m0) };
         let pick = |free: bool| {

@@ -24,7 +24,7 @@ use outside::{Loaded, OutsideOf};
 use series_bounds::extremes;
 
 /// Largest number of evaluations, and of samples, before the certificate is given up.
-const MOST_EVALUATIONS: usize = 1 << 20;
+const MAX_EVALUATIONS: usize = 1 << 20;
 
 /// Largest length of a cell as a share of the bodies' range; each has eight nodes or more.
 const SHARE: f64 = 1.0 / 400.0;
@@ -116,7 +116,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
         rows.push(row);
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
-    let (load, share) = (found.load / kappa, found.nothing());
+    let (load, share) = (found.load / kappa, found.zero_tolerance());
     several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
     several.system(load, &mut system);
     let cost = several.cost;
@@ -215,7 +215,7 @@ fn presses_at<T: Real>(
     let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
     // If both edges pull, the error names the right one.
     for side in [Side::Right, Side::Left] {
-        if at_corner[side] && strengths[side] < -found.nothing() * pressed {
+        if at_corner[side] && strengths[side] < -found.zero_tolerance() * pressed {
             let (x, pressure) = (interval[side], -T::one() / T::zero());
             return Err(ContactError::Tension { x, pressure, interval, load });
         }
@@ -241,7 +241,7 @@ fn least_pressure<T: Real>(
     for (i, &on) in several.contacts().iter().enumerate() {
         let borne = if last == 0 { load } else { borne(&pressures, on) };
         let mean = T::of(0.5) * borne.abs() / on.half_width();
-        let (free, allowed) = (free.of_contact(i, last), found.nothing() * mean);
+        let (free, allowed) = (free.of_contact(i, last), found.zero_tolerance() * mean);
         let inside = Inside { pressures: &pressures, gap, on, free, load, hull, allowed };
         let Extremum { x, value } = inside.least(cost)?;
         least = nearer(least, Some(Extremum { x, value: value / mean }));
@@ -327,8 +327,8 @@ mod tests {
             adhesive: Ends::both(false),
             error: Some(1e-14),
             error_by_load: None,
-            force: None,
-            trend: None,
+            load_error: None,
+            moment_derivatives: None,
             tilt: 0.0,
             ends,
         };

@@ -8,7 +8,7 @@ use crate::{Ends, Interval, Real};
 const ERRORS: f64 = 16.0;
 
 /// Largest share of a usual value in the contacts that counts as zero.
-const MOST: f64 = 0.01;
+const MAX_TOLERANCE: f64 = 0.01;
 
 /// Contact that a search has found.
 #[derive(Clone, Copy)]
@@ -27,9 +27,9 @@ pub(crate) struct ContactState<T> {
     /// contact with inaccurate limits has little effect elsewhere.
     pub error_by_load: Option<T>,
     /// Load error that corresponds to the error of the limits, if it is known.
-    pub force: Option<T>,
+    pub load_error: Option<T>,
     /// Derivatives of the edge integrals by the limits, if they are known.
-    pub trend: Option<MomentDerivatives<T>>,
+    pub moment_derivatives: Option<MomentDerivatives<T>>,
     /// Angle by which body 2 was turned counter-clockwise.
     pub tilt: T,
     /// Ends of the bodies: corners, or the ends of their common range.
@@ -38,15 +38,15 @@ pub(crate) struct ContactState<T> {
 
 impl<T: Real> ContactState<T> {
     /// Returns the share of a usual value in the contacts below which a value counts as zero.
-    pub fn nothing(&self) -> T {
-        Self::rounding().max(self.open()).min(T::of(MOST))
+    pub fn zero_tolerance(&self) -> T {
+        Self::rounding().max(self.open()).min(T::of(MAX_TOLERANCE))
     }
 
     /// Tells whether the error of the limits exceeds all tolerances, so that no check can decide: a
     /// search has stopped early, or a quadrature is coarse.
     pub fn is_doubtful(&self) -> bool {
         // NaN is doubtful too.
-        let is_sure = self.open() <= T::of(MOST);
+        let is_sure = self.open() <= T::of(MAX_TOLERANCE);
         !is_sure
     }
 

@@ -135,7 +135,7 @@ impl<T: Real> LoadRates<T> {
                 refuse("the limits were sought by Eq. (6), not by free edges")
             };
         }
-        let Some(trend) = found.trend else {
+        let Some(derivatives) = found.moment_derivatives else {
             return refuse("the quadrature has no derivatives of its integrals; use Panels");
         };
         let half_width = on.half_width();
@@ -145,7 +145,7 @@ impl<T: Real> LoadRates<T> {
             T::frac_pi_2() * (found.strengths.left - found.strengths.right) / kappa
         };
         let rate = |free: bool, sign: T| {
-            let slope = half_width * (trend.by_0 + sign * trend.by_1);
+            let slope = half_width * (derivatives.by_0 + sign * derivatives.by_1);
             let stiffness = kappa * (T::of(0.5) * sign * mean + slope);
             if free { T::one() / stiffness } else { T::zero() }
         };

@@ -10,10 +10,10 @@ use std::cmp::Ordering;
 const POINTS: usize = 64;
 
 /// Largest number of grid points, unless more than half as many panels are present.
-const MOST_POINTS: usize = 1 << 14;
+const MAX_POINTS: usize = 1 << 14;
 
 /// Largest number of breakpoints at which the pressure, known to be finite, is evaluated.
-const MOST_BREAKPOINTS: usize = 256;
+const MAX_BREAKPOINTS: usize = 256;
 
 /// Number of parts into which a bracket of a maximum is divided: the 16 points between them cost no
 /// more than one, as they are evaluated at once.
@@ -134,7 +134,7 @@ pub(crate) fn largest_pressure<T: Real>(
     let highest = grid.iter().copied().reduce(higher).map_or(on.centre(), |[x, _]| x);
     let top = (highest, integrator.estimate(gap, load_case, highest, cost)?);
     let mut search = Search { integrator, gap, load_case, cost, top };
-    for breakpoint in gap.telling_breakpoints(on, T::one(), MOST_BREAKPOINTS) {
+    for breakpoint in gap.telling_breakpoints(on, T::one(), MAX_BREAKPOINTS) {
         let there = search.meet(breakpoint)?.value;
         if !there.is_finite() && there > T::zero() {
             return Ok((breakpoint, Estimate { value: there, error: T::zero() }));
@@ -165,13 +165,13 @@ pub(super) fn places<T: Real>(
     let mut spans = panels::spans(integrator, contact);
     if spans.is_empty() {
         let mut left = on.left;
-        let breakpoints = gap.telling_breakpoints(on, T::one(), MOST_BREAKPOINTS);
+        let breakpoints = gap.telling_breakpoints(on, T::one(), MAX_BREAKPOINTS);
         for right in breakpoints.chain([on.right]) {
             spans.push((Interval { left, right }, POINTS));
             left = right;
         }
     }
-    let [least, most] = [POINTS, MOST_POINTS].map(|points| points / spans.len());
+    let [least, most] = [POINTS, MAX_POINTS].map(|points| points / spans.len());
     let mut places = Vec::new();
     for (span, nodes) in spans {
         let count = (2 * nodes).max(least).min(most.max(2));

@@ -9,7 +9,7 @@ use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Largest number of points of a contact that [`Pressure::sample`] takes.
-const MOST_POINTS: usize = 1 << 20;
+const MAX_POINTS: usize = 1 << 20;
 
 /// Number of points of a row, the unit in which points are retried one by one after a failure.
 const ROW: usize = 256;
@@ -47,7 +47,7 @@ pub struct Pressure<'p, T: Real> {
     on: Interval<T>,
     contacts: &'p [Interval<T>],
     /// Load error that corresponds to the error of the limits.
-    force: T,
+    load_error: T,
     /// Relative error of the limits times the strengths of the edges at -b and a, with adhesion.
     held: Ends<T>,
     cost: Cost,
@@ -58,16 +58,17 @@ impl<'p, T: Real> Pressure<'p, T> {
     pub(crate) fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let Solved { gap, integrator, kappa, found } = solved;
         let cost = integrator.complete(gap)?;
-        let ContactState { interval: on, load, free, error, force, strengths, adhesive, .. } =
-            *found;
+        let ContactState {
+            interval: on, load, free, error, load_error, strengths, adhesive, ..
+        } = *found;
         let error = error.unwrap_or(T::zero());
-        let force = force.unwrap_or(T::of(3.0) * load.abs() * error);
+        let load_error = load_error.unwrap_or(T::of(3.0) * load.abs() * error);
         let held =
             |(glued, strength): (bool, T)| if glued { strength.abs() * error } else { T::zero() };
         let held = adhesive.zip(strengths).map(held);
         let load_case = LoadCase { kappa, load, free };
         let contacts = solved.contacts();
-        Ok(Self { gap, integrator, load_case, on, contacts, force, held, cost })
+        Ok(Self { gap, integrator, load_case, on, contacts, load_error, held, cost })
     }
 }
 
@@ -155,7 +156,7 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at_many`](Self::at_many).
     pub fn sample(&self, count: usize) -> Result<Vec<[T; 2]>, ContactError<T>> {
-        let (count, last) = (count.clamp(2, MOST_POINTS), self.contacts.len() - 1);
+        let (count, last) = (count.clamp(2, MAX_POINTS), self.contacts.len() - 1);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
             let free = self.load_case.free.of_contact(i, last);
@@ -202,7 +203,7 @@ impl<T: Real> Pressure<'_, T> {
         // If the limits move, P changes as under the load that would move them, by 1/(π w) for each
         // unit of it. The load is given, so the change is of second order, except at points so
         // close to an edge that they might lie on its other side.
-        let change = self.force / (T::pi() * on.chebyshev_weight(x));
+        let change = self.load_error / (T::pi() * on.chebyshev_weight(x));
         let share = change / estimate.value.abs();
         estimate.error += if share < T::of(0.1) { change * share } else { change };
         // An adhesive edge that moves takes its singularity along: `P ≈ K sqrt(L/2d)`.

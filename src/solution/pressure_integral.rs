@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 const NODES: usize = 16;
 
 /// Largest number of panels beyond those between the breakpoints, before an integral is given up.
-const MOST_PANELS: usize = 20_000;
+const MAX_PANELS: usize = 20_000;
 
 /// Integrated quantity: the pressure, or its rate with the load.
 pub(crate) trait Density<T: Real> {
@@ -156,7 +156,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
         // Below about the least normal number there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
-        let mut left = MOST_PANELS;
+        let mut left = MAX_PANELS;
         while let Some((contact, whole, known)) = pending.pop() {
             let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
@@ -177,7 +177,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
                 continue;
             }
             if left == 0 {
-                return Err(ContactError::Integral { x, panels: MOST_PANELS });
+                return Err(ContactError::Integral { x, panels: MAX_PANELS });
             }
             left -= 1;
             pending.extend(halves.map(|half| (contact, half, None)));

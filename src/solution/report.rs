@@ -4,7 +4,7 @@ use crate::ContactError;
 use crate::Real;
 
 /// Largest number of attempts kept; of more, the last replaces the one before.
-const MOST: usize = 12;
+const MAX_ATTEMPTS: usize = 12;
 
 /// Starts that a solve has tried, in their order, and the outcome of each.
 ///
@@ -24,7 +24,7 @@ const MOST: usize = 12;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "Vec<Attempt>", into = "Vec<Attempt>"))]
 pub struct Report {
-    attempts: [Attempt; MOST],
+    attempts: [Attempt; MAX_ATTEMPTS],
     count: usize,
 }
 
@@ -104,11 +104,11 @@ impl Outcome {
 impl Report {
     pub(crate) fn new() -> Self {
         let attempt = Attempt { start: Start::Middle, outcome: Outcome::NotFound };
-        Self { attempts: [attempt; MOST], count: 0 }
+        Self { attempts: [attempt; MAX_ATTEMPTS], count: 0 }
     }
 
     pub(crate) fn add(&mut self, start: Start, outcome: Outcome) {
-        self.count = (self.count + 1).min(MOST);
+        self.count = (self.count + 1).min(MAX_ATTEMPTS);
         self.attempts[self.count - 1] = Attempt { start, outcome };
     }
 

@@ -19,7 +19,7 @@ use crate::{ContactError, Interval, Real};
 
 /// Largest number of spans of θ beyond those between the breakpoints, before an integral is given
 /// up.
-const MOST_SPANS: usize = 20_000;
+const MAX_SPANS: usize = 20_000;
 
 /// Number of nodes on a span.
 const NODES: usize = 16;
@@ -133,7 +133,7 @@ impl<T: Real> UndeformedGap<T> {
             pending.push(span);
         }
         let tolerance = T::epsilon().powf(T::of(0.75));
-        let (mut left, mut height, mut mean) = (MOST_SPANS, zero, zero);
+        let (mut left, mut height, mut mean) = (MAX_SPANS, zero, zero);
         let mut found = Self { mean, least: zero, at: None };
         let mut before = slopes.at_limit(on.left);
         while let Some(span) = pending.pop() {
@@ -146,7 +146,7 @@ impl<T: Real> UndeformedGap<T> {
             };
             if !(agrees(0) && agrees(1)) {
                 if left == 0 {
-                    return Err(ContactError::Integral { x: on.centre(), panels: MOST_SPANS });
+                    return Err(ContactError::Integral { x: on.centre(), panels: MAX_SPANS });
                 }
                 left -= 1;
                 pending.extend(halves.into_iter().rev());

@@ -32,10 +32,10 @@ use std::cmp::Ordering::Equal;
 pub(super) const FIRST_CELLS: usize = 33;
 
 /// Number of cells above which none is cut any more.
-const MOST_CELLS: usize = 6000;
+const MAX_CELLS: usize = 6000;
 
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
-const MOST_CUTS: usize = 48;
+const MAX_CUTS: usize = 48;
 
 /// Least number of loaded cells in a run; the cells of shorter runs are cut.
 const CELLS_OF_A_RUN: usize = 4;
@@ -45,13 +45,13 @@ const CELLS_OF_A_RUN: usize = 4;
 const ABOVE: f64 = 2.0 / 3.0;
 
 /// Updates of the set of loaded cells before the search is given up.
-const MOST_CHANGES: usize = 400;
+const MAX_CHANGES: usize = 400;
 
 /// Full updates without progress before switching to one cell at a time.
-const MOST_IN_VAIN: usize = 4;
+const MAX_IN_VAIN: usize = 4;
 
 /// Largest sum of cells times steps over all linear systems of a search: half a minute at worst.
-const MOST_WORK: usize = 200_000_000;
+const MAX_WORK: usize = 200_000_000;
 
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T> {
@@ -158,7 +158,7 @@ impl<T: Real> ActiveSet<T> {
     /// Loads the cells in which the bodies touch, cut as finely as needed to resolve the contacts.
     fn settle(&mut self, scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<(), NotFound<T>> {
         self.take_up(scene.start, height)?;
-        for _ in 0..MOST_CUTS {
+        for _ in 0..MAX_CUTS {
             self.converge()?;
             let (marks, intervals) = (self.marks(scene.known), self.intervals());
             if !self.cut(&marks, &intervals, height)? {
@@ -197,7 +197,7 @@ impl<T: Real> ActiveSet<T> {
             work: 0,
         };
         let mut left = range[0];
-        let cells = cells.clamp(1, MOST_CELLS);
+        let cells = cells.clamp(1, MAX_CELLS);
         for i in 1..=cells {
             let share = T::count(i) / T::count(cells);
             let right = if i == cells { range[1] } else { range[0] + share * width };
@@ -241,7 +241,7 @@ impl<T: Real> ActiveSet<T> {
         let rises: Vec<T> = rises.collect();
         let [first, second] = self.supports(&arms);
         let mut loaded: Vec<usize> = (0..arms.len()).collect();
-        for _ in 0..MOST_CHANGES {
+        for _ in 0..MAX_CHANGES {
             let [on, above]: [Vec<T>; 2] =
                 [&arms, &rises].map(|of| loaded.iter().map(|&i| of[i]).collect());
             let runs = 1 + loaded.windows(2).filter(|pair| pair[0] + 1 < pair[1]).count();
@@ -321,7 +321,7 @@ impl<T: Real> ActiveSet<T> {
         intervals: &[Interval<T>],
         height: Height<'_, T>,
     ) -> Result<bool, NotFound<T>> {
-        let room = MOST_CELLS.saturating_sub(self.cells.len()) / 2;
+        let room = MAX_CELLS.saturating_sub(self.cells.len()) / 2;
         let cells = std::mem::take(&mut self.cells);
         let mut cut = 0;
         for (cell, &mark) in cells.iter().zip(marks) {
@@ -361,7 +361,7 @@ impl<T: Real> ActiveSet<T> {
             let first = start.partition_point(|on| on.right <= cell.left);
             start.get(first).copied().filter(|on| on.left < cell.right)
         };
-        for _ in 0..MOST_CUTS {
+        for _ in 0..MAX_CUTS {
             let wide = |cell: &Cell<T>| {
                 let sixth = |on: Interval<T>| on.half_width() / T::count(CELLS_OF_A_RUN / 2);
                 touched(cell).is_some_and(|on| cell.width() > sixth(on))
@@ -408,11 +408,11 @@ impl<T: Real> ActiveSet<T> {
             self.prepare();
         }
         let (mut least, mut in_vain) = (usize::MAX, 0);
-        for _ in 0..MOST_CHANGES {
+        for _ in 0..MAX_CHANGES {
             if !self.bears() {
                 self.rest();
             }
-            if !self.bears() || self.work > MOST_WORK {
+            if !self.bears() || self.work > MAX_WORK {
                 break;
             }
             let rounding = self.solve();
@@ -435,7 +435,7 @@ impl<T: Real> ActiveSet<T> {
             }
             in_vain = if wrong.len() < least { 0 } else { in_vain + 1 };
             least = least.min(wrong.len());
-            let all = if in_vain <= MOST_IN_VAIN { 0 } else { wrong.len() - 1 };
+            let all = if in_vain <= MAX_IN_VAIN { 0 } else { wrong.len() - 1 };
             for &i in &wrong[all..] {
                 let cell = &mut self.cells[i];
                 cell.loaded = !cell.loaded;
@@ -738,7 +738,7 @@ mod tests {
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut 0, &mut |_| Err(outside.clone()));
         assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
         // The search has spent all its work before.
-        let mut spent = MOST_WORK + 1;
+        let mut spent = MAX_WORK + 1;
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut spent, &mut |x| Ok(x * x));
         assert_eq!(refused.map(|_| ()), Err(NotFound::Unsettled { solves: 0 }));
         // Noise from cell to cell: the search ends in any case.
@@ -746,7 +746,7 @@ mod tests {
         for load in [1e-6, 1e-2, 1.0] {
             let known = heights(1000, [-1.0, 1.0], noise);
             let found = set(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, noise);
-            assert!(found.is_ok_and(|found| found.cells.len() <= MOST_CELLS), "{load}");
+            assert!(found.is_ok_and(|found| found.cells.len() <= MAX_CELLS), "{load}");
         }
     }
 }

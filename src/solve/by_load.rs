@@ -24,14 +24,14 @@ use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
 use crate::{ContactError, Edge, Ends, Interval, Real, References};
 
 /// Loads tried before the search is given up.
-const MOST_LOADS: usize = 100;
+const MAX_LOADS: usize = 100;
 
 /// First load for an approach, as a share of `κ δ`: a contact a millionth as wide as the bodies
 /// needs a twentieth.
 const FIRST: f64 = 0.05;
 
 /// Largest factor between the loads of two trials.
-const MOST_STEP: f64 = 1e3;
+const MAX_STEP: f64 = 1e3;
 
 /// Largest factor between a load and the first one while the load is not enclosed.
 const FARTHEST: f64 = 1e12;
@@ -91,7 +91,7 @@ impl<T: Real> Enclosure<T> {
     /// Returns this load, or one within the enclosure if this one is known to be too small or too
     /// large.
     fn inside(&self, load: T) -> T {
-        let step = T::of(MOST_STEP);
+        let step = T::of(MAX_STEP);
         match [self.low, self.high].map(|end| end.map(|[load, _]| load)) {
             [Some(low), Some(high)] if !(load > low && load < high) => low.sqrt() * high.sqrt(),
             [Some(low), None] if load <= low => low * step,
@@ -124,7 +124,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let mut enclosure = Enclosure { low: None, high: None };
         // Number of steps left without a check, once the next one squares the error.
         let mut last_steps: Option<usize> = None;
-        for _ in 0..MOST_LOADS {
+        for _ in 0..MAX_LOADS {
             // So small a number has no digits left.
             if !load.is_finite() || (load * T::epsilon()).is_zero() {
                 return Err(ContactError::Overflow { interval: self.whole() });
@@ -260,7 +260,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let power = value / (load * rate);
         // The exponent of a round body, if the rate is unknown.
         let power = if power.is_finite() { power } else { T::of(2.0) };
-        let (step, largest) = ((self.wanted / value).powf(power), T::of(MOST_STEP));
+        let (step, largest) = ((self.wanted / value).powf(power), T::of(MAX_STEP));
         let step = if step.is_finite() && value > T::zero() { step } else { largest };
         load.component(0) * step.component(0).min(largest).max(largest.recip())
     }

@@ -25,7 +25,7 @@ const SURE: f64 = 0.1;
 const NARROWER: f64 = 8.0;
 
 /// Largest number of such steps: enough from the largest number to the smallest.
-const MOST_WIDTHS: usize = 700;
+const MAX_WIDTHS: usize = 700;
 
 /// Widest balanced contact.
 #[derive(Clone, Copy)]
@@ -143,7 +143,7 @@ impl<T: Real> Pinned<'_, T> {
             Side::Right => Interval { left: x, right },
         };
         let (mut wide, mut at_wide, mut width) = (whole[side.other()], at_whole, right - left);
-        for _ in 0..MOST_WIDTHS {
+        for _ in 0..MAX_WIDTHS {
             width /= T::of(NARROWER);
             let narrow = match side {
                 Side::Left => left + width,

@@ -30,8 +30,8 @@ impl<T: Real> ContactState<T> {
             adhesive,
             error,
             error_by_load: None,
-            force: None,
-            trend: m.derivatives,
+            load_error: None,
+            moment_derivatives: m.derivatives,
             tilt,
             ends,
         }

@@ -12,7 +12,7 @@ use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
 
 /// Halvings of the way from the middle of the bodies to a place where the load cannot act.
-const MOST_HALVES: usize = 14;
+const MAX_HALVES: usize = 14;
 
 /// Share of the bodies left beyond a contact that cannot be moved any further.
 const AT_END: f64 = 0.01;
@@ -117,7 +117,7 @@ fn nearest<T: Real>(
     let half = T::of(0.5);
     let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);
     let mut found = find(Given::Centre { load, at: reached }).ok()?;
-    for _ in 0..MOST_HALVES {
+    for _ in 0..MAX_HALVES {
         let at = half * reached + half * beyond;
         match find(Given::Centre { load, at }) {
             Ok(nearer) => (reached, found) = (at, nearer),

@@ -40,7 +40,7 @@ const WIDEST: f64 = 16.0;
 
 /// Contacts tried side by side for one that is pulled away from the point of first contact. (A
 /// parabola that is pulled at one edge presses at the other up to two half-widths away.)
-const MOST_BESIDE: usize = 16;
+const MAX_BESIDE: usize = 16;
 
 /// Limits that meet the conditions at the edges.
 pub(super) struct Nested<T> {
@@ -114,7 +114,7 @@ fn place<T: Real>(
         unbalance,
         ..NestedSearch::new(contact, equations, integrator, origin, cost)
     };
-    for _ in 0..MOST_BESIDE {
+    for _ in 0..MAX_BESIDE {
         match search.centre(half_width)? {
             Centred::At(trial) => {
                 let Residual { at_a, at_b, size, error, .. } = trial.residual;

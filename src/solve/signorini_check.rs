@@ -21,13 +21,13 @@ pub(super) use step::step_of_heights;
 
 /// Largest number of breakpoints of a contact at which the pressure is evaluated, besides those
 /// where the slope jumps down.
-const MOST_JOINTS: usize = 64;
+const MAX_JOINTS: usize = 64;
 
 /// Largest number of places with tension whose uncertainty is estimated.
-const MOST_DOUBTFUL: usize = 256;
+const MAX_DOUBTFUL: usize = 256;
 
 /// Largest number of places in a contact at which the pressure is evaluated for the gap next to it.
-const MOST_POINTS: usize = 4096;
+const MAX_POINTS: usize = 4096;
 
 /// Least distance of such a place from a limit, in units of rounding of the contact.
 const FROM_LIMIT: f64 = 8.0;
@@ -37,7 +37,7 @@ const FROM_LIMIT: f64 = 8.0;
 const HALVES: usize = 52;
 
 /// Largest number of steps to a minimum of the pressure between the places evaluated.
-const MOST_STEPS: usize = 4;
+const MAX_STEPS: usize = 4;
 
 /// Contacts of a solution, ready to be checked.
 pub(super) struct SignoriniCheck<'c, T: Real> {
@@ -119,7 +119,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for field in fields {
             let mut count = field.coefficients().len();
             while field.doubt() > share * self.found.load.abs()
-                && count < MOST_POINTS
+                && count < MAX_POINTS
                 && is_apart(2 * count)
             {
                 (count, is_finer) = (2 * count, true);
@@ -147,7 +147,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             && self.pressed.iter().zip(self.contacts()).all(is_same);
         if adhesive
             || is_pressed
-            || panels::rises(self.integrator, self.found.nothing()) == Some(true)
+            || panels::rises(self.integrator, self.found.zero_tolerance()) == Some(true)
         {
             return Ok(None);
         }
@@ -199,7 +199,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 if !(p[1] <= p[0] && p[1] <= p[2]) || self.is_pressed(x[1]) {
                     continue;
                 }
-                for _ in 0..MOST_STEPS {
+                for _ in 0..MAX_STEPS {
                     let [one, two] = [x[1] - x[0], x[2] - x[1]];
                     let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
                     let bend = (rise - fall) / (one + two);
@@ -222,7 +222,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             // Where the slope jumps down, the pressure goes to minus infinity.
-            for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
+            for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MAX_JOINTS) {
                 let doubt = self.integrator.doubt(breakpoint).unwrap_or(T::zero());
                 if self.gap.jump(breakpoint)[0].abs() > T::of(16.0) * doubt {
                     let mut pressure = [T::zero()];
@@ -233,7 +233,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
         found.sort_by(|one, other| by_size(one[1], other[1]));
         let mut worst = None;
-        for &[x, pressure] in found.iter().take(MOST_DOUBTFUL) {
+        for &[x, pressure] in found.iter().take(MAX_DOUBTFUL) {
             if tension_spans.iter().any(|span| span.contains(x)) {
                 continue;
             }

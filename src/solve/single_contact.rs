@@ -27,15 +27,15 @@ use crate::solution::ContactState;
 use crate::{ContactError, Edge, Interval, ProfileError, Real, Side};
 
 /// Largest uncertainty of a contact, as a share of the half-width, to count as found.
-pub(super) const MOST_DOUBT: f64 = 0.03;
+pub(super) const MAX_DOUBT: f64 = 0.03;
 
 /// Initial guesses before the search is given up.
-const MOST_GUESSES: usize = 120;
+const MAX_GUESSES: usize = 120;
 
 /// Largest number of steps beyond an end of the bodies: in an initial guess, before another is
 /// made; in full, before the capacity is computed. (Each goes half the way: a contact may come as
 /// close to an end as 1e-7 of its width.)
-const MOST_AT_END: [usize; 2] = [2, 24];
+const MAX_AT_END: [usize; 2] = [2, 24];
 
 /// Uncertainty of a contact that is about right, and margin sampled beyond it, as a share of its
 /// width.
@@ -226,9 +226,9 @@ impl<T: Real> Single<'_, '_, T> {
         effort: Effort,
     ) -> Result<Verdict<T>, ContactError<T>> {
         let most_at_end = match (effort, self.bears) {
-            (Effort::Guess, _) => MOST_AT_END[0],
+            (Effort::Guess, _) => MAX_AT_END[0],
             (Effort::Full, Some(Some(_))) => usize::MAX,
-            (Effort::Full, _) => MOST_AT_END[1],
+            (Effort::Full, _) => MAX_AT_END[1],
         };
         let (gap, conditions) = (&self.contact.gap, self.conditions);
         let find = |integrator: &mut dyn Integrator<T>, most_at_end| {
@@ -260,7 +260,7 @@ impl<T: Real> Single<'_, '_, T> {
             Given::Load(load) | Given::Centre { load, .. } => load,
         };
         let error = nested.error;
-        if error > T::of(MOST_DOUBT) {
+        if error > T::of(MAX_DOUBT) {
             self.check()?;
         }
         Ok(ContactState::new(&conditions, on, load, Some(error), &m))
@@ -298,14 +298,14 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// Returns the contact on which Newton's method has converged.
     fn contact_of(&mut self, converged: Converged<T>) -> Result<ContactState<T>, ContactError<T>> {
-        let (Converged { on, load, error, force }, conditions) = (converged, &self.conditions);
+        let (Converged { on, load, error, load_error }, conditions) = (converged, &self.conditions);
         let m = self.integrator.moments(&self.contact.gap, on)?;
         let load = match conditions.given {
             Given::Load(_) | Given::Centre { .. } => load,
             Given::HalfWidth(_) => self.known(on, load_of(conditions, on, load, &m), &m)?,
         };
         Ok(ContactState {
-            force: Some(force),
+            load_error: Some(load_error),
             ..ContactState::new(conditions, on, load, Some(error), &m)
         })
     }

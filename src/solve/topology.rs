@@ -165,7 +165,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             self.look()?;
         }
         let mut found = self.one_from(self.work.workspace.last.first().copied(), looks)?;
-        for _ in 0..panels::MOST_MISSED {
+        for _ in 0..panels::MAX_MISSED {
             if !self.misses(&found)? {
                 break;
             }

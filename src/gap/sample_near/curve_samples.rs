@@ -1,6 +1,6 @@
 //! The known points of a curve on one of its pieces.
 
-use super::MOST;
+use super::MAX_TARGETS;
 use crate::{CurvePoint, Real};
 
 /// Known point of a curve.
@@ -44,7 +44,7 @@ impl<T: Real> CurveSamples<T> {
     /// Replaces all points.
     pub fn set(&mut self, [left, right]: [CurveSample<T>; 2], inner: &[CurveSample<T>]) {
         self.row.clear();
-        self.row.reserve(MOST + 2);
+        self.row.reserve(MAX_TARGETS + 2);
         self.row.push(left);
         self.row.extend_from_slice(inner);
         self.row.push(right);

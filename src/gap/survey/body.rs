@@ -14,16 +14,16 @@ use crate::{CurvePoint, ProfileError, Real, Side};
 const FEW_PIECES: usize = 16;
 
 /// Largest number of runs into which the pieces of a body are grouped at first.
-const MOST_RUNS: usize = 256;
+const MAX_RUNS: usize = 256;
 
 /// Number of parts of a piece for which room is reserved.
-const MOST_PARTS: usize = 16;
+const MAX_PARTS: usize = 16;
 
 /// Largest number of windows by which a long body is narrowed to the other one.
-const MOST_WINDOWS: usize = 8;
+const MAX_WINDOWS: usize = 8;
 
 /// Number of series of a body after which no panel of it is refined: tens of megabytes.
-const MOST_SERIES: usize = 1 << 15;
+const MAX_SERIES: usize = 1 << 15;
 
 /// Largest share of a panel that is cut out of it as a window; for a larger share it is halved.
 const WINDOW: f64 = 0.25;
@@ -84,7 +84,7 @@ impl<T: Real> Body<T> {
         let first = surface.index_at(range[0], Side::Left);
         let last = surface.index_at(range[1], Side::Right).max(first);
         check_joints(surface, [first, last])?;
-        let count = (last - first + 1).div_ceil(MOST_RUNS);
+        let count = (last - first + 1).div_ceil(MAX_RUNS);
         for from in (first..=last).step_by(count) {
             let pieces = [from, (from + count - 1).min(last)];
             self.panels.push(Panel::of_pieces(surface, pieces));
@@ -108,7 +108,7 @@ impl<T: Real> Body<T> {
             let is_known = panel.series.is_some() && panel.doubt.is_finite();
             is_known && to - from > (range[1] - range[0]) / T::of(WINDOW)
         };
-        for _ in 0..MOST_WINDOWS {
+        for _ in 0..MAX_WINDOWS {
             if !self.refine(surface, range, &[range], is_long, heights)? {
                 break;
             }
@@ -118,7 +118,7 @@ impl<T: Real> Body<T> {
 
     /// Makes room for each panel to be refined several times: bodies that move allocate nothing.
     fn make_room(&mut self) {
-        let few = MOST_PARTS * self.panels.len().min(FEW_PIECES);
+        let few = MAX_PARTS * self.panels.len().min(FEW_PIECES);
         self.rows.reserve((NODES + 2) * few);
         self.series.reserve(few);
         self.missed.reserve(few);
@@ -165,7 +165,7 @@ impl<T: Real> Body<T> {
         std::mem::swap(&mut old, &mut self.panels);
         self.panels.clear();
         self.scratch.wanted.clear();
-        let (mut changes, is_full) = (false, self.series.len() > MOST_SERIES);
+        let (mut changes, is_full) = (false, self.series.len() > MAX_SERIES);
         for panel in &old {
             let Some(hull) = hull_in(spans, panel).filter(|_| !is_full && is_marked(panel)) else {
                 self.panels.push(*panel);

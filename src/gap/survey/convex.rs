@@ -21,7 +21,7 @@ use crate::real::same;
 use crate::{ContactError, Interval, Real};
 
 /// Number of evaluations beyond which no more are taken for a proof alone.
-const MOST_FOR_PROOF: usize = 81;
+const MAX_FOR_PROOF: usize = 81;
 
 /// Largest uncertainty of two neighbouring slopes in a proof, as a share of the rise between them.
 /// A wave that hides in it has a length of about this share of the distance of the points.
@@ -100,7 +100,7 @@ impl<T: Real> Survey<T> {
             let mut marked = body.panels.iter().filter(|panel| hull_in(open, panel).is_some());
             converges &= marked.all(Panel::converges);
         }
-        let is_dear = self.spent + more > MOST_FOR_PROOF || !converges;
+        let is_dear = self.spent + more > MAX_FOR_PROOF || !converges;
         Ok(!is_dear && self.refine_at(gap, open, T::zero(), cost)?)
     }
 

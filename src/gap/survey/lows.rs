@@ -22,10 +22,10 @@ const SHARE_OF_SLOPES: f64 = 1e-3;
 const SHARE_OF_RISE: f64 = 0.01;
 
 /// Largest number of steps from the lowest place of a cubic to the lowest gap.
-const MOST_POLISHES: usize = 6;
+const MAX_POLISHES: usize = 6;
 
 /// Largest number of halvings of an interval in search of a width or a place.
-const MOST_HALVES: usize = 200;
+const MAX_HALVES: usize = 200;
 
 /// Height of the gap at x, or the approximate lowest one between two places, `[x, h, h']`, and its
 /// uncertainty.
@@ -205,7 +205,7 @@ impl<T: Real> Survey<T> {
                 // P = 2 F/(π L) of a round body.
                 let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
                 let mut load = self.borne(reach);
-                for _ in 0..MOST_HALVES {
+                for _ in 0..MAX_HALVES {
                     if T::of(2.0) * load <= T::pi() * reach * pressure {
                         break;
                     }
@@ -245,7 +245,7 @@ impl<T: Real> Survey<T> {
     pub(super) fn reach_of(&self, load: T) -> T {
         let half = T::of(0.5);
         let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
-        for _ in 0..MOST_HALVES {
+        for _ in 0..MAX_HALVES {
             // NaN where the slope is unknown.
             let bears = self.borne(half * reach) >= load;
             if !bears {
@@ -288,7 +288,7 @@ impl<T: Real> Survey<T> {
             return half * low + half * end;
         }
         let from = low;
-        for _ in 0..MOST_HALVES {
+        for _ in 0..MAX_HALVES {
             if (high - low).abs() <= T::of(0.0625) * (low - from).abs() {
                 break;
             }
@@ -304,7 +304,7 @@ impl<T: Real> Survey<T> {
         let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
         let mut left = (x - half_width).max(from + half_width);
         let mut right = (x + half_width).min(to - half_width);
-        for _ in 0..MOST_HALVES {
+        for _ in 0..MAX_HALVES {
             let middle = half * left + half * right;
             if !(left < middle && middle < right) {
                 break;
@@ -363,7 +363,7 @@ impl<T: Real> Survey<T> {
         }
         let rise = rises - falls;
         let mut at = x;
-        for _ in 0..MOST_POLISHES {
+        for _ in 0..MAX_POLISHES {
             let slope = self.slope(at);
             if slope.abs() <= T::of(64.0) * T::epsilon() * rise {
                 return at;

@@ -31,14 +31,14 @@ pub(crate) const VAGUE: f64 = 0.1;
 const MISSED: f64 = 8.0;
 
 /// Largest number of searches of stretches, each on the panels that the one before has refined.
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 
 /// Largest number of points for one load by default. Where a load reaches too far for this number,
 /// as between steps of narrow flanks, the points are further apart.
-const MOST_POINTS: usize = 1 << 10;
+const MAX_POINTS: usize = 1 << 10;
 
 /// Largest number of halvings in search of the place where the gap leaves the reach of a load.
-const MOST_HALVES: usize = 60;
+const MAX_HALVES: usize = 60;
 
 /// Span of x outside the contacts between two points of the survey, and the distance of points
 /// required there.
@@ -124,7 +124,7 @@ impl<T: Real> Survey<T> {
         stretches: &mut Vec<Stretch<T>>,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
             let is_seen =
                 |stretch: &_| self.seen.iter().any(|seen| Stretch::is_seen_by(stretch, seen));
@@ -174,7 +174,7 @@ impl<T: Real> Survey<T> {
     ) -> Result<bool, ContactError<T>> {
         let (tolerance, vague) = (T::of(EXACT) * load, T::of(VAGUE) * load);
         let mut is_finer = false;
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             let spans = stretches.iter().map(|stretch| stretch.x);
@@ -263,7 +263,7 @@ impl<T: Real> Survey<T> {
         let points = found
             .iter()
             .fold(T::zero(), |sum, Stretch { x, apart, .. }| sum + (x[1] - x[0]) / *apart);
-        let times = points / T::count(MOST_POINTS);
+        let times = points / T::count(MAX_POINTS);
         if times > T::one() && !is_asked {
             for stretch in found.iter_mut() {
                 stretch.apart *= times;
@@ -284,7 +284,7 @@ impl<T: Real> Survey<T> {
         };
         let known = stretches.iter().filter(|stretch| !stretch.is_missed);
         let points = known.fold(0, |sum: usize, Stretch { x, apart, .. }| {
-            sum.saturating_add(gap.parts(x[1] - x[0], *apart, MOST_POINTS))
+            sum.saturating_add(gap.parts(x[1] - x[0], *apart, MAX_POINTS))
         });
         let evaluations = cost.heights.saturating_add(points);
         let span = Interval { left: first.x[0], right: last.x[1] };
@@ -303,7 +303,7 @@ fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> O
         [false, true] => (x[1], x[1], x[0]),
         [false, false] => return None,
     };
-    for _ in 0..MOST_HALVES {
+    for _ in 0..MAX_HALVES {
         if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
             break;
         }
@@ -379,7 +379,7 @@ impl<T: Real> Body<T> {
             }
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
-            let count = gap.parts(to - from, stretch.apart, MOST_POINTS);
+            let count = gap.parts(to - from, stretch.apart, MAX_POINTS);
             let ends = [from, to].map(|x| series.parameter(x));
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);

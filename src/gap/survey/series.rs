@@ -21,7 +21,7 @@ pub(super) const POINTS: usize = NODES + 1;
 const PROBE: f64 = 0.086;
 
 /// Largest number of steps to the root of `X(t) = x`, each by Newton's rule or a bisection.
-const MOST_STEPS: usize = 60;
+const MAX_STEPS: usize = 60;
 
 /// Rounding error of a sum of a series, in units in the last place.
 const ROUNDING: f64 = 32.0;
@@ -179,7 +179,7 @@ impl<T: Real> Series<T> {
         // Newton's rule squares the error.
         let small = T::of(0.125) * T::epsilon().sqrt();
         let mut more = T::DERIVATIVE_ORDER;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let ([at], [rate]) = evaluate(&self.x, &[t]);
             *(if at > x { &mut high } else { &mut low }) = t;
             let newton = t + (x - at) / rate;

@@ -83,7 +83,7 @@ impl<T: Real> CauchyTransform<T> {
         if integrator.is_several {
             return integrator.several.cauchy_transform(kappa, load);
         }
-        let (on, mut sum) = (integrator.conjugate.on, NearFarSum::new());
+        let (on, mut sum) = (integrator.transform.on, NearFarSum::new());
         sum.set(within(&integrator.panel_set.panels, on), on, Seen::Below);
         let [_, strengths] = integrator.strengths(load_case);
         Self {
@@ -129,12 +129,12 @@ impl<T: Real> CauchyTransform<T> {
         for i in 0..CIRCLE {
             let angle = T::two_pi() * T::count(i) / T::count(CIRCLE);
             let aside = Complex::new(radius * angle.cos(), radius * angle.sin());
-            // Above the surface W is the conjugate of W below.
+            // Above the surface W is the transform of W below.
             let above = y + aside.im < T::zero();
-            let conjugate = |z: Complex<T>| if above { z.conj() } else { z };
-            let found = self.off_zeros(&|t| conjugate(place(t) + aside), y);
+            let transform = |z: Complex<T>| if above { z.conj() } else { z };
+            let found = self.off_zeros(&|t| transform(place(t) + aside), y);
             let share = T::one() / T::count(CIRCLE);
-            mean = [0, 1].map(|j| mean[j] + conjugate(found[j]) * share);
+            mean = [0, 1].map(|j| mean[j] + transform(found[j]) * share);
         }
         mean
     }

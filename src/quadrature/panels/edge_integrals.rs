@@ -8,7 +8,7 @@ use super::half_angle::{Arc, HalfAngle, Sines};
 use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{MOST, Row, by_size, evaluate, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, by_size, evaluate, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::{MomentDerivatives, Moments};
 use crate::{Interval, Real};
@@ -72,7 +72,7 @@ pub(super) fn moments<T: Real>(
     let within = within(panels, on);
     let mut sums = EdgeSums::new();
     if let [panel] = within {
-        let over = over.get_or_insert_with(|| ([T::zero(); MOST], 0));
+        let over = over.get_or_insert_with(|| ([T::zero(); MAX_SIZE], 0));
         panel.over_to(over, on);
         whole(&mut sums, over, panel.tail, on);
     } else {
@@ -88,7 +88,7 @@ pub(super) fn moments<T: Real>(
 /// Returns the coefficients of the derivative by z.
 #[inline(always)]
 fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
-    let mut slopes = [T::zero(); MOST];
+    let mut slopes = [T::zero(); MAX_SIZE];
     for k in (1..N).rev() {
         let before = if k + 1 < N { slopes[k + 1] } else { T::zero() };
         slopes[k - 1] = before + T::of(2.0 * k as f64) * series[k];
@@ -102,7 +102,7 @@ fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
 pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
     let mut before: Option<T> = None;
     within(panels, on).iter().all(|panel| {
-        let mut series = [T::zero(); MOST];
+        let mut series = [T::zero(); MAX_SIZE];
         series[..panel.counting].copy_from_slice(panel.coefficients());
         let slopes = by_size!(size_for(panel.counting), N => derivative::<N, T>(&series));
         let others = slopes[1..panel.counting].iter().fold(T::zero(), |sum, a| sum + a.abs());

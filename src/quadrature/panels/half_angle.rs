@@ -14,7 +14,7 @@
 //! If digits of short distances are not needed, a polynomial is summed as a cosine series instead,
 //! whose integrals over a span are differences of `sin kθ/k`.
 
-use crate::numerics::chebyshev::MOST;
+use crate::numerics::chebyshev::MAX_SIZE;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 
@@ -47,10 +47,10 @@ impl<T: Real> HalfAngle<T> {
 }
 
 /// Reciprocals 1/k, from k = 1 on.
-const SHARES: [f64; MOST + 1] = {
-    let mut shares = [0.0; MOST + 1];
+const SHARES: [f64; MAX_SIZE + 1] = {
+    let mut shares = [0.0; MAX_SIZE + 1];
     let mut k = 0;
-    while k <= MOST {
+    while k <= MAX_SIZE {
         shares[k] = 1.0 / (k + 1) as f64;
         k += 1;
     }
@@ -58,7 +58,7 @@ const SHARES: [f64; MOST + 1] = {
 };
 
 /// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are `sin kθ/k`.
-pub(super) type Sines<T> = [T; MOST + 2];
+pub(super) type Sines<T> = [T; MAX_SIZE + 2];
 
 impl<T: Real> HalfAngle<T> {
     /// Returns θ and `π - θ`, the smaller one to all digits.
@@ -76,7 +76,7 @@ impl<T: Real> HalfAngle<T> {
     /// Returns the integrals from 0 to θ, up to k = `count - 1`, without k = 0.
     pub fn sines(&self, count: usize) -> Sines<T> {
         let two = T::of(2.0);
-        let mut sines = [T::zero(); MOST + 2];
+        let mut sines = [T::zero(); MAX_SIZE + 2];
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
         for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {

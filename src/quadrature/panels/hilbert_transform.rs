@@ -34,7 +34,7 @@ use super::half_angle::Sines;
 use super::near_far_sum::{Distance, NearFarSum, Seen};
 use super::panel::{Panel, Series, within};
 use super::reexpansion::{PanelAngles, reexpanded};
-use crate::numerics::chebyshev::{MOST, Row, by_size, second_kind, size_for, value_at, values};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, by_size, second_kind, size_for, value_at, values};
 use crate::real::fma;
 use crate::{Interval, Real};
 
@@ -43,7 +43,7 @@ pub(super) const LANES: usize = 16;
 
 /// Largest number of changes from one panel to the next, each with its logarithm; beyond it, groups
 /// of panels take less time.
-const MOST_CHANGES: usize = 64;
+const MAX_CHANGES: usize = 64;
 
 /// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
@@ -99,7 +99,7 @@ struct Change<T> {
 
 impl<T: Real> HilbertTransform<T> {
     pub fn new() -> Self {
-        let (zero, row) = (T::zero(), [T::zero(); MOST]);
+        let (zero, row) = (T::zero(), [T::zero(); MAX_SIZE]);
         Self {
             on: Interval { left: zero, right: zero },
             smooth: row,
@@ -127,7 +127,7 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MOST_CHANGES || !self.reexpanded(panels, over, on);
+        self.is_far = panels.len() > MAX_CHANGES || !self.reexpanded(panels, over, on);
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
         }
@@ -141,7 +141,7 @@ impl<T: Real> HilbertTransform<T> {
         on: Interval<T>,
     ) -> bool {
         let zero = T::zero();
-        (self.smooth, self.terms) = ([zero; MOST], 1);
+        (self.smooth, self.terms) = ([zero; MAX_SIZE], 1);
         self.changes.clear();
         if let Some((series, terms)) = over {
             // Over the whole contact only `cos 0θ` has an integral.
@@ -152,7 +152,7 @@ impl<T: Real> HilbertTransform<T> {
             }
             return true;
         }
-        let mut before = ([zero; MOST], 0, zero);
+        let mut before = ([zero; MAX_SIZE], 0, zero);
         let every = reexpanded(panels, on, |span| {
             let PanelAngles { panel, series, terms, integrals, .. } = span;
             if !span.is_first {
@@ -301,7 +301,7 @@ pub(super) struct Breakpoint<T> {
     closest: T,
 }
 
-/// Coefficients of artanh(r)/r in r².
+/// Row of artanh(r)/r in r².
 #[rustfmt::skip]
 const ARTANH: [f64; 9] =
     [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];

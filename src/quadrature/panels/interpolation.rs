@@ -2,13 +2,13 @@
 
 use crate::Real;
 use crate::gap::SampleCache;
-use crate::numerics::chebyshev::{MOST, Table};
+use crate::numerics::chebyshev::{MAX_SIZE, Table};
 use crate::real::fma;
 
 /// Zeros with a 1 in the middle, which replaces the difference of a node from itself.
-const ONE: [f64; 2 * MOST] = {
-    let mut one = [0.0; 2 * MOST];
-    one[MOST] = 1.0;
+const ONE: [f64; 2 * MAX_SIZE] = {
+    let mut one = [0.0; 2 * MAX_SIZE];
+    one[MAX_SIZE] = 1.0;
     one
 };
 
@@ -26,13 +26,13 @@ const ONE: [f64; 2 * MOST] = {
 #[inline(always)]
 pub(super) fn at_nodes<const N: usize, T: Real>(
     nodes: &[T; N],
-    trace: &SampleCache<T>,
+    cache: &SampleCache<T>,
     left: T,
     reach: T,
 ) -> [T; N] {
-    let curve_samples = &trace.curve_samples()[..N];
+    let curve_samples = &cache.curve_samples()[..N];
     let known: [T; N] = std::array::from_fn(|i| curve_samples[i].slope);
-    if trace.direct {
+    if cache.direct {
         return known;
     }
     // In units that keep the products near 1.
@@ -42,7 +42,7 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
     // Factors in the order of the products below, so that both round alike.
     let mut weight = [T::one(); N];
     for j in 0..N {
-        let one = &ONE[MOST - j..MOST - j + N];
+        let one = &ONE[MAX_SIZE - j..MAX_SIZE - j + N];
         for i in 0..N {
             weight[i] *= x[i] - x[j] + T::of(one[i]);
         }
@@ -65,17 +65,17 @@ pub(super) fn at_nodes<const N: usize, T: Real>(
 /// times the share by which points are off the nodes.
 pub(super) fn left_open<const N: usize, T: Real>(
     nodes: &[T; N],
-    trace: &SampleCache<T>,
+    cache: &SampleCache<T>,
     reach: T,
     slopes: &[T; N],
     coarse: bool,
 ) -> T {
     let table = Table::of(N);
-    if trace.direct || coarse {
+    if cache.direct || coarse {
         return T::zero();
     }
     // The slope of `T_N` at its zeros is N/sin θ.
-    let curve_samples = &trace.curve_samples()[..N];
+    let curve_samples = &cache.curve_samples()[..N];
     let off = (0..N).fold(T::zero(), |max, i| {
         max.max((curve_samples[i].x - nodes[i]).abs() / T::of(table.sine[i]))
     });
@@ -91,13 +91,13 @@ pub(super) fn left_open<const N: usize, T: Real>(
 /// Returns the error of a body's series at the ends of its piece, where the slopes are known.
 pub(super) fn missed_at_ends<const N: usize, T: Real>(
     x: [T; 2],
-    trace: &SampleCache<T>,
+    cache: &SampleCache<T>,
     slopes: &[T; N],
     coarse: bool,
 ) -> T {
-    let known = trace.ends();
+    let known = cache.ends();
     let is_end = |i: usize| known[i].x == x[i] && known[i].slope.is_finite();
-    if trace.direct || coarse || !(is_end(0) || is_end(1)) {
+    if cache.direct || coarse || !(is_end(0) || is_end(1)) {
         return T::zero();
     }
     let at_ends = Table::of(N).at_ends(slopes);

@@ -12,7 +12,7 @@ use super::hilbert_transform::{Breakpoint, Rounding, shares};
 use super::panel::{Panel, spans};
 use super::treecode::{Group, group};
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{MOST, Row, value_at};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 use nalgebra::Complex;
@@ -94,7 +94,7 @@ impl<T: Real> NearFarSum<T> {
 
     /// Returns the cosine series of all panels, from the group of all; empty without groups.
     pub fn cosines(&self) -> (Row<T>, usize) {
-        self.groups.first().map_or(([T::zero(); MOST], 0), Group::cosines)
+        self.groups.first().map_or(([T::zero(); MAX_SIZE], 0), Group::cosines)
     }
 
     /// Shows the panels and groups seen from a point of the surface, from left to right.
@@ -272,7 +272,7 @@ impl<T: Real> FarPanel<T> {
         let by_x = T::one() / panel.half();
         let counting = if reach < closest { 0 } else { panel.counting };
         let start = nodes.len();
-        let mut integrals = [T::zero(); MOST];
+        let mut integrals = [T::zero(); MAX_SIZE];
         for block in 0..rule.n / W {
             let [y, weight] = arc.nodes::<W>(rule, block);
             let (along, weight) = (y.map(|y| y - arc.to_left), weight.map(|by| by * arc.tangent));

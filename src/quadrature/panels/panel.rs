@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
-use crate::numerics::chebyshev::{MOST, Row, SIZES, Table, expand_to, size_for, value_at};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, SIZES, Table, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -11,7 +11,7 @@ pub(crate) struct Panel<T> {
     pub x: [T; 2],
     /// Number of nodes sampled.
     pub n: usize,
-    /// Coefficients, `n` in number, of which the first `counting` exceed rounding.
+    /// Row, `n` in number, of which the first `counting` exceed rounding.
     pub series: Row<T>,
     pub counting: usize,
     /// Estimated largest error of the series.
@@ -34,7 +34,7 @@ impl<T: Real> Panel<T> {
         Self {
             x,
             n: 0,
-            series: [zero; MOST],
+            series: [zero; MAX_SIZE],
             counting: 0,
             tail: zero,
             noise: zero,
@@ -135,7 +135,7 @@ impl<T: Real> Panel<T> {
 
     /// Returns the slope as `Σ c_k T_k(z)` over a contact `c + L z`.
     pub fn over(&self, on: Interval<T>) -> Series<T> {
-        let mut series = ([T::zero(); MOST], 0);
+        let mut series = ([T::zero(); MAX_SIZE], 0);
         self.over_to(&mut series, on);
         series
     }
@@ -152,7 +152,7 @@ impl<T: Real> Panel<T> {
     }
 }
 
-/// Coefficients of a series, and the number of significant ones.
+/// Row of a series, and the number of significant ones.
 pub(super) type Series<T> = (Row<T>, usize);
 
 /// Returns the size up to which a coefficient is rounding, given the size of the largest.
@@ -221,7 +221,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
     let ratio = |a: T, b: T| if a.is_zero() { a } else { a / b };
     let mut fall = ratio(last, before);
-    // Coefficients that fall more slowly than before have met the noise.
+    // Row that fall more slowly than before have met the noise.
     let mut levels = false;
     if pairs >= 4 {
         let fell = ratio(before, pair(pairs - 3));

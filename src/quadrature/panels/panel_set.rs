@@ -8,15 +8,15 @@ mod sampling;
 mod seams;
 
 pub(crate) use derivative_check::Rises;
-pub(crate) use probing::MOST_MISSED;
+pub(crate) use probing::MAX_MISSED;
 
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
-use crate::numerics::chebyshev::{MOST, Row, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, size_for};
 use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
-use candidate::{Candidate, LEVELS_OF_A_WAVE, MOST_LEVELS, is_long};
+use candidate::{Candidate, LEVELS_OF_A_WAVE, MAX_LEVELS, is_long};
 use sampling::SampledBody;
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
@@ -27,7 +27,7 @@ pub(super) const LEAST: usize = 8;
 pub(super) const FINEST: f64 = 16.0;
 
 /// Most splits of a span between two breakpoints.
-const MOST_SPLITS: usize = 4096;
+const MAX_SPLITS: usize = 4096;
 
 /// Level of halving from which large noise counts as noise: before, it may be a wave that is not
 /// resolved yet.
@@ -38,7 +38,7 @@ const STUCK: f64 = 0.25;
 
 /// Number of panels beyond twice the first number at which the next solve covers the span anew.
 /// (Each extension adds one or more, and every panel costs time in each evaluation.)
-const MOST_ADDED: usize = 6;
+const MAX_ADDED: usize = 6;
 
 /// Share of a span, from its left end, at which it is split if its heights contradict its slopes: a
 /// step may lie in the middle.
@@ -115,7 +115,7 @@ impl<T: Real> PanelSet<T> {
             spent: Cost::default(),
             held: Ends::both(None),
             derivatives: Vec::new(),
-            slopes: [[T::zero(); MOST]; 2],
+            slopes: [[T::zero(); MAX_SIZE]; 2],
             derivative_sizes: Vec::new(),
             tilt: T::zero(),
         }
@@ -142,7 +142,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Decides, before the next solve with the same bodies, whether to cover the span anew.
     pub fn look_back(&mut self) {
-        self.is_cut_up = self.panels.len() > 2 * self.at_first + MOST_ADDED;
+        self.is_cut_up = self.panels.len() > 2 * self.at_first + MAX_ADDED;
     }
 
     /// Samples the slope next to a given limit, unless it is at the end of a piece, where more is
@@ -335,7 +335,7 @@ impl<T: Real> PanelSet<T> {
             let share = T::of(if trial.hides { ASIDE } else { 0.5 });
             let middle = (T::one() - share) * left + share * right;
             let may =
-                splits < MOST_SPLITS && trial.may_be_halved() && is_long(trial.panel.x, self.noise);
+                splits < MAX_SPLITS && trial.may_be_halved() && is_long(trial.panel.x, self.noise);
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
@@ -384,10 +384,10 @@ impl<T: Real> PanelSet<T> {
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
-                let finer = trial.level < MOST_LEVELS
+                let finer = trial.level < MAX_LEVELS
                     && trial.may_be_halved()
                     && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise));
-                if finer && splits < MOST_SPLITS && !self.coarse {
+                if finer && splits < MAX_SPLITS && !self.coarse {
                     self.panels.pop();
                     let again =
                         |panel, trial: &Candidate<T>| Candidate { panel, split: true, ..*trial };

@@ -6,12 +6,12 @@
 
 use super::half_angle::{HalfAngle, Sines};
 use super::panel::Panel;
-use crate::numerics::chebyshev::{MOST, Row, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, size_for};
 use crate::{Interval, Real};
 
 /// Largest sum of the coefficients over the contact, in units of the largest slope; a larger sum
 /// would cost digits.
-const MOST_GROWTH: f64 = 16.0;
+const MAX_GROWTH: f64 = 16.0;
 
 /// Part of a contact on one panel.
 pub(super) struct PanelAngles<'a, T> {
@@ -40,7 +40,7 @@ pub(super) fn reexpanded<T: Real>(
     mut show: impl FnMut(&PanelAngles<'_, T>),
 ) -> bool {
     let zero = T::zero();
-    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MOST);
+    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MAX_SIZE);
     let count = size_for(most) + 2;
     let single = panels.len() == 1;
     let last = panels.len().saturating_sub(1);
@@ -53,9 +53,9 @@ pub(super) fn reexpanded<T: Real>(
         ]
     };
     let slopes = (0..panels.len()).flat_map(ends_of);
-    let most_bulk = T::of(MOST_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
+    let most_bulk = T::of(MAX_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
     let mut start = HalfAngle::of(on, on.left);
-    let mut left = ([zero; MOST + 2], [T::pi(), zero]);
+    let mut left = ([zero; MAX_SIZE + 2], [T::pi(), zero]);
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
@@ -63,7 +63,7 @@ pub(super) fn reexpanded<T: Real>(
             return false;
         }
         let ends = ends_of(i);
-        let mut right = ([zero; MOST + 2], [zero, T::pi()]);
+        let mut right = ([zero; MAX_SIZE + 2], [zero, T::pi()]);
         let mut end = start;
         if i < last {
             end = HalfAngle::of(on, panel.x[1]);

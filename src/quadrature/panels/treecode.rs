@@ -15,7 +15,7 @@
 
 use super::near_far_sum::FarPanel;
 use crate::Real;
-use crate::numerics::chebyshev::{MOST, Row, Table};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, Table};
 use std::ops::Range;
 
 /// Number of points that stand for a group: enough for rounding from its own length away.
@@ -156,7 +156,7 @@ impl<T: Real> Group<T> {
 
     /// Returns the cosine series of g and its number of terms, if the group is a whole contact.
     pub fn cosines(&self) -> (Row<T>, usize) {
-        let (mut series, share) = ([T::zero(); MOST], T::count(POINTS) * T::frac_1_pi());
+        let (mut series, share) = ([T::zero(); MAX_SIZE], T::count(POINTS) * T::frac_1_pi());
         series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
         (series.map(|a| share * a), POINTS)
     }

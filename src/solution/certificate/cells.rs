@@ -5,7 +5,7 @@
 //! most a given length. In the contacts the slope from which the limits were found is compared with
 //! them.
 
-use super::{MOST_EVALUATIONS, undecided};
+use super::{MAX_EVALUATIONS, undecided};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::quadrature::panels::{Panel, PanelSet};
@@ -71,7 +71,7 @@ impl<'g, T: Real> Cells<'g, T> {
                 cells.held = Ends { left: cells.look_at(gap, Side::Left, cell.left), ..looks };
                 cells.sample_anew(gap, cell)?;
             }
-            if cells.cost.evaluations > MOST_EVALUATIONS || cells.cost.samples > MOST_EVALUATIONS {
+            if cells.cost.evaluations > MAX_EVALUATIONS || cells.cost.samples > MAX_EVALUATIONS {
                 return Err(undecided(cell.left, cells.cost));
             }
             before = Some((cell, row.panels.len(), cells.size));
@@ -85,7 +85,7 @@ impl<'g, T: Real> Cells<'g, T> {
     pub fn places(&self, edge: T, end: T, half_width: T) -> Vec<T> {
         let (sign, reach) = (if end < edge { -T::one() } else { T::one() }, (end - edge).abs());
         let (mut places, mut reached) = (vec![edge], T::zero());
-        while reached < reach && places.len() < MOST_EVALUATIONS {
+        while reached < reach && places.len() < MAX_EVALUATIONS {
             let step = (T::of(0.5) * reached).max(T::of(0.0625) * half_width).min(self.spacing);
             // No sliver at the end.
             let is_last = reached + T::of(1.25) * step >= reach;

@@ -16,12 +16,12 @@ use crate::{ContactError, Ends, Interval, Real};
 /// Number of nodes of a cell.
 const NODES: usize = 16;
 /// Largest number of halvings of a span between two breakpoints.
-const MOST_LEVELS: usize = 52;
+const MAX_LEVELS: usize = 52;
 /// Largest number of cells in all.
-const MOST_CELLS: usize = 1 << 16;
+const MAX_CELLS: usize = 1 << 16;
 /// Largest number of breakpoints at which the pressure is taken, besides those where the slope
 /// jumps down.
-const MOST_JOINTS: usize = 512;
+const MAX_JOINTS: usize = 512;
 
 /// Pressures at the nodes of a cell, and the series of the pressure times its smoothing factor.
 struct CheckedCell<T> {
@@ -62,13 +62,13 @@ impl<T: Real> Inside<'_, T> {
     pub fn least(&self, cost: Cost) -> Result<Extremum<T>, ContactError<T>> {
         let on = self.on;
         let mut found = Found { worst: None, ratio: None, cells: 0 };
-        for x in self.gap.telling_breakpoints(on, -T::one(), MOST_JOINTS) {
+        for x in self.gap.telling_breakpoints(on, -T::one(), MAX_JOINTS) {
             let mut pressure = [T::zero()];
             (self.pressures)(&[x], &mut pressure);
             self.meet(&mut found, x, pressure[0]);
         }
         // Each span between two breakpoints is one cell or more.
-        if self.gap.breakpoints(on).count() < MOST_CELLS {
+        if self.gap.breakpoints(on).count() < MAX_CELLS {
             let mut left = on.left;
             for right in self.gap.breakpoints(on).chain([on.right]) {
                 self.bound([left, right], &mut found, cost)?;
@@ -94,7 +94,7 @@ impl<T: Real> Inside<'_, T> {
         let mut waiting = vec![(span, 0)];
         while let Some(([from, to], level)) = waiting.pop() {
             found.cells += 1;
-            if found.cells > MOST_CELLS {
+            if found.cells > MAX_CELLS {
                 // One place with tension is enough.
                 let tension = found.worst.map(|place| self.tension(place));
                 return Err(tension.unwrap_or_else(|| undecided(from, cost)));
@@ -118,7 +118,7 @@ impl<T: Real> Inside<'_, T> {
                 if value < -self.allowed {
                     self.deepest([from, to], found);
                 }
-            } else if level < MOST_LEVELS && middle > from && middle < to {
+            } else if level < MAX_LEVELS && middle > from && middle < to {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
             } else {
                 x.iter().zip(&pressure).for_each(|(&x, &pressure)| self.meet(found, x, pressure));

@@ -19,9 +19,9 @@ use crate::{ContactError, Interval, Real, Side};
 /// Number of nodes of a cell.
 const NODES: usize = 24;
 /// Largest number of halvings of a panel.
-const MOST_LEVELS: usize = 40;
+const MAX_LEVELS: usize = 40;
 /// Largest number of cells on one side.
-const MOST_CELLS: usize = 1 << 16;
+const MAX_CELLS: usize = 1 << 16;
 
 /// Truncation error from which on cells resolve nothing, as a share of the rise at the largest
 /// slope.
@@ -192,7 +192,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         while let Some(([from, to], level)) = waiting.pop() {
             let (middle, reach) = (half * (from + to), half * (to - from));
             self.cells += 1;
-            if self.cells > MOST_CELLS {
+            if self.cells > MAX_CELLS {
                 return Err(undecided(self.edge() + sign * from * from, cost));
             }
             let (mut values, mut terms) = ([T::zero(); NODES], T::zero());
@@ -212,7 +212,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             let size = rate.iter().fold(T::zero(), |max, a| max.max(a.abs()));
             let rounding = T::of(256.0) * T::epsilon() * size.max(terms);
             let fine = left_out <= (T::of(0.125) * allowed).max(rounding);
-            if !fine && level < MOST_LEVELS && middle > from && middle < to {
+            if !fine && level < MAX_LEVELS && middle > from && middle < to {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
                 continue;
             }

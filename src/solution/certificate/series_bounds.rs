@@ -5,7 +5,7 @@ use crate::numerics::chebyshev::{expand, value_at};
 use crate::quadrature::panels::Panel;
 
 /// Largest number of halves examined before the least value found is accepted.
-const MOST_HALVES: usize = 512;
+const MAX_HALVES: usize = 512;
 
 /// Returns a lower bound of the series.
 pub(super) fn below<T: Real>(series: &[T]) -> T {
@@ -43,7 +43,7 @@ pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
         }
         looked += 1;
         let part = expand(series, [left, right]);
-        if looked < MOST_HALVES && below(&part) < best[1] - enough && middle > left {
+        if looked < MAX_HALVES && below(&part) < best[1] - enough && middle > left {
             waiting.extend([[middle, right], [left, middle]]);
         }
     }

@@ -17,7 +17,7 @@ const DEEPEST: f64 = 4.0;
 
 /// Largest number of maxima of the pressure, and of the surface stress, below which stress is
 /// searched.
-const MOST_TOPS: usize = 8;
+const MAX_TOPS: usize = 8;
 
 /// Share of the largest stress on the first grid, above which a place may lead to a higher maximum:
 /// from one depth to the next, a factor of 1.6, stress changes by a few hundredths.
@@ -119,7 +119,7 @@ impl<T: Real> Subsurface<'_, T> {
         let mut pressures = vec![T::zero(); grid.len()];
         self.pressure.values(&grid, &mut pressures)?;
         let pressures: Vec<_> = grid.iter().zip(pressures).map(|(&x, p)| [x, p]).collect();
-        let tops = rises(&pressures).into_iter().take(MOST_TOPS).map(|top| top.highest);
+        let tops = rises(&pressures).into_iter().take(MAX_TOPS).map(|top| top.highest);
         let tips = self.tips()?.into_iter().filter(|&x| on.contains(x)).collect();
         Ok(Features { grid, steep: [on.left, on.right].into_iter().chain(tops).collect(), tips })
     }
@@ -222,7 +222,7 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         for &x in &features.grid {
             surface.push([x, self.at([self.along(x), Self::surface()])?.1.value]);
         }
-        for top in rises(&surface).into_iter().take(MOST_TOPS) {
+        for top in rises(&surface).into_iter().take(MAX_TOPS) {
             feet.push(self.at([self.along(top.highest), Self::surface()])?);
             feet.push(neighbourhood(top.highest)?);
         }

@@ -16,7 +16,7 @@ const NEIGHBOURS: usize = 32;
 const ENOUGH: f64 = 1e-4;
 
 /// Largest number of steps of conjugate gradients for one system.
-const MOST_STEPS: usize = 300;
+const MAX_STEPS: usize = 300;
 
 impl<T: Real> ActiveSet<T> {
     /// Closes the gap in the loaded cells; returns the uncertainty of the forces.
@@ -27,7 +27,7 @@ impl<T: Real> ActiveSet<T> {
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
         let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
         let found = exact.is_some();
-        self.work += self.cells.len() * if found { on.len() } else { MOST_STEPS };
+        self.work += self.cells.len() * if found { on.len() } else { MAX_STEPS };
         let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
@@ -91,7 +91,7 @@ impl<T: Real> ActiveSet<T> {
             on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
         let (mut next, mut size) = balance.step(&mut missed);
         let mut way = next.clone();
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
                 break;
             }

@@ -44,7 +44,7 @@ use crate::{Ends, Interval, Real, Side};
 use nalgebra::{Matrix2, Vector2};
 
 /// Longest step that is taken, in half-widths: a longer one leads nowhere.
-const MOST_STEP: f64 = 1e9;
+const MAX_STEP: f64 = 1e9;
 
 /// Returns an interval with its limits moved by steps in half-widths, given the load as a share of
 /// the carried load. The half-width changes as its square would, by a factor of 1/33 to 4. The
@@ -171,7 +171,7 @@ impl<T: Real> Linearised<T> {
         m: &Moments<T>,
     ) -> Option<Self> {
         let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-        let trend = m.derivatives?;
+        let derivatives = m.derivatives?;
         let half_width = on.half_width();
         let stiffness = conditions.kappa * half_width;
         let pulls = conditions.edge_strengths(half_width);
@@ -199,9 +199,9 @@ impl<T: Real> Linearised<T> {
                 let pull = pulls[side];
                 let carried = m.m1 + sign * m.m0;
                 let residual = (load + pull + pull) * by_scale - weight * carried;
-                let centre = -by_half_width * (trend.by_1 + sign * trend.by_0);
+                let centre = -by_half_width * (derivatives.by_1 + sign * derivatives.by_0);
                 let width = -weight * carried + pull * by_scale
-                    - by_half_width * (trend.by_2 + sign * trend.by_1);
+                    - by_half_width * (derivatives.by_2 + sign * derivatives.by_1);
                 let [away, own] = [half * (centre - sign * width), half * (centre + sign * width)];
                 (residual, [away, own], one)
             }
@@ -228,7 +228,7 @@ impl<T: Real> Linearised<T> {
         let inverse = self.matrix.try_inverse()?;
         let [left, right, force] = self.solve(&inverse, self.scale, self.residual);
         let size = (right - left).abs() + (right + left).abs();
-        let leads = size <= T::of(MOST_STEP) && force.is_finite();
+        let leads = size <= T::of(MAX_STEP) && force.is_finite();
         let (lean, unit, share) = (self.lean(), self.scale, T::one());
         let limits = [left, right];
         leads.then_some(Step { from, load, carried, lean, inverse, unit, limits, force, share })
@@ -323,13 +323,16 @@ struct Turning<T> {
 
 impl<T: Real> Turning<T> {
     fn new(conditions: &Conditions<T>, at: T, on: Interval<T>, m: &Moments<T>) -> Option<Self> {
-        let (half, trend, second) = (T::of(0.5), m.derivatives?, m.m2?);
+        let (half, derivatives, second) = (T::of(0.5), m.derivatives?, m.m2?);
         let (load, half_width) = (conditions.load(), on.half_width());
         let stiffness = conditions.kappa * half_width;
         let by_width = stiffness * half_width;
         // κ L m₁.
-        let carried =
-            [stiffness * m.m1, by_width * trend.by_1, stiffness * m.m1 + by_width * trend.by_2];
+        let carried = [
+            stiffness * m.m1,
+            by_width * derivatives.by_1,
+            stiffness * m.m1 + by_width * derivatives.by_2,
+        ];
         let left = load - carried[0];
         let both_free = conditions.limits() == Ends::both(None);
         let (acting, load) = if both_free {
@@ -344,8 +347,10 @@ impl<T: Real> Turning<T> {
             load,
             moment: [
                 acting[0] * arm + half * stiffness * second,
-                acting[0] + acting[1] * arm + by_width * (trend.by_2 - half * trend.by_0),
-                acting[2] * arm + half * by_width * trend.by_1,
+                acting[0]
+                    + acting[1] * arm
+                    + by_width * (derivatives.by_2 - half * derivatives.by_0),
+                acting[2] * arm + half * by_width * derivatives.by_1,
             ],
         })
     }

@@ -7,7 +7,7 @@
 
 mod widths;
 
-use super::super::single_contact::MOST_DOUBT;
+use super::super::single_contact::MAX_DOUBT;
 use super::{Progress, Stop};
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
@@ -17,12 +17,12 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 use std::ops::Range;
 
 /// Steps before the search is given up.
-const MOST_STEPS: usize = 60;
+const MAX_STEPS: usize = 60;
 
 /// Largest number of steps in a row cut short by the same width or end, before that contact or gap
 /// is taken not to exist: a gap at a kink, or a contact where the bodies have just met, may be as
 /// narrow as rounding.
-const MOST_CUT: i32 = 12;
+const MAX_CUT: i32 = 12;
 
 /// Unknown besides the limits.
 #[derive(Clone, Copy)]
@@ -137,7 +137,7 @@ impl<T: Real> NewtonSeveral<T> {
         }
         (self.progress, self.cut) = (Progress::new(), None);
         let mut turned = conditions.gap.tilted(self.tilt);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
@@ -256,7 +256,7 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut = Some((cut, times));
         self.progress.forget();
         match cut {
-            _ if times <= MOST_CUT => Ok(true),
+            _ if times <= MAX_CUT => Ok(true),
             Cut::End(side) => Err(Stop::Beyond { side, reached: self.hull() }),
             Cut::Width(i) if i % 2 == 0 => Err(Stop::Lost(i / 2)),
             Cut::Width(i) => Err(Stop::Closed(i / 2)),
@@ -312,8 +312,8 @@ impl<T: Real> NewtonSeveral<T> {
             adhesive: Ends::both(false),
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             error_by_load: Some(sum / all),
-            force: None,
-            trend: None,
+            load_error: None,
+            moment_derivatives: None,
             tilt: self.tilt,
             ends: conditions.ends,
         }
@@ -354,7 +354,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// Tells whether no limit has moved by more than the largest uncertainty allowed.
     fn is_small(&self) -> bool {
         let mut moves = self.moves.iter().zip(self.half_widths());
-        moves.all(|(step, half_width)| step.abs() <= T::of(MOST_DOUBT) * half_width)
+        moves.all(|(step, half_width)| step.abs() <= T::of(MAX_DOUBT) * half_width)
     }
 
     /// Tells whether no limit has moved by more than its own uncertainty.

@@ -8,7 +8,7 @@
 //! their end.
 
 use super::super::edges::Conditions;
-use super::super::single_contact::MOST_DOUBT;
+use super::super::single_contact::MAX_DOUBT;
 use super::linearised::{Linearised, Step, doubtful, moved};
 use super::{Progress, Stop, crosses_breakpoint};
 use crate::quadrature::{Integrator, Moments};
@@ -16,10 +16,10 @@ use crate::{ContactError, Ends, Gap, Interval, Real, Side};
 
 /// Trials before the search is given up: for an initial guess, and in full. An initial guess that
 /// takes long has no contact.
-const MOST_TRIALS: [usize; 2] = [16, 200];
+const MAX_TRIALS: [usize; 2] = [16, 200];
 
 /// Largest number of steps in full that are longer than half of the half-width.
-const MOST_LONG: usize = 8;
+const MAX_LONG: usize = 8;
 
 /// Least share of a step that is taken.
 const LEAST_SHARE: f64 = 1e-12;
@@ -38,7 +38,7 @@ pub(in super::super) struct Converged<T> {
     /// Estimated error of the limits relative to the half-width.
     pub error: T,
     /// Load that corresponds to this error.
-    pub force: T,
+    pub load_error: T,
 }
 
 /// Limits found, or the reason for none.
@@ -83,7 +83,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         let (conditions, progress) = (self.conditions, Progress::new());
         let (on, load) = (conditions.with_given(start, self.gap.range()), conditions.load());
         let mut trial = Trial { start, on, load, last: None, progress, at_end: 0, long: 0 };
-        for _ in 0..MOST_TRIALS[usize::from(self.effort == Effort::Full)] {
+        for _ in 0..MAX_TRIALS[usize::from(self.effort == Effort::Full)] {
             let half_width = trial.on.half_width();
             if !(half_width > T::zero() && half_width.is_finite()) {
                 break;
@@ -110,7 +110,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             if let Some(verdict) = ended {
                 return Ok(verdict);
             }
-            if trial.long > MOST_LONG {
+            if trial.long > MAX_LONG {
                 break;
             }
         }
@@ -160,7 +160,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         if self.effort == Effort::Guess
             && on.half_width() < T::of(NARROW) * trial.start.half_width()
         {
-            return Err(Ok(Converged { on, load, error: size.max(T::one()), force: size }));
+            return Err(Ok(Converged { on, load, error: size.max(T::one()), load_error: size }));
         }
         let range = self.gap.range();
         if on.left >= range[0] && on.right <= range[1] {
@@ -191,7 +191,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         let (on, load, size) = (trial.on, trial.load, step.size());
         let sizes = step.limits.map(|step| step.abs());
         if self.effort == Effort::Guess {
-            let guessed = Converged { on, load, error: size, force: size };
+            let guessed = Converged { on, load, error: size, load_error: size };
             trial.progress.note(sizes);
             return Ok((size <= T::of(GUESSED))
                 .then(|| if self.is_sound(system, on) { Ok(guessed) } else { Err(Stop::Failed) }));
@@ -209,7 +209,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             let stalled =
                 judged.is_stalled && size <= doubtful(least) && system.is_met(m, rounding);
             if done || stalled {
-                if !self.is_sound(system, on) || least > T::of(MOST_DOUBT) {
+                if !self.is_sound(system, on) || least > T::of(MAX_DOUBT) {
                     return Ok(Some(Err(Stop::Failed)));
                 }
                 let left_over = if stalled { sizes } else { judged.next };
@@ -217,9 +217,9 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
                 let errors = std::array::from_fn(|i| {
                     T::of(4.0) * (noise[i] + rounding[i]) + T::of(0.5) * left_over[i]
                 });
-                let (force, error) = (system.force(errors), errors[0].max(errors[1]));
+                let (load_error, error) = (system.force(errors), errors[0].max(errors[1]));
                 let (on, load) = self.derivative_steps(on, load)?;
-                return Ok(Some(Ok(Converged { on, load, error, force })));
+                return Ok(Some(Ok(Converged { on, load, error, load_error })));
             }
         }
         trial.progress.note(sizes);

@@ -8,7 +8,7 @@ use crate::{ContactError, Ends, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: enough to halve the largest number
 /// down to the smallest.
-const MOST_WIDTHS: usize = 2200;
+const MAX_WIDTHS: usize = 2200;
 
 /// Largest exponent of the power of the width that the load is taken to follow.
 const STEEPEST: f64 = 40.0;
@@ -43,7 +43,7 @@ impl<T: Real> NestedSearch<'_, T> {
             (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
         let mut next_width = NextWidth::new();
-        for _ in 0..MOST_WIDTHS {
+        for _ in 0..MAX_WIDTHS {
             let (trial, is_pinned) = match (self.centre(half_width)?, narrow) {
                 (Centred::At(trial), _) => (trial, self.is_at_end(trial.on)),
                 (Centred::Adrift(_), _) => {

@@ -20,13 +20,13 @@ const BESIDE: f64 = 0.002;
 const STEP: f64 = 0.01;
 
 /// Largest number of refinements of the survey for one check.
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 
 /// Halvings of a span between two heights in search of its lowest place, and cuts at the zero of
 /// the chord of the slope, each of which leaves a thousandth of the distance: a contact is born
 /// there with as little as a millionth.
-const MOST_HALVES: usize = 8;
-const MOST_CHORDS: usize = 2;
+const MAX_HALVES: usize = 8;
+const MAX_CHORDS: usize = 2;
 
 /// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
@@ -61,7 +61,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let half = T::of(0.5);
         let (mut falls, mut rises) = (None, None);
         let mut share = half;
-        for step in 1..=MOST_HALVES + MOST_CHORDS {
+        for step in 1..=MAX_HALVES + MAX_CHORDS {
             let x = left + share * (right - left);
             let slope = look.slope(x) + self.gap.tilt() - self.rate(fields, x);
             if slope > T::zero() {
@@ -70,7 +70,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 (left, falls) = (x, Some(-slope));
             }
             // Where finite, the slope is almost straight once the span is short.
-            if step >= MOST_HALVES {
+            if step >= MAX_HALVES {
                 let crossing = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
                 share = crossing.filter(|share| share.is_finite()).unwrap_or(half);
             }
@@ -129,7 +129,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut share = T::of(OPEN);
         self.resolve(fields, share)?;
         let mut open = Vec::new();
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
             let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
@@ -411,7 +411,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Returns the overlap that counts as rounding.
     fn allowed(&self, height: T, at_edge: T) -> T {
-        self.found.nothing() * (height - at_edge).abs()
+        self.found.zero_tolerance() * (height - at_edge).abs()
             + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs())
     }
 

@@ -2,11 +2,11 @@
 
 use super::super::newton::Stop;
 use super::super::newton::single::{Converged, Effort};
-use super::{MOST_GUESSES, Single};
+use super::{MAX_GUESSES, Single};
 use crate::{ContactError, Interval, Real};
 
 /// Initial guesses that may reach for an end before the capacity of the bodies is computed.
-const MOST_GUESSES_AT_END: usize = 2;
+const MAX_GUESSES_AT_END: usize = 2;
 
 /// Share of its span above which a contact needs no closer span.
 const COMPARABLE: f64 = 0.4;
@@ -27,7 +27,7 @@ impl<T: Real> Single<'_, '_, T> {
         let gap = &self.contact.gap;
         let [left, right] = gap.range();
         let (mut span, mut on, mut at_end) = (self.start(), None, 0);
-        for _ in 0..MOST_GUESSES {
+        for _ in 0..MAX_GUESSES {
             if !(span.left >= left && span.right <= right && span.left < span.right) {
                 return Ok(None);
             }
@@ -50,7 +50,7 @@ impl<T: Real> Single<'_, '_, T> {
                 Err(_) => return Ok(None),
             };
             at_end += usize::from(reaches_end);
-            let is_spent = reaches_end && at_end == MOST_GUESSES_AT_END && !self.may_bear()?;
+            let is_spent = reaches_end && at_end == MAX_GUESSES_AT_END && !self.may_bear()?;
             if is_spent || on.is_none() && next.is_same(&span) {
                 return Ok(None);
             }

@@ -7,7 +7,7 @@ use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real};
 
 /// Largest number of steps of a pull: the first may be far longer than the last.
-const MOST_PULLS: usize = 200;
+const MAX_PULLS: usize = 200;
 
 impl<T: Real> Single<'_, '_, T> {
     /// Pulls at an adhesive contact: from zero load, or from the widest contact on the bodies, in
@@ -52,7 +52,7 @@ impl<T: Real> Single<'_, '_, T> {
         let pulls = self.conditions.edge_strengths(last.half_width());
         let least_of_all = T::of(-2.0) * (pulls.right + pulls.left);
         let mut step = (load - least).max(least_of_all - least.max(T::zero()));
-        for _ in 0..MOST_PULLS {
+        for _ in 0..MAX_PULLS {
             let next = (least + step).max(load);
             match self.pulled(next, last)? {
                 Some(found) if next <= load => return Ok(found),

@@ -2,7 +2,7 @@
 
 use super::super::edges::{Conditions, Given};
 use super::super::first_contact::first_contact;
-use super::{Elsewhere, MOST_GUESSES, Single};
+use super::{Elsewhere, MAX_GUESSES, Single};
 use crate::gap::Sampler;
 use crate::{ContactError, Ends, Interval, Real};
 
@@ -53,7 +53,7 @@ impl<T: Real> Single<'_, '_, T> {
         if let Given::HalfWidth(half_width) = conditions.given {
             (reach, on) = (half_width, around(half_width.min(reach), T::zero()));
         }
-        for _ in 0..MOST_GUESSES {
+        for _ in 0..MAX_GUESSES {
             let falls = -sampler.slope(gap, on.left)?;
             let rise = falls + sampler.slope(gap, on.right)?;
             let stiffness = quarter * conditions.kappa * rise;

@@ -22,14 +22,14 @@ const NEAR: f64 = 1.25;
 /// Load fractions tried (¼, then each squared) until the contacts reach no end of the bodies, and
 /// the largest number of them.
 const LESS: f64 = 0.25;
-const MOST_SHARES: usize = 6;
+const MAX_SHARES: usize = 6;
 
 /// First step of the load, as a share of it.
 const FIRST_STEP: f64 = 1.0 / 64.0;
 
 /// Loads tried. (If a limit reaches the end, the gap shrinks as the power 3/2 of the load left: 60
 /// secants to rounding.)
-const MOST_LOADS: usize = 100;
+const MAX_LOADS: usize = 100;
 
 /// Last step of the load, as a share of it, in units of rounding.
 const LAST_STEP: f64 = 1e4;
@@ -172,10 +172,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (half, asked) = (T::of(0.5), conditions.load());
         let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
         let (mut load, mut gaps) = shares
-            .take(MOST_SHARES)
+            .take(MAX_SHARES)
             .find_map(|load| Some((load, self.gaps_at_ends(&conditions.under(load))?.1)))?;
         let mut step = T::of(FIRST_STEP) * load;
-        for _ in 0..MOST_LOADS {
+        for _ in 0..MAX_LOADS {
             if step <= T::of(LAST_STEP) * T::epsilon() * load {
                 break;
             }
@@ -252,7 +252,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         };
         let (mut load, mut share, mut high) = (conditions.load(), T::of(LESS), None);
         let mut low = None;
-        for _ in 0..=MOST_SHARES {
+        for _ in 0..=MAX_SHARES {
             match end_reached(load)? {
                 Some(end) => high = Some((load, end)),
                 None => {

@@ -24,13 +24,13 @@ use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 const CLOSELY: f64 = 0.002;
 
 /// Sets of contacts tried before the search is given up.
-const MOST_TRIALS: usize = 12;
+const MAX_TRIALS: usize = 12;
 
 /// Largest share of its width that a gap may keep to be closed together with another gap.
 const CLOSING: f64 = 0.1;
 
 /// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
-const MOST_DOUBLINGS: usize = 6;
+const MAX_DOUBLINGS: usize = 6;
 
 /// Share of a contact's half-width by which a limit leaves a corner that does not hold it. Its
 /// square is the first half-width of a contact put at an overlap, as a share of the bodies.
@@ -66,7 +66,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mut start = if is_near { Start::Last } else { Start::ActiveSet };
         let mut earlier = Vec::new();
         self.work.workspace.newton.on.clone_from(last);
-        for _ in 0..MOST_TRIALS {
+        for _ in 0..MAX_TRIALS {
             let [left, right] = self.contact.gap.range();
             self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
             if start == Start::ActiveSet {
@@ -248,7 +248,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             right: at_corner.right && on[on.len() - 1].right >= ends.right,
         };
         let mut found = self.converge_once(conditions, corners)?;
-        for _ in 0..panels::MOST_MISSED {
+        for _ in 0..panels::MAX_MISSED {
             match &found {
                 Ok(state) if self.misses(state)? => {
                     found = self.converge_once(conditions, corners)?;
@@ -322,7 +322,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         // This number of cells has not failed yet.
         let cells = self.cells;
-        self.cells = (cells + cells).min(FIRST_CELLS << MOST_DOUBLINGS);
+        self.cells = (cells + cells).min(FIRST_CELLS << MAX_DOUBLINGS);
         let coarse = self.coarse(conditions, cells)?;
         self.runs_out = self.end_reached(&coarse);
         let tilt = self.contact.gap.tilt() + coarse.tilt;

@@ -5,9 +5,9 @@ use crate::profile::Noise;
 use crate::quadrature::panels::Panel;
 
 /// Most halvings of a span next to a jump: the rest is then too short to count in any integral.
-pub(super) const MOST_LEVELS: usize = 110;
+pub(super) const MAX_LEVELS: usize = 110;
 
-/// Share of the error that a half may keep if halving is to go on beyond [`MOST_LEVELS`]: next to a
+/// Share of the error that a half may keep if halving is to go on beyond [`MAX_LEVELS`]: next to a
 /// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
 const FALL_OF_A_ROOT: f64 = 0.98;
 
@@ -58,7 +58,7 @@ impl<T: Real> Candidate<T> {
         } else if self.falls {
             LEVELS_OF_A_ROOT
         } else {
-            MOST_LEVELS
+            MAX_LEVELS
         };
         self.level < most
     }

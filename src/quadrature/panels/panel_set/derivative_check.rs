@@ -10,9 +10,9 @@ impl<T: Real> PanelSet<T> {
     /// Refuses a wrong sign or factor in a derivative. Looks at the two last points whose heights
     /// contradict their slopes most.
     pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
-            let samples = trace.curve_samples();
-            if trace.direct || samples.len() < 8 {
+        for (body, cache) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
+            let samples = cache.curve_samples();
+            if cache.direct || samples.len() < 8 {
                 continue;
             }
             let refuse = |source| Err(ContactError::Profile { body, source });
@@ -58,7 +58,7 @@ impl<T: Real> PanelSet<T> {
         panel: &Panel<T>,
         steepest: T,
     ) -> Result<(), ContactError<T>> {
-        if self.traces.iter().all(|trace| trace.direct) {
+        if self.traces.iter().all(|cache| cache.direct) {
             return Ok(());
         }
         let zero = T::zero();
@@ -67,13 +67,13 @@ impl<T: Real> PanelSet<T> {
         let places = nodes.map(|i| panel.x[0] + half * T::of(1.0 + table.z[i]));
         let sloped = [0, 1].map(|i| table.rises(&self.slopes[i][..n]).map(|rise| half * rise));
         let (mut by_heights, mut doubt, mut rounded) = ([zero; 2], [zero; 3], zero);
-        for (i, trace) in self.traces.iter().enumerate() {
+        for (i, cache) in self.traces.iter().enumerate() {
             let sign = if i == 0 { -T::one() } else { T::one() };
             let mut rises = sloped[i];
-            if !trace.direct {
+            if !cache.direct {
                 // The point is near the node, not at it; the next point bounds the change of slope
                 // between them.
-                let points = trace.curve_samples();
+                let points = cache.curve_samples();
                 let mut heights = [zero; 3];
                 for (j, &node) in nodes.iter().enumerate() {
                     let [near, next] =
@@ -85,7 +85,7 @@ impl<T: Real> PanelSet<T> {
                     rounded = rounded.max(near.y.abs() + (near.x * near.slope).abs());
                 }
                 rises = [heights[1] - heights[0], heights[2] - heights[1]];
-                rounded = rounded.max(trace.height());
+                rounded = rounded.max(cache.height());
             }
             by_heights = [0, 1].map(|i| by_heights[i] + sign * rises[i]);
         }

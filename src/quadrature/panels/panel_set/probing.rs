@@ -17,7 +17,7 @@ use crate::{ContactError, Interval, Real};
 const BETWEEN: f64 = 6.0;
 
 /// Most rounds in which panels that miss a feature are sampled anew.
-pub(crate) const MOST_MISSED: usize = 8;
+pub(crate) const MAX_MISSED: usize = 8;
 
 /// Allowed error of a panel at a probed place, in units of the panel's uncertainty.
 const MISSED: f64 = 32.0;
@@ -28,7 +28,7 @@ const NEAR: f64 = 0.1;
 const NEAR_PLACE: f64 = 0.25;
 
 /// Most points per node of a panel by default, however long the panel is outside the contact.
-const MOST_PARTS: usize = 1 << 10;
+const MAX_PARTS: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
     /// Samples slopes between the nodes of the panels of a contact where a narrow feature has room,
@@ -94,7 +94,7 @@ impl<T: Real> PanelSet<T> {
         apart: T,
     ) -> Result<Option<T>, ContactError<T>> {
         let spacing = T::pi() * panel.half() / T::count(panel.n);
-        let parts = gap.parts(spacing, apart, MOST_PARTS);
+        let parts = gap.parts(spacing, apart, MAX_PARTS);
         for part in 1..parts {
             gap.check_budget(self.spent + self.cost, 1, 0, on)?;
             let missed =

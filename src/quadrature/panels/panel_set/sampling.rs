@@ -24,7 +24,7 @@ const LEVELS_OF_A_STEP: usize = 12;
 const DERIVATIVE_LEVELS: usize = 12;
 
 /// Most measurements of noise on a span where heights contradict the slopes, after a first one.
-const MOST_MEASURED: usize = 4;
+const MAX_MEASURED: usize = 4;
 
 /// Ratio of the bodies' slopes to the slope of the gap above which their rounding may exceed the
 /// tolerance.
@@ -287,12 +287,12 @@ impl<T: Real> PanelSet<T> {
     /// Measures the noise of both bodies where they were last sampled, unless it was measured often
     /// enough. Tells whether it exceeds rounding and earlier measurements.
     pub(super) fn measure_noise(&mut self, gap: &Gap<'_, T>, by_rounding: bool) -> bool {
-        if self.measured > if by_rounding { MOST_MEASURED } else { 0 } {
+        if self.measured > if by_rounding { MAX_MEASURED } else { 0 } {
             return false;
         }
         self.measured += 1;
         let halves = if by_rounding { 0..=2 } else { 1..=1 };
-        let mut noise = self.noise.unwrap_or([Noise::nothing(); 2]);
+        let mut noise = self.noise.unwrap_or([Noise::zero_tolerance(); 2]);
         let mut counts = false;
         for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
             let samples = self.traces[i].curve_samples();

@@ -10,7 +10,7 @@ use std::ops::Range;
 const STRETCH: f64 = 2.0;
 
 /// Limit on the number of such spans: more than any gap and contact of finite widths have.
-const MOST_STRETCHES: usize = 1000;
+const MAX_STRETCHES: usize = 1000;
 
 /// Conditions on the free limits, from left to right, linearised.
 #[derive(Clone)]
@@ -191,7 +191,7 @@ impl<T: Real> Several<T> {
             // Half the gap.
             let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
             let is_enough = |&n: &usize| T::of(STRETCH) * T::count(n) >= last;
-            let pieces = (1..MOST_STRETCHES).find(is_enough).unwrap_or(1);
+            let pieces = (1..MAX_STRETCHES).find(is_enough).unwrap_or(1);
             let step = last / T::count(pieces);
             for piece in 0..pieces {
                 let start = step * T::count(piece);

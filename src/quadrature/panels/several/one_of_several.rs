@@ -4,23 +4,23 @@ use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{Panel, Series, spans, within};
-use super::super::panel_set::{MOST_MISSED, PanelSet};
+use super::super::panel_set::{MAX_MISSED, PanelSet};
 use super::distant_contacts::DistantContacts;
 use crate::gap::{Cost, Gap};
-use crate::numerics::chebyshev::{MOST, SIZES, Table, by_size, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
 use crate::{ContactError, Interval, Real, Side};
 
 /// Most halvings of a panel to resolve the weight next to a gap, which may be as narrow as rounding
 /// allows.
-const MOST_HALVES: usize = 60;
+const MAX_HALVES: usize = 60;
 
 /// Most halvings for derivatives alone, which may be noise.
 const DERIVATIVE_HALVES: usize = 4;
 
 /// Most panels of one contact; beyond it none is halved any more.
-const MOST_PANELS: usize = 1 << 12;
+const MAX_PANELS: usize = 1 << 12;
 
 /// Margin of the sampled span beyond a contact, as a share of its width, so that its limits can be
 /// moved.
@@ -50,7 +50,7 @@ pub(super) struct OneOfSeveral<T> {
     waiting: Vec<([T; 2], usize)>,
     /// Bound on |H|.
     size: T,
-    conjugate: HilbertTransform<T>,
+    transform: HilbertTransform<T>,
     /// H as a cosine series: all of it on a single panel, or the terms that count from afar.
     series: Series<T>,
     /// Sum over the panels, if there are several.
@@ -73,8 +73,8 @@ impl<T: Real> OneOfSeveral<T> {
             panels: Vec::new(),
             waiting: Vec::new(),
             size: zero,
-            conjugate: HilbertTransform::new(),
-            series: ([zero; MOST], 0),
+            transform: HilbertTransform::new(),
+            series: ([zero; MAX_SIZE], 0),
             far: NearFarSum::new(),
             moments: EdgeSums::new().moments(nowhere),
             weight: DistantContacts::near(0),
@@ -141,7 +141,7 @@ impl<T: Real> OneOfSeveral<T> {
             self.panel_set.cost += cost;
             let may_hide = matches!(heights, Err(ContactError::InconsistentHeights { .. }));
             trials += 1;
-            if !may_hide || trials > MOST_MISSED || !self.panel_set.probe(gap, self.on.plain())? {
+            if !may_hide || trials > MAX_MISSED || !self.panel_set.probe(gap, self.on.plain())? {
                 return heights.map(|[height, _]| height);
             }
         }
@@ -175,7 +175,7 @@ impl<T: Real> OneOfSeveral<T> {
                 let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
                 let [from, to] = x;
                 let middle = T::of(0.5) * (from + to);
-                let may = halved < MOST_HALVES && self.panels.len() < MOST_PANELS;
+                let may = halved < MAX_HALVES && self.panels.len() < MAX_PANELS;
                 if !resolved && may && middle > from && middle < to {
                     self.waiting.push(([middle, to], halved + 1));
                     self.waiting.push(([from, middle], halved + 1));
@@ -197,7 +197,7 @@ impl<T: Real> OneOfSeveral<T> {
     /// Prepares for pressures in the contact.
     pub fn press(&mut self) {
         let over = Some(&self.series).filter(|_| self.panels.len() == 1);
-        self.conjugate.set(&self.panels, over, self.on, self.size, self.panel_set.tolerance);
+        self.transform.set(&self.panels, over, self.on, self.size, self.panel_set.tolerance);
     }
 
     /// Returns `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a
@@ -237,11 +237,11 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// Returns V at one end of the contact, without its infinite part.
     pub fn at_end(&self, side: Side) -> T {
-        let Some(trend) = self.moments.derivatives else { return T::zero() };
+        let Some(derivatives) = self.moments.derivatives else { return T::zero() };
         T::pi()
             * match side {
-                Side::Left => trend.by_0 - trend.by_1,
-                Side::Right => trend.by_0 + trend.by_1,
+                Side::Left => derivatives.by_0 - derivatives.by_1,
+                Side::Right => derivatives.by_0 + derivatives.by_1,
             }
     }
 
@@ -249,12 +249,12 @@ impl<T: Real> OneOfSeveral<T> {
     /// root.
     pub fn inside(&self, x: &[T; LANES], count: usize) -> ([T; LANES], [T; LANES]) {
         let edges = Edges::of(self.on, x);
-        (self.conjugate.at(x, count, &edges), edges.root)
+        (self.transform.at(x, count, &edges), edges.root)
     }
 
     /// Estimates the error of the first result of [`inside`](Self::inside).
     pub fn error(&self, x: T) -> T {
-        self.conjugate.error(&self.panels, x)
+        self.transform.error(&self.panels, x)
     }
 }
 
@@ -267,12 +267,12 @@ pub(super) fn multiply<T: Real>(
     tolerance: T,
 ) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
-    let least = size_for((panel.counting + 4).min(MOST)).max(8);
+    let least = size_for((panel.counting + 4).min(MAX_SIZE)).max(8);
     let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
     for n in SIZES.into_iter().filter(|&n| n >= least) {
         let table = Table::of(n);
         let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
-        let mut values = [T::zero(); MOST];
+        let mut values = [T::zero(); MAX_SIZE];
         for (value, &z) in values[..n].iter_mut().zip(&table.z) {
             // From the nearer end, where the weight may be steep.
             let place =

@@ -1,6 +1,6 @@
 //! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
-use super::{Cut, MOST_CUT, NewtonSeveral, Width};
+use super::{Cut, MAX_CUT, NewtonSeveral, Width};
 use crate::{Interval, Real};
 use std::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 const LEAST_LEFT: f64 = 0.3;
 
 /// Largest factor by which a width may grow in one step.
-const MOST_GROWTH: f64 = 4.0;
+const MAX_GROWTH: f64 = 4.0;
 
 /// Width below which a gap counts as closed, in units of rounding of x.
 const NOTHING: f64 = 64.0;
@@ -82,7 +82,7 @@ impl<T: Real> NewtonSeveral<T> {
             let change = self.moves[i + 1] - self.moves[i];
             let least = self.least(i) * width;
             let square = (width * (width + two * change)).max(least * least);
-            let next = square.sqrt().min(T::of(MOST_GROWTH) * width);
+            let next = square.sqrt().min(T::of(MAX_GROWTH) * width);
             let correction = next - (width + change);
             // Both limits share the correction, but a narrow neighbour has no room for it, and a
             // corner stays.
@@ -106,7 +106,7 @@ impl<T: Real> NewtonSeveral<T> {
         let mut share = one;
         for i in 0..count - 1 {
             let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
-            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MOST_CUT))) * width;
+            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MAX_CUT))) * width;
             if less > most {
                 share = share.min(most / less);
             }
