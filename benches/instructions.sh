@@ -76,7 +76,7 @@ counts() {
     done
 
     printf '\nscene\tready\tstress\tshear\tapproach\tby-approach\tcertify\n'
-    for scene in parabola circle example3 example4 wave; do
+    for scene in parabola example4 wave; do
         printf '%s' "$scene"
         for case in ready stress shear approach by-approach certify; do
             few=2 many=6
