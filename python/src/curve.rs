@@ -42,16 +42,19 @@ impl ParametricProfile<f64> for Curve {
     }
 
     fn at(&self, k: f64) -> CurvePoint<f64> {
-        if let Some(end) = self.domain.iter().position(|&end| end == k) {
-            return self.ends[end];
-        }
         let mut point = [NOWHERE];
         self.at_many(&[k], &mut point);
         point[0]
     }
 
     fn at_many(&self, k: &[f64], points: &mut [CurvePoint<f64>]) {
-        if k.is_empty() || call::has_raised() {
+        let end = |&k: &f64| self.domain.iter().position(|&end| end == k);
+        let ends = k.iter().map(|k| end(k).map(|end| self.ends[end]));
+        if ends.clone().all(|end| end.is_some()) {
+            points.iter_mut().zip(ends.flatten()).for_each(|(point, end)| *point = end);
+            return;
+        }
+        if call::has_raised() {
             points.fill(NOWHERE);
             return;
         }
