@@ -83,7 +83,7 @@ def explore(
 
     Notes
     -----
-    Each load takes about a tenth of a second, nearly all of it for the shear; more if a slope jumps
+    Each load takes a few milliseconds, nearly all of it for the shear; more if a slope jumps
     in the contact.
 
     The shapes of the loaded bodies are right, their heights only up to a rigid displacement: it is
