@@ -36,7 +36,7 @@ macro_rules! by_size {
 }
 pub(crate) use by_size;
 
-/// Row or values of a panel, one for each of its nodes.
+/// Coefficients or values of a panel, one for each of its nodes.
 pub(crate) type Row<T> = [T; MAX_SIZE];
 
 /// Zeros of `T_n`, and the transform from values there to coefficients.
@@ -266,7 +266,7 @@ pub(crate) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, ri
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
     let [last, others @ ..] = coefficients else { return };
-    // Row from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
+    // Coefficients from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
     let [mut one, mut other] = [[T::zero(); MAX_SIZE + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
     for (length, a) in others.iter().rev().enumerate() {

@@ -264,7 +264,7 @@ impl<T: Real> PanelIntegrator<T> {
         let mut expected = T::one();
         for n in (2..=MAX_SIZE).step_by(2) {
             expected *= decay;
-            // Row may fall more slowly than the first of them.
+            // Coefficients may fall more slowly than the first of them.
             let left = expected * T::of(20.0) * decay;
             if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;

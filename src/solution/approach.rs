@@ -221,7 +221,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         if !(is_integral(lower) || is_integral(upper)) {
             return Ok(constant);
         }
-        if self.solved.contacts().len() == 1 {
+        if self.solved.several().is_none() {
             let transform = Pressure::new(self.solved)?.cauchy_transform()?;
             let below =
                 |(i, (reference, body)): (usize, (Reference<T>, Elasticity<T>))| match reference {

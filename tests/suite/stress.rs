@@ -490,7 +490,12 @@ fn refusals() {
         assert!(matches!(refused, Err(ContactError::InvalidFriction { .. })), "{refused:?}");
     }
     assert!(matches!(field.max_von_mises(0.6), Err(ContactError::InvalidPoissonRatio { .. })));
-    // Far away nothing overflows.
+    // From far away a contact is a line load.
+    for depth in [1e17, 1e60] {
+        let line = -2.0 * solution.load() / (PI * depth);
+        assert!((field.at(0.0, depth).unwrap().sigma_y / line - 1.0).abs() < 1e-14);
+    }
+    // Nothing overflows.
     assert!(field.at(1e200, 1e-200).unwrap().max_shear() >= 0.0);
     assert!(field.at(0.0, 1e-200).unwrap().max_shear() < 1e-12);
     // If some components of the stress have no digits left, the others remain.

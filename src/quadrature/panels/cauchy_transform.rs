@@ -47,8 +47,6 @@ pub(crate) struct CauchyTransform<T> {
     pub(super) zeros: Vec<T>,
     /// True at an outermost limit that is a corner, where S has an inverse root.
     pub(super) corners: Ends<bool>,
-    /// Part of V that comes from no panel.
-    pub(super) constant: T,
     /// Strengths of the edges of a single contact, pressures.
     pub(super) strengths: Ends<T>,
     /// W of the panels of a single contact far away: κ m₀.
@@ -90,7 +88,6 @@ impl<T: Real> CauchyTransform<T> {
             contacts: vec![(on, sum)],
             zeros: Vec::new(),
             corners: Ends::both(false),
-            constant: T::zero(),
             strengths,
             far_away: integrator.moments.map_or(T::zero(), |(_, m)| kappa * m.m0),
             kappa,
@@ -129,12 +126,12 @@ impl<T: Real> CauchyTransform<T> {
         for i in 0..CIRCLE {
             let angle = T::two_pi() * T::count(i) / T::count(CIRCLE);
             let aside = Complex::new(radius * angle.cos(), radius * angle.sin());
-            // Above the surface W is the transform of W below.
+            // Above the surface W is the conjugate of W below.
             let above = y + aside.im < T::zero();
-            let transform = |z: Complex<T>| if above { z.conj() } else { z };
-            let found = self.off_zeros(&|t| transform(place(t) + aside), y);
+            let mirrored = |z: Complex<T>| if above { z.conj() } else { z };
+            let found = self.off_zeros(&|t| mirrored(place(t) + aside), y);
             let share = T::one() / T::count(CIRCLE);
-            mean = [0, 1].map(|j| mean[j] + transform(found[j]) * share);
+            mean = [0, 1].map(|j| mean[j] + mirrored(found[j]) * share);
         }
         mean
     }
@@ -145,7 +142,7 @@ impl<T: Real> CauchyTransform<T> {
         let one = Complex::new(T::one(), T::zero());
         let hull = self.hull();
         let width = hull.right - hull.left;
-        let mut value = [one * (self.constant * width), one * T::zero()];
+        let mut value = [one * T::zero(); 2];
         // S/p, its logarithmic derivative, and its dimension as a power of a length.
         let (mut factor, mut rate, mut power) = (one, one * T::zero(), -1);
         for (i, (on, sum)) in self.contacts.iter().enumerate() {
@@ -183,9 +180,6 @@ impl<T: Real> CauchyTransform<T> {
     /// which is the integral of W.
     pub fn potential(&self, x: T, depth: T) -> Option<T> {
         let [(on, sum)] = &self.contacts[..] else { return None };
-        if self.corners != Ends::both(false) {
-            return None;
-        }
         let (half, half_width) = (T::of(0.5), on.half_width());
         let place = |t: T| Complex::new(x - t, depth) * (half / half_width);
         let [left, right] = [place(on.left), place(on.right)];

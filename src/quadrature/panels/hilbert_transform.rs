@@ -301,7 +301,7 @@ pub(super) struct Breakpoint<T> {
     closest: T,
 }
 
-/// Row of artanh(r)/r in r².
+/// Coefficients of artanh(r)/r in r².
 #[rustfmt::skip]
 const ARTANH: [f64; 9] =
     [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];

@@ -11,7 +11,7 @@ pub(crate) struct Panel<T> {
     pub x: [T; 2],
     /// Number of nodes sampled.
     pub n: usize,
-    /// Row, `n` in number, of which the first `counting` exceed rounding.
+    /// Coefficients, `n` in number, of which the first `counting` exceed rounding.
     pub series: Row<T>,
     pub counting: usize,
     /// Estimated largest error of the series.
@@ -152,7 +152,7 @@ impl<T: Real> Panel<T> {
     }
 }
 
-/// Row of a series, and the number of significant ones.
+/// Coefficients of a series, and the number of significant ones.
 pub(super) type Series<T> = (Row<T>, usize);
 
 /// Returns the size up to which a coefficient is rounding, given the size of the largest.
@@ -221,7 +221,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) 
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));
     let ratio = |a: T, b: T| if a.is_zero() { a } else { a / b };
     let mut fall = ratio(last, before);
-    // Row that fall more slowly than before have met the noise.
+    // Coefficients that fall more slowly than before have met the noise.
     let mut levels = false;
     if pairs >= 4 {
         let fell = ratio(before, pair(pairs - 3));

@@ -179,8 +179,8 @@ impl<T: Real> Several<T> {
     pub fn cauchy_transform(&self, kappa: T, load: T) -> CauchyTransform<T> {
         let contacts = self.parts().iter().map(OneOfSeveral::in_plane).collect();
         let (zeros, corners) = (self.weight.zeros().to_vec(), self.corners());
-        let (strengths, far_away, constant) = (Ends::both(T::zero()), T::zero(), self.constant);
-        CauchyTransform { contacts, zeros, corners, constant, strengths, far_away, kappa, load }
+        let (strengths, far_away) = (Ends::both(T::zero()), T::zero());
+        CauchyTransform { contacts, zeros, corners, strengths, far_away, kappa, load }
     }
 
     /// Tells which of the outermost limits are corners.
