@@ -2,11 +2,13 @@
 
 pub(crate) mod chebyshev;
 mod compensated_sum;
+mod far_field;
 pub(crate) mod gauss_legendre;
 mod linear_system;
 pub(crate) mod special_functions;
 
 pub(crate) use compensated_sum::CompensatedSum;
+pub(crate) use far_field::{Combine, FarField};
 pub(crate) use linear_system::LinearSystem;
 
 use crate::Real;

@@ -37,8 +37,10 @@ const MAX_CELLS: usize = 6000;
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MAX_CUTS: usize = 48;
 
-/// Least number of loaded cells in a run; the cells of shorter runs are cut.
+/// Least number of loaded cells in a run, which rises with the number of cells at first; the cells
+/// of shorter runs are cut.
 const CELLS_OF_A_RUN: usize = 4;
+const MAX_CELLS_OF_A_RUN: usize = 16;
 
 /// Mean depth of the gap of a round contact below the level of its edges, in units of F/κ: two
 /// thirds of `κ h(L)/F`, which is one.
@@ -140,6 +142,8 @@ struct ActiveSet<T> {
     kappa: T,
     load: T,
     at: Option<T>,
+    /// Least number of loaded cells in a run.
+    cells_of_a_run: usize,
     /// Rise κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
@@ -187,6 +191,7 @@ impl<T: Real> ActiveSet<T> {
             kappa,
             load,
             at,
+            cells_of_a_run: (CELLS_OF_A_RUN * (cells / FIRST_CELLS).max(1)).min(MAX_CELLS_OF_A_RUN),
             rise: Vec::new(),
             potential: Vec::new(),
             matrix: Potential::new(),
@@ -363,7 +368,7 @@ impl<T: Real> ActiveSet<T> {
         };
         for _ in 0..MAX_CUTS {
             let wide = |cell: &Cell<T>| {
-                let sixth = |on: Interval<T>| on.half_width() / T::count(CELLS_OF_A_RUN / 2);
+                let sixth = |on: Interval<T>| on.half_width() / T::count(self.cells_of_a_run / 2);
                 touched(cell).is_some_and(|on| cell.width() > sixth(on))
             };
             let marks: Vec<_> = self.cells.iter().map(wide).collect();

@@ -10,6 +10,7 @@
 //! Values at 32 angles suffice for rounding if the pressure is smooth, and for a thousandth of it
 //! otherwise; more are taken if the result depends on them.
 
+use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -103,9 +104,24 @@ impl<T: Real> ExteriorField<T> {
         &self.pressures
     }
 
-    /// Returns the uncertainty of the potential due to the coefficients left out.
+    /// Returns the uncertainty of the potential at the limits, due to the coefficients left out.
     pub fn doubt(&self) -> T {
         self.doubt
+    }
+
+    /// Returns the uncertainty of the rise of the potential across a region outside the contact. The
+    /// coefficients left out fall as powers of u. They alias into the known ones: those of `ln u`
+    /// and of low powers act from afar.
+    fn doubt_in(&self, room: Interval<T>) -> T {
+        let size = |x: T| {
+            let apart = (x - self.on.right).max(self.on.left - x).max(T::zero());
+            let beyond = apart / self.on.half_width();
+            T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt()
+        };
+        let [left, right] = [room.left, room.right].map(size);
+        let (near, far) = (left.min(right), left.max(right));
+        let left_out = near.powf(-T::count(self.coefficients().len()));
+        self.doubt * (far / near).ln().min(T::one()).max(left_out)
     }
 
     /// Returns `∫ P/(x - s) ds` at a place outside the contact.
@@ -117,7 +133,14 @@ impl<T: Real> ExteriorField<T> {
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let size = T::one() / (T::one() + beyond + root);
         let u = if right { size } else { -size };
-        let sum = self.coefficients().iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
+        let all = self.coefficients();
+        // From afar a contact is a line load.
+        let (mut power, mut terms) = (size, 1);
+        while power > T::epsilon() && terms < all.len() {
+            (power, terms) = (power * power, 2 * terms);
+        }
+        let series = &all[..terms.min(all.len())];
+        let sum = series.iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
         let pull = T::pi() * sum / (root * half_width);
         if right { pull } else { -pull }
     }
@@ -125,6 +148,57 @@ impl<T: Real> ExteriorField<T> {
     /// Returns the load of the contact.
     pub fn load(&self) -> T {
         T::pi() * self.q[0]
+    }
+}
+
+/// Pressures of all contacts.
+#[derive(Clone)]
+pub(crate) struct ExteriorFields<T> {
+    /// Series of each contact, from left to right.
+    pub each: Vec<ExteriorField<T>>,
+    /// Parts of the potential and of its slope by the contacts far from each gap.
+    far: [FarField<T>; 2],
+}
+
+impl<T: Real> ExteriorFields<T> {
+    pub fn new() -> Self {
+        let far = [Combine::Sum; 2].map(FarField::new);
+        Self { each: Vec::new(), far }
+    }
+
+    /// Sums up the series of contacts far from each gap.
+    pub fn gather(&mut self) {
+        let Self { each, far: [potential, slope] } = self;
+        let on: Vec<_> = each.iter().map(|field| field.on).collect();
+        let gaps = on.windows(2).map(|pair| Interval { left: pair[0].right, right: pair[1].left });
+        potential.set(&on, gaps.clone(), &|i, x| each[i].potential(x));
+        slope.set(&on, gaps, &|i, x| each[i].slope(x));
+    }
+
+    /// Returns `∫ P ln|x - s| ds` over all contacts, at a place that is not inside any.
+    pub fn potential(&self, x: T) -> T {
+        self.total(&self.far[0], x, ExteriorField::potential)
+    }
+
+    /// Returns `∫ P/(x - s) ds` over all contacts, at a place outside them.
+    pub fn slope(&self, x: T) -> T {
+        self.total(&self.far[1], x, ExteriorField::slope)
+    }
+
+    /// Returns the uncertainty of the rise of the potential across a region outside the contacts.
+    pub fn doubt_in(&self, room: Interval<T>) -> T {
+        self.each.iter().fold(T::zero(), |sum, field| sum + field.doubt_in(room))
+    }
+
+    fn total(&self, far: &FarField<T>, x: T, of: impl Fn(&ExteriorField<T>, T) -> T) -> T {
+        let sum = |near: &[ExteriorField<T>]| {
+            near.iter().fold(T::zero(), |sum, field| sum + of(field, x))
+        };
+        let before = self.each.partition_point(|field| field.on.centre() < x);
+        if before == 0 || before == self.each.len() {
+            return sum(&self.each);
+        }
+        sum(&self.each[far.near(before - 1)]) + far.far(before - 1, x)
     }
 }
 

@@ -18,10 +18,8 @@ use crate::{Interval, Real, Side};
 /// Reason for a search to end without limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stop<T> {
-    /// Gap after this contact, which closes.
-    Closed(usize),
-    /// Contact that vanishes.
-    Lost(usize),
+    /// Contacts that vanish or gaps that close.
+    Gone,
     /// End of the bodies beyond which step after step leads; `reached` is the last interval within
     /// them.
     Beyond {

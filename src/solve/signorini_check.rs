@@ -8,7 +8,7 @@ mod outside;
 mod passed;
 mod step;
 
-use super::exterior_field::{ExteriorField, POINTS};
+use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, LoadCase};
@@ -90,15 +90,15 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Computes the series of the pressure in each contact.
-    pub fn fields(&self, fields: &mut Vec<ExteriorField<T>>) -> Result<(), ContactError<T>> {
-        fields.clear();
+    pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Result<(), ContactError<T>> {
+        fields.each.clear();
         let (contacts, free) = (self.contacts(), self.found.free);
         for (i, &on) in contacts.iter().enumerate() {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
             let free = free.of_contact(i, contacts.len() - 1);
-            fields.push(ExteriorField::new(on, free, &x, &pressures));
+            fields.each.push(ExteriorField::new(on, free, &x, &pressures));
         }
         Ok(())
     }
@@ -109,14 +109,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Takes more pressures in contacts whose series leave more than a share of the load uncertain:
-    /// they hide many waves, or kinks. Tells whether there were any.
-    fn resolve(&self, fields: &mut [ExteriorField<T>], share: T) -> Result<bool, ContactError<T>> {
+    /// they hide many waves, or kinks. Tells whether there were any. Sums up all series.
+    fn resolve(&self, fields: &mut ExteriorFields<T>, share: T) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
         // The outermost of N places is `L (π/N)²/8` from a limit.
         let is_apart = |count: usize| {
             (T::pi() / T::count(count)).powi(2) >= T::of(8.0 * FROM_LIMIT) * T::epsilon()
         };
-        for field in fields {
+        for field in &mut fields.each {
             let mut count = field.coefficients().len();
             while field.doubt() > share * self.found.load.abs()
                 && count < MAX_POINTS
@@ -130,6 +130,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 field.refine(&x, pressures);
             }
         }
+        fields.gather();
         Ok(is_finer)
     }
 
@@ -137,7 +138,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// and puts all spans of tension into `tension_spans`.
     pub fn tension(
         &self,
-        fields: &mut Vec<ExteriorField<T>>,
+        fields: &mut ExteriorFields<T>,
         TensionSpans { spans: tension_spans, seen }: &mut TensionSpans<T>,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
@@ -160,7 +161,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 found.push([x, pressure]);
             }
         };
-        for (i, field) in fields.iter().enumerate() {
+        for (i, field) in fields.each.iter().enumerate() {
             let on = field.interval();
             let mean = field.load().abs() / on.half_width();
             // The uncertainty of a pressure is estimated below.

@@ -38,7 +38,6 @@
 //! With one contact these are the equations of [`quadrature`](crate::quadrature).
 
 mod conditions;
-mod distant_contacts;
 mod exterior;
 mod load_response;
 mod one_of_several;
@@ -48,9 +47,9 @@ mod weight;
 use super::cauchy_transform::CauchyTransform;
 use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
+use crate::numerics::{Combine, FarField};
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use conditions::System;
-use distant_contacts::DistantContacts;
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
 use std::ops::Range;
@@ -63,6 +62,8 @@ pub(crate) struct Several<T> {
     /// Number of parts in use.
     count: usize,
     weight: Weight<T>,
+    /// Parts of V by the contacts far from each.
+    far: FarField<T>,
     tolerance: T,
     /// Extra term of V: `-π F/κ` for one contact between two corners whose load is given, otherwise
     /// zero.
@@ -76,7 +77,8 @@ impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
         let (parts, count, weight) = (Vec::new(), 0, Weight::new());
         let ([cost, spent], constant) = ([Cost::default(); 2], T::zero());
-        Self { parts, count, weight, tolerance, constant, cost, spent }
+        let far = FarField::new(Combine::Sum);
+        Self { parts, count, weight, far, tolerance, constant, cost, spent }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -118,11 +120,7 @@ impl<T: Real> Several<T> {
             let sampled = part.sample(gap, on[i], [from, to]);
             self.cost += std::mem::take(&mut part.panel_set.cost);
             sampled?;
-            let (near, weight) = (self.weight.next_to(i), &self.weight);
-            let far = |x| weight.far(i, near.clone(), x);
-            let apart = DistantContacts::new(near.clone(), self.count, on[i], self.tolerance, far);
-            part.set(|x| weight.near(i, apart.near.clone(), x) * apart.far(x, T::one()));
-            (part.weight, part.value) = (apart, DistantContacts::near(self.count));
+            part.set(|x| self.weight.on_contact(i, x));
         }
         Ok(())
     }
@@ -142,10 +140,11 @@ impl<T: Real> Several<T> {
 
     /// Prepares for pressures.
     pub fn press(&mut self) {
-        for i in 0..self.count {
-            self.parts[i].press();
-            self.parts[i].value = self.apart(self.weight.next_to(i), self.parts[i].on);
-        }
+        self.parts[..self.count].iter_mut().for_each(OneOfSeveral::press);
+        let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Sum));
+        let contacts = self.contacts();
+        far.set(contacts, contacts.iter().copied(), &|k, x| self.parts[k].seen_from(x));
+        self.far = far;
     }
 
     fn parts(&self) -> &[OneOfSeveral<T>] {
@@ -161,18 +160,6 @@ impl<T: Real> Several<T> {
                 _ => self.parts[i].seen_from(x),
             }
         })
-    }
-
-    /// Lists the numbers of all contacts but one.
-    fn others(&self, but: usize) -> impl Iterator<Item = usize> + use<T> {
-        (0..self.count).filter(move |&i| i != but)
-    }
-
-    /// Returns the part of V by all contacts over an interval next to the contacts `near`.
-    fn apart(&self, near: Range<usize>, on: Interval<T>) -> DistantContacts<T> {
-        let far = || (0..near.start).chain(near.end..self.count);
-        let value = |x| self.outside(far(), x, None);
-        DistantContacts::new(near.clone(), self.count, on, self.tolerance, value)
     }
 
     /// Returns the Cauchy transform of the pressure for κ and F.
@@ -193,10 +180,11 @@ impl<T: Real> Several<T> {
         usize::from(self.corners().left)..2 * self.count - usize::from(self.corners().right)
     }
 
-    /// Returns V at a limit, without its infinite part.
-    fn at_end(&self, contact: usize, side: Side) -> T {
-        let part = &self.parts[contact];
-        part.at_end(side) + self.outside(self.others(contact), part.on[side], None)
+    /// Returns V at an outermost limit, without its infinite part.
+    fn at_outer_end(&self, side: Side) -> T {
+        let contact = if side == Side::Left { 0 } else { self.count - 1 };
+        let (part, others) = (&self.parts[contact], (0..self.count).filter(|&i| i != contact));
+        part.at_end(side) + self.outside(others, part.on[side], None)
     }
 
     /// Returns the slope of the gap around a contact.

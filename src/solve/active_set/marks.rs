@@ -1,6 +1,6 @@
 //! Cells in which contacts are not yet resolved, and the contacts that cells show.
 
-use super::{ActiveSet, CELLS_OF_A_RUN, Coarse};
+use super::{ActiveSet, Coarse};
 use crate::{Ends, Interval, Real};
 
 /// Least width of the cells at a narrow gap in a contact, as a share of the contact.
@@ -34,7 +34,7 @@ impl<T: Real> ActiveSet<T> {
         let runs = self.runs();
         for &run in &runs {
             let [from, to] = run;
-            if to + 1 - from < CELLS_OF_A_RUN {
+            if to + 1 - from < self.cells_of_a_run {
                 mark(from.saturating_sub(1), to + 1);
             }
             // A valley of the pressure may be a gap.

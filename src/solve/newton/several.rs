@@ -1,9 +1,10 @@
 //! Newton's method on all limits of several contacts at once.
 //!
-//! The equations and their exact Jacobian are those of the quadrature. A step is cut short if a
-//! contact or a gap would lose more than two thirds of its width at once. A gap that shrinks step
-//! after step, or until the heights of the bodies no longer resolve it, closes. A contact that
-//! shrinks so does not exist: the caller starts again without it.
+//! The equations and their exact Jacobian are those of the quadrature. A contact or a gap that a
+//! step would make more than two thirds narrower is held at a third, with one condition left open:
+//! its trouble does not spread to all others. Held step after step, a gap closes, and a contact does
+//! not exist: the caller starts again without all of them. So does a gap that the heights of the
+//! bodies no longer resolve.
 
 mod widths;
 
@@ -19,10 +20,14 @@ use std::ops::Range;
 /// Steps before the search is given up.
 const MAX_STEPS: usize = 60;
 
-/// Largest number of steps in a row cut short by the same width or end, before that contact or gap
-/// is taken not to exist: a gap at a kink, or a contact where the bodies have just met, may be as
-/// narrow as rounding.
-const MAX_CUT: i32 = 12;
+/// Largest number of steps in a row in which the same width is held or the same end is passed, each
+/// time with a smaller least share. Then that contact or gap is taken not to exist: a gap at a kink,
+/// or a contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
+const MAX_CUT: i32 = 9;
+
+/// Number of such steps after which a width goes together with another that is taken not to exist:
+/// it is 0.3⁶ of what it was.
+const CUT: i32 = 3;
 
 /// Unknown besides the limits.
 #[derive(Clone, Copy)]
@@ -35,13 +40,6 @@ pub(in super::super) enum Besides<T> {
 
 /// Width number: twice that of its contact (even), plus one for the gap after it (odd).
 type Width = usize;
-
-/// Width or end that cuts a step short.
-#[derive(Clone, Copy, PartialEq)]
-enum Cut {
-    Width(Width),
-    End(Side),
-}
 
 /// Conditions that several contacts have to meet.
 #[derive(Clone, Copy)]
@@ -80,8 +78,11 @@ pub(in super::super) struct NewtonSeveral<T> {
     /// Flags: the outermost limit on this side stays in place.
     held: Ends<bool>,
     progress: Progress<T>,
-    /// Width or end that cut the last step short, and the number of such steps in a row.
-    cut: Option<(Cut, i32)>,
+    /// Number of steps in a row in which each width was held, and an end was passed.
+    cut: Vec<i32>,
+    passed: Option<(Side, i32)>,
+    /// Widths held in this step.
+    widths: Vec<Width>,
     system: System<T>,
     linear: LinearSystem<T>,
     step: Vec<T>,
@@ -97,10 +98,11 @@ pub(in super::super) struct NewtonSeveral<T> {
 
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
-        let (held, progress, cut) = (Ends::both(false), Progress::new(), None);
+        let (held, progress, passed) = (Ends::both(false), Progress::new(), None);
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
         let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
+        let (cut, widths) = (Vec::new(), Vec::new());
         Self {
             tilt,
             load,
@@ -109,6 +111,8 @@ impl<T: Real> NewtonSeveral<T> {
             held,
             progress,
             cut,
+            passed,
+            widths,
             system,
             linear,
             step,
@@ -135,26 +139,28 @@ impl<T: Real> NewtonSeveral<T> {
         if let Some(side) = conditions.end() {
             self.held[side] = true;
         }
-        (self.progress, self.cut) = (Progress::new(), None);
+        (self.progress, self.passed) = (Progress::new(), None);
+        self.cut.clear();
+        self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
         for _ in 0..MAX_STEPS {
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
-            let narrowed = self.too_far();
+            self.hold();
             if !self.step.iter().all(|step| step.is_finite()) {
                 break;
             }
             self.turn(&mut turned, conditions.besides);
             let size = self.size();
-            match self.limit(narrowed, conditions) {
+            match self.limit(conditions) {
                 Ok(true) => continue,
                 Ok(false) => {}
                 Err(stop) => return Ok(Err(stop)),
             }
             if self.accept(size) {
-                if let Some(i) = self.closed() {
-                    return Ok(Err(Stop::Closed(i)));
+                if self.is_closed() {
+                    return Ok(Err(Stop::Gone));
                 }
                 for _ in 0..T::DERIVATIVE_ORDER {
                     if let Err(stop) = self.assemble(several, &turned, conditions)? {
@@ -179,8 +185,8 @@ impl<T: Real> NewtonSeveral<T> {
         conditions: &Conditions<'_, '_, T>,
     ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
         // Between two contacts at a concave kink the gap shrinks exponentially with the load.
-        if let Some(i) = self.closed() {
-            return Ok(Err(Stop::Closed(i)));
+        if self.is_closed() {
+            return Ok(Err(Stop::Gone));
         }
         several.set(turned, &self.on, conditions.corners, conditions.ends)?;
         several.system(self.load, &mut self.system);
@@ -190,7 +196,8 @@ impl<T: Real> NewtonSeveral<T> {
             None => {}
         }
         if let Some(i) = self.system.lost {
-            return Ok(Err(Stop::Closed(i)));
+            self.cut[2 * i + 1] = MAX_CUT;
+            return Ok(Err(Stop::Gone));
         }
         if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
             return Ok(Err(Stop::Failed));
@@ -212,35 +219,34 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Takes the step of the limits, cut short if a width would be lost or an end passed; tells
-    /// whether it was cut.
-    fn limit(
-        &mut self,
-        narrowed: Option<Width>,
-        conditions: &Conditions<'_, '_, T>,
-    ) -> Result<bool, Stop<T>> {
+    /// Takes the step of the limits; tells whether widths were held or an end passed.
+    fn limit(&mut self, conditions: &Conditions<'_, '_, T>) -> Result<bool, Stop<T>> {
         let (hull, ends) = (self.hull(), conditions.ends);
         self.advance();
-        let mut cut = narrowed.map(Cut::Width);
+        for (i, cut) in self.cut.iter_mut().enumerate() {
+            *cut = if self.widths.contains(&i) { *cut + 1 } else { 0 };
+        }
         // If one load reaches both ends, one of them is passed by rounding.
         let rounding = match conditions.end() {
             Some(_) => T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width(),
             None => T::zero(),
         };
+        let mut passed = None;
         for (side, outward) in [(Side::Left, -T::one()), (Side::Right, T::one())] {
             let beyond = (self.hull()[side] - ends[side]) * outward;
             if beyond > rounding {
-                cut = cut.or(Some(Cut::End(side)));
+                passed = passed.or(Some(side));
                 put(&mut self.on, side, T::of(0.5) * hull[side] + T::of(0.5) * ends[side]);
             } else if beyond > T::zero() {
                 put(&mut self.on, side, ends[side]);
             }
         }
-        if let Some(i) = narrowed.filter(|i| i % 2 == 0).map(|i| i / 2)
-            && self.on[i].left >= self.on[i].right
-        {
-            // Nothing is left of a contact that was cut short time and again.
-            return Err(Stop::Lost(i));
+        let times = |&(last, times): &(Side, i32)| (passed == Some(last)).then_some(times);
+        let times = self.passed.as_ref().and_then(times).unwrap_or(0);
+        self.passed = passed.map(|side| (side, times + 1));
+        let is_left = |i: &Width| i % 2 == 1 || self.on[i / 2].left < self.on[i / 2].right;
+        if !self.widths.iter().all(is_left) || self.cut.iter().any(|&times| times > MAX_CUT) {
+            return Err(Stop::Gone);
         }
         // A whole contact may have left the bodies.
         if !(self.on.iter().all(|on| on.left < on.right)
@@ -248,18 +254,15 @@ impl<T: Real> NewtonSeveral<T> {
         {
             return Err(Stop::Failed);
         }
-        let Some(cut) = cut else {
-            self.cut = None;
-            return Ok(false);
-        };
-        let times = self.cut.filter(|&(last, _)| last == cut).map_or(0, |(_, times)| times) + 1;
-        self.cut = Some((cut, times));
-        self.progress.forget();
-        match cut {
-            _ if times <= MAX_CUT => Ok(true),
-            Cut::End(side) => Err(Stop::Beyond { side, reached: self.hull() }),
-            Cut::Width(i) if i % 2 == 0 => Err(Stop::Lost(i / 2)),
-            Cut::Width(i) => Err(Stop::Closed(i / 2)),
+        match self.passed {
+            Some((side, times)) if times > MAX_CUT => {
+                Err(Stop::Beyond { side, reached: self.hull() })
+            }
+            None if self.widths.is_empty() => Ok(false),
+            _ => {
+                self.progress.forget();
+                Ok(true)
+            }
         }
     }
 

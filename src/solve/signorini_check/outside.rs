@@ -4,7 +4,7 @@
 use super::SignoriniCheck;
 use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
 use crate::quadrature::panels::{self, Rises};
-use crate::solve::exterior_field::ExteriorField;
+use crate::solve::exterior_field::ExteriorFields;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Share of the load that the series of the pressures may leave uncertain before more pressures are
@@ -54,7 +54,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// first and rises at the second.
     fn lowest_between(
         &self,
-        fields: &[ExteriorField<T>],
+        fields: &ExteriorFields<T>,
         look: &Survey<T>,
         [mut left, mut right]: [T; 2],
     ) -> T {
@@ -79,8 +79,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Returns the slope of the displacement outside the contacts.
-    fn rate(&self, fields: &[ExteriorField<T>], x: T) -> T {
-        fields.iter().fold(T::zero(), |sum, field| sum + field.slope(x)) / self.kappa
+    fn rate(&self, fields: &ExteriorFields<T>, x: T) -> T {
+        fields.slope(x) / self.kappa
     }
 
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends: the
@@ -88,7 +88,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// decide.
     pub fn overlap(
         &self,
-        fields: &mut Vec<ExteriorField<T>>,
+        fields: &mut ExteriorFields<T>,
         Overlaps { dips, closed_before }: &mut Overlaps<T>,
         look: &mut Survey<T>,
         ends: Ends<T>,
@@ -99,7 +99,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         if !self.widest.is_empty() && closed_before.is_empty() {
             return Ok(());
         }
-        if fields.is_empty() {
+        if fields.each.is_empty() {
             self.fields(fields)?;
         }
         let corners = [self.corner(Side::Left, ends, cost)?, self.corner(Side::Right, ends, cost)?];
@@ -217,7 +217,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// whether the series of the pressures hide any.
     fn overlap_at(
         &self,
-        fields: &[ExteriorField<T>],
+        fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
         [dips, open]: [&mut Vec<[T; 2]>; 2],
@@ -228,7 +228,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         // The first flag: the gap is open somewhere after the last dip.
         let (mut is_parted, mut is_hidden) = (true, false);
         let mut rate = [T::of(f64::NAN); 2];
-        let load = fields.iter().fold(T::zero(), |sum, field| sum + field.load());
+        let load = fields.each.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
         for low in heights {
@@ -276,14 +276,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// `open` if the survey hides the verdict.
     fn judge(
         &self,
-        fields: &[ExteriorField<T>],
+        fields: &ExteriorFields<T>,
         look: &Survey<T>,
         from: &Beside<T>,
         LowPoint { x, height, between, doubt }: LowPoint<T>,
         rate: &mut [T; 2],
         open: &mut Vec<[T; 2]>,
     ) -> Option<(T, Verdict)> {
-        let (hidden, potential) = (doubt + from.hidden, total(fields, x));
+        let (hidden, potential) = (doubt + from.hidden, fields.potential(x));
         let judged = |height: T| self.verdict(from, [height, hidden], potential);
         let Some(ends) = between else {
             let verdict = judged(height);
@@ -303,7 +303,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let x = self.lowest_between(fields, look, on);
         let verdict = if !from.is_near(x) {
             let height = self.gap.turned(x, look.height(x));
-            self.verdict(from, [height, hidden], total(fields, x))
+            self.verdict(from, [height, hidden], fields.potential(x))
         } else {
             // A span this vague does not show its lowest place.
             let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
@@ -321,7 +321,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// last end.
     fn floor(
         &self,
-        fields: &[ExteriorField<T>],
+        fields: &ExteriorFields<T>,
         [x, height]: [T; 2],
         ends: [[T; 3]; 2],
         known: &mut [T; 2],
@@ -370,7 +370,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Describes the region next to a contact: before one of them, or beyond the last.
-    fn beside(&self, fields: &[ExteriorField<T>], look: &Survey<T>, next: usize) -> Beside<T> {
+    fn beside(&self, fields: &ExteriorFields<T>, look: &Survey<T>, next: usize) -> Beside<T> {
         let (contacts, [from, to]) = (self.contacts(), self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
             None => (0, Side::Left),
@@ -388,8 +388,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let near = T::of(BESIDE) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
-        let taken = total(fields, edge);
-        let doubt = fields.iter().fold(T::zero(), |sum, field| sum + field.doubt()) / self.kappa;
+        let taken = fields.potential(edge);
+        let doubt = fields.doubt_in(room) / self.kappa;
         Beside { next, edge, room, near, height, hidden, taken, doubt }
     }
 
@@ -419,7 +419,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// gap if they do, and whether the series of the pressures leave this open.
     fn verified(
         &self,
-        fields: &[ExteriorField<T>],
+        fields: &ExteriorFields<T>,
         from: &Beside<T>,
         x: T,
         cost: &mut Cost,
@@ -430,7 +430,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Some(_) => from.height,
             None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
         };
-        let gap = height - at_edge - (total(fields, x) - from.taken) / self.kappa;
+        let gap = height - at_edge - (fields.potential(x) - from.taken) / self.kappa;
         // If the formulas are all rounding, heights do not match the slopes on both sides, and
         // prove nothing.
         let aside = T::epsilon().sqrt() * self.found.interval.half_width();
@@ -445,11 +445,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_open = gap >= -(allowed + from.doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
-}
-
-/// Returns the potential of all contacts.
-fn total<T: Real>(fields: &[ExteriorField<T>], x: T) -> T {
-    fields.iter().fold(T::zero(), |sum, field| sum + field.potential(x))
 }
 
 /// Region between two contacts, or beyond the outermost ones.

@@ -81,7 +81,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
         let closed = &self.closed;
         let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
-        fields.clear();
+        fields.each.clear();
         overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {

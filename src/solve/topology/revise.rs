@@ -26,9 +26,6 @@ const CLOSELY: f64 = 0.002;
 /// Sets of contacts tried before the search is given up.
 const MAX_TRIALS: usize = 12;
 
-/// Largest share of its width that a gap may keep to be closed together with another gap.
-const CLOSING: f64 = 0.1;
-
 /// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
 const MAX_DOUBLINGS: usize = 6;
 
@@ -148,27 +145,29 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn revise(&mut self, stop: Stop<T>, start: Start) -> (Outcome, Start) {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
-        if let Stop::Closed(i) = stop
-            && newton.is_nothing(i)
-        {
-            self.closed.push(newton.closed_gap(i));
+        let (mut vanished, mut closed) = (Vec::new(), Vec::new());
+        if stop == Stop::Gone {
+            let contacts = 0..newton.on.len();
+            vanished.extend(contacts.clone().map(|i| newton.is_gone(i, false)));
+            closed.extend(contacts.clone().map(|i| newton.is_gone(i, true)));
+            let of_rounding = contacts.filter(|&i| closed[i] && newton.is_nothing(i));
+            self.closed.extend(of_rounding.map(|i| newton.closed_gap(i)));
         }
         // The limits at which the search has stopped say little.
-        let led_to = std::mem::replace(&mut newton.on, before.clone());
+        newton.on.clone_from(before);
         let on = &mut newton.on;
         let outcome = match stop {
-            Stop::Closed(closed) => {
-                let gap = |on: &[Interval<T>], i: usize| on[i + 1].left - on[i].right;
-                for i in (0..on.len() - 1).rev() {
-                    if i == closed || gap(&led_to, i) < T::of(CLOSING) * gap(on, i) {
+            Stop::Gone => {
+                let mut outcome = Outcome::Lost;
+                for i in (0..on.len()).rev() {
+                    if closed[i] {
                         on[i].right = on.remove(i + 1).right;
+                        outcome = Outcome::Merged;
+                    } else if vanished[i] && on.len() > 1 && !(i > 0 && closed[i - 1]) {
+                        on.remove(i);
                     }
                 }
-                Outcome::Merged
-            }
-            Stop::Lost(i) if on.len() > 1 => {
-                on.remove(i);
-                Outcome::Lost
+                outcome
             }
             Stop::Beyond { side, .. } if at_corner[side] => {
                 put(on, side, ends[side]);

@@ -1,6 +1,6 @@
 //! State that a search keeps from one solve to the next.
 
-use super::super::exterior_field::ExteriorField;
+use super::super::exterior_field::ExteriorFields;
 use super::super::newton::several::NewtonSeveral;
 use super::super::signorini_check::{Overlaps, Passed, TensionSpans};
 use crate::gap::{Asked, Cost, Gap, Survey};
@@ -19,7 +19,7 @@ pub(crate) struct Workspace<T> {
     /// Length of the narrowest feature of the last request.
     pub(super) resolution: Option<T>,
     pub(super) newton: NewtonSeveral<T>,
-    pub(super) fields: Vec<ExteriorField<T>>,
+    pub(super) fields: ExteriorFields<T>,
     /// Contacts last found, and those from which Newton's method started.
     pub(super) last: Vec<Interval<T>>,
     pub(super) before: Vec<Interval<T>>,
@@ -40,7 +40,7 @@ impl<T: Real> Workspace<T> {
             of: None,
             resolution: None,
             newton: NewtonSeveral::new(),
-            fields: Vec::new(),
+            fields: ExteriorFields::new(),
             last: Vec::new(),
             before: Vec::new(),
             passed: Passed::new(),
@@ -111,7 +111,7 @@ impl<T: Real> Workspace<T> {
             self.of = None;
             self.passed.clear();
             // Room for the check, which not all bodies need.
-            self.fields.reserve(1);
+            self.fields.each.reserve(1);
             self.overlaps.closed_before.reserve(3);
             // The survey serves any tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;

@@ -107,12 +107,9 @@ fn a_search_that_is_made_again_is_the_one_from_scratch() {
     for (seed, wave, noise) in BODIES {
         let body = rough(seed, wave, noise);
         let scene = contact(&body);
-        for [from, to] in [
-            [25.57240289336707, 139.8296379291401],
-            [500.0, 213.82385585336573],
-            [16.219135082380877, 46.187721501625326],
-            [46.187721501625326, 16.219135082380877],
-        ] {
+        for [from, to] in
+            [[622.2103148653723, 891.2410847967784], [46.187721501625326, 16.219135082380877]]
+        {
             let mut solver = Solver::new();
             let load = Control::Load(to);
             if solver.solve(&scene, Control::Load(from)).is_err() {

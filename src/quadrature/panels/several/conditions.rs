@@ -2,6 +2,7 @@
 
 use super::Several;
 use super::one_of_several::{OneOfSeveral, gauss};
+use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
 
@@ -30,6 +31,8 @@ pub(crate) struct System<T> {
     /// V at the limits, and at the zeros of p.
     pub(super) at_ends: Vec<T>,
     at_zeros: Vec<T>,
+    /// Parts of V by the contacts far from each gap.
+    far: FarField<T>,
     /// Integral `∫ S/p dx` over the last gap, if that has no zero of p.
     over_last: T,
     /// Integrals `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
@@ -40,6 +43,7 @@ impl<T: Real> System<T> {
     pub fn new() -> Self {
         let [residual, open, jacobian, limits, at_ends, at_zeros, sums] = Default::default();
         let (lost, load_row, over_last) = (None, 0, T::zero());
+        let far = FarField::new(Combine::Sum);
         Self {
             residual,
             open,
@@ -49,6 +53,7 @@ impl<T: Real> System<T> {
             limits,
             at_ends,
             at_zeros,
+            far,
             over_last,
             sums,
         }
@@ -68,6 +73,11 @@ impl<T: Real> System<T> {
     pub fn row_of_gap(&self, gap: usize) -> usize {
         if gap < self.at_zeros.len() { gap } else { self.load_row }
     }
+
+    /// Returns the row of the condition that a gap closes at both ends.
+    pub fn row_of_closing(&self, gap: usize) -> usize {
+        self.load_row + 1 + gap
+    }
 }
 
 impl<T: Real> Several<T> {
@@ -79,15 +89,36 @@ impl<T: Real> Several<T> {
         }
         (system.over_last, system.lost) = (T::zero(), None);
         system.limits.extend(self.contacts().iter().flat_map(|on| [on.left, on.right]));
+        let contacts = self.contacts();
+        let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
+        let part = |k: usize, x: T| self.parts[k].seen_from(x);
+        system.far.set(contacts, contacts.windows(2).map(gap), &part);
         for i in 0..self.count {
-            system.at_ends.extend(Side::BOTH.map(|side| self.at_end(i, side)));
+            system.at_ends.extend(Side::BOTH.map(|side| self.at_end(&system.far, i, side)));
         }
-        let at_zero = |&x: &T| self.outside(0..self.count, x, None);
-        system.at_zeros.extend(self.weight.zeros().iter().map(at_zero));
+        let zeros = self.weight.zeros().iter().enumerate();
+        system.at_zeros.extend(zeros.map(|(k, &x)| self.in_gap(&system.far, k, x, None)));
         self.balance(load, system);
         for k in 0..self.count - 1 {
             self.close(k, system);
         }
+    }
+
+    /// Returns V at a place in a gap; near contact `near`, given the distance from it.
+    fn in_gap(&self, far: &FarField<T>, k: usize, x: T, near: Option<(usize, T)>) -> T {
+        self.outside(far.near(k), x, near) + far.far(k, x)
+    }
+
+    /// Returns V at a limit, without its infinite part.
+    fn at_end(&self, far: &FarField<T>, contact: usize, side: Side) -> T {
+        let gap = match side {
+            Side::Left => contact.checked_sub(1),
+            Side::Right => Some(contact).filter(|k| k + 1 < self.count),
+        };
+        let Some(k) = gap else { return self.at_outer_end(side) };
+        let (part, others) = (&self.parts[contact], far.near(k).filter(|&i| i != contact));
+        let x = part.on[side];
+        part.at_end(side) + self.outside(others, x, None) + far.far(k, x)
     }
 
     /// Adds the balance conditions and the load condition.
@@ -135,7 +166,7 @@ impl<T: Real> Several<T> {
         let mut sums = std::mem::take(&mut system.sums);
         sums.clear();
         sums.resize(2 * self.count, zero);
-        self.through_gap(k, |x, [from_left, to_right], value, scale| {
+        self.through_gap(k, &system.far, |x, [from_left, to_right], value, scale| {
             let share = scale * self.without_zero(k, system, x, value);
             closed -= share / pi;
             size += share.abs() / pi;
@@ -180,12 +211,10 @@ impl<T: Real> Several<T> {
 
     /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
     /// the ends, V, and `S/p dx` without the zero of p.
-    fn through_gap(&self, k: usize, mut show: impl FnMut(T, [T; 2], T, T)) {
+    fn through_gap(&self, k: usize, far: &FarField<T>, mut show: impl FnMut(T, [T; 2], T, T)) {
         let (one, half) = (T::one(), T::of(0.5));
         let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
         let width = right.left - left.right;
-        let near = k.saturating_sub(1)..(k + 3).min(self.count);
-        let apart = self.apart(near, Interval { left: left.right, right: right.left });
         for (near, on, edge, sign) in [(k, left, left.right, one), (k + 1, right, right.left, -one)]
         {
             // Half the gap.
@@ -202,8 +231,7 @@ impl<T: Real> Several<T> {
                     let distance = (on.half_width() + on.half_width()) * sinh * sinh;
                     let x = edge + sign * distance;
                     let dx = half * step * T::of(weight) * on.half_width() * sinh_t;
-                    let value = self.outside(apart.near.clone(), x, Some((near, distance)))
-                        + apart.far(x, T::zero());
+                    let value = self.in_gap(far, k, x, Some((near, distance)));
                     let mut distances = [distance, width - distance];
                     if near > k {
                         distances.reverse();

@@ -5,7 +5,6 @@ use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{Panel, Series, spans, within};
 use super::super::panel_set::{MAX_MISSED, PanelSet};
-use super::distant_contacts::DistantContacts;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
@@ -57,9 +56,6 @@ pub(super) struct OneOfSeveral<T> {
     far: NearFarSum<T>,
     /// Moments of H.
     pub moments: Moments<T>,
-    /// Contributions of the contacts to the weight, and to V, in this one.
-    pub weight: DistantContacts<T>,
-    pub value: DistantContacts<T>,
 }
 
 impl<T: Real> OneOfSeveral<T> {
@@ -77,8 +73,6 @@ impl<T: Real> OneOfSeveral<T> {
             series: ([zero; MAX_SIZE], 0),
             far: NearFarSum::new(),
             moments: EdgeSums::new().moments(nowhere),
-            weight: DistantContacts::near(0),
-            value: DistantContacts::near(0),
         }
     }
 

@@ -30,10 +30,9 @@ impl<T: Real> Several<T> {
             let (own, root) = part.inside(&lanes, count);
             for (lane, pressure) in out.iter_mut().enumerate() {
                 let x = lanes[lane];
-                let others = part.value.near.clone().filter(|&k| k != i);
-                let others = self.outside(others, x, None) + part.value.far(x, self.constant);
-                let weight =
-                    self.weight.near(i, part.weight.near.clone(), x) * part.weight.far(x, T::one());
+                let near = self.far.near(i).filter(|&k| k != i);
+                let others = self.outside(near, x, None) + self.far.far(i, x) + self.constant;
+                let weight = self.weight.on_contact(i, x);
                 *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
             }
         }
@@ -62,10 +61,7 @@ impl<T: Real> Several<T> {
         if !self.corners()[side] {
             return T::zero();
         }
-        let (i, sign) = match side {
-            Side::Left => (0, T::of(2.0)),
-            Side::Right => (self.count - 1, -T::of(2.0)),
-        };
-        sign * self.at_end(i, side) / (T::pi() * T::pi() * self.weight.beside_corner(side))
+        let sign = T::of(if side == Side::Left { 2.0 } else { -2.0 });
+        sign * self.at_outer_end(side) / (T::pi() * T::pi() * self.weight.beside_corner(side))
     }
 }

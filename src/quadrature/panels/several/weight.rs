@@ -11,12 +11,15 @@
 //! `w p` does not: each factor of R has one of p close by, and `w p` keeps its sign over a contact.
 //! With two corners the degree of p is one less, and the last gap has no zero.
 
+use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
+    /// Squares of the factors by far contacts, for each contact and for the gap after it.
+    far: FarField<T>,
     /// True at an outermost limit that is a corner.
     corners: Ends<bool>,
     zeros: Vec<T>,
@@ -24,7 +27,8 @@ pub(super) struct Weight<T> {
 
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
-        Self { on: Vec::new(), corners: Ends::both(false), zeros: Vec::new() }
+        let (corners, far) = (Ends::both(false), FarField::new(Combine::Product));
+        Self { on: Vec::new(), far, corners, zeros: Vec::new() }
     }
 
     pub fn set(&mut self, on: &[Interval<T>], corners: Ends<bool>) {
@@ -36,6 +40,14 @@ impl<T: Real> Weight<T> {
         self.zeros.clear();
         let gaps = on.windows(2).map(|pair| half * pair[0].right + half * pair[1].left);
         self.zeros.extend(gaps.take((on.len() - 1).saturating_sub(last)));
+        let gap = |i: usize| Interval { left: on[i].right, right: on[i + 1].left };
+        let place = |i: usize| if i.is_multiple_of(2) { on[i / 2] } else { gap(i / 2) };
+        let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Product));
+        far.set(on, (0..2 * on.len() - 1).map(place), &|k, x| {
+            let [on, zero] = self.factors(k, x > on[k].right, x);
+            zero / on
+        });
+        self.far = far;
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
@@ -69,44 +81,28 @@ impl<T: Real> Weight<T> {
 
     /// Returns `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
     pub fn on_contact(&self, i: usize, x: T) -> T {
-        self.near(i, 0..self.on.len(), x)
+        let square = self.square(i, self.far.near(2 * i), x) * self.far.far(2 * i, x);
+        self.sign_on(i) * square.sqrt() * self.corner_factor(x)
     }
 
-    /// Returns [`on_contact`](Self::on_contact) without the contacts outside a range.
-    pub fn near(&self, i: usize, contacts: Range<usize>, x: T) -> T {
-        self.smooth(i, contacts, x) * self.corner_factor(x)
-    }
-
-    /// Returns the factor of [`on_contact`](Self::on_contact) by the contacts outside a range.
-    pub fn far(&self, i: usize, contacts: Range<usize>, x: T) -> T {
-        let [left, right] = [0..contacts.start, contacts.end..self.on.len()];
-        (self.square(i, left, x) * self.square(i, right, x)).sqrt()
-    }
-
-    /// Returns the numbers of a contact and its neighbours, two on either side.
-    pub fn next_to(&self, i: usize) -> Range<usize> {
-        i.saturating_sub(2)..(i + 3).min(self.on.len())
-    }
-
-    /// Returns the factor by some contacts, without the corners, with the sign of the whole.
-    fn smooth(&self, i: usize, contacts: Range<usize>, x: T) -> T {
+    /// Returns the sign of `w p` on a contact.
+    fn sign_on(&self, i: usize) -> T {
         // Contacts and zeros of p to the right of this one.
-        let flips = self.on.len() - 1 - i + self.zeros.len().saturating_sub(i);
-        Self::sign(flips) * self.square(i, contacts, x).sqrt()
+        Self::sign(self.on.len() - 1 - i + self.zeros.len().saturating_sub(i))
     }
 
-    /// Returns the square of the factor by some contacts.
+    /// Returns the square of the factor by some contacts but contact i.
     fn square(&self, i: usize, contacts: Range<usize>, x: T) -> T {
         contacts.filter(|&k| k != i).fold(T::one(), |square, k| {
-            let [on, zero] = self.factors(i, k, x);
+            let [on, zero] = self.factors(k, k < i, x);
             square * (zero / on)
         })
     }
 
     /// Returns `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between
-    /// contact k and contact i.
-    fn factors(&self, i: usize, k: usize, x: T) -> [T; 2] {
-        let (on, zero) = (self.on[k], self.zeros.get(if k < i { k } else { k - 1 }));
+    /// contact k and x, to its right or to its left.
+    fn factors(&self, k: usize, to_right: bool, x: T) -> [T; 2] {
+        let (on, zero) = (self.on[k], self.zeros.get(if to_right { k } else { k - 1 }));
         let square = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
         [(x - on.left) * (x - on.right), square]
     }
@@ -116,21 +112,22 @@ impl<T: Real> Weight<T> {
     pub fn beside_corner(&self, side: Side) -> T {
         let i = self.outermost(side);
         let corner = self.on[i][side];
-        self.smooth(i, 0..self.on.len(), corner) * self.corner_distance(side.other(), corner)
+        let square = self.square(i, 0..self.on.len(), corner);
+        self.sign_on(i) * square.sqrt() * self.corner_distance(side.other(), corner)
     }
 
     /// Returns `S/p` at a place in gap k, without the zero of p in that gap, given the distances to
     /// both ends of the gap.
     pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
         let [left, right] = [self.on[k], self.on[k + 1]];
-        let others = (0..self.on.len()).filter(|&m| m != k && m != k + 1);
-        let square = others.fold(T::one(), |square, m| {
-            let [on, zero] = self.factors(k, m, x);
-            square * (on / zero)
+        let others = self.far.near(2 * k + 1).filter(|&m| m != k && m != k + 1);
+        let square = others.fold(self.far.far(2 * k + 1, x), |square, m| {
+            let [on, zero] = self.factors(m, m < k, x);
+            square * (zero / on)
         });
         let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
         let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
-        Self::sign(flips) * near * square.sqrt() / self.corner_factor(x)
+        Self::sign(flips) * near / (square.sqrt() * self.corner_factor(x))
     }
 
     /// Returns `S/p` beyond all contacts, on one side, given the distance from the outermost limit.

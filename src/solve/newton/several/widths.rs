@@ -1,6 +1,7 @@
 //! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
-use super::{Cut, MAX_CUT, NewtonSeveral, Width};
+use super::{CUT, MAX_CUT, NewtonSeveral, Width};
+use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 use std::cmp::Ordering;
 
@@ -14,10 +15,53 @@ const MAX_GROWTH: f64 = 4.0;
 const NOTHING: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
-    /// Returns the width that the step takes furthest below its allowed least, if any. A gap is
-    /// kept from shrinking further, together with the limits that move with it: the condition that
-    /// a pressure in the gap would violate is left open.
-    pub(super) fn too_far(&mut self) -> Option<Width> {
+    /// Holds each width that the step would take below its least at the least, moves all other
+    /// limits accordingly, and lists these widths. For each, one condition is left open: the one
+    /// that a pressure in the gap would violate, or the height of the contact above the others.
+    pub(super) fn hold(&mut self) {
+        self.widths.clear();
+        let (mut full, mut responses) = (Vec::new(), Vec::new());
+        let (mut linear, mut matrix) = (LinearSystem::new(), Vec::new());
+        let (mut excess, mut open) = (Vec::new(), Vec::new());
+        while let Some(width) = self.furthest().filter(|width| !self.widths.contains(width)) {
+            if self.widths.is_empty() {
+                full.clone_from(&self.step);
+            }
+            self.widths.push(width);
+            if !self.leave_open(width) {
+                break;
+            }
+            let mut response = Vec::new();
+            self.linear.solve(&self.unit, &mut response);
+            responses.push(response);
+            matrix.clear();
+            excess.clear();
+            for &i in &self.widths {
+                // To first order the step of half the width would close it: see `advance`.
+                let least = self.least(i);
+                let most = T::of(0.5) * (T::one() - least * least) * self.width(i);
+                excess.push(self.narrows(&full, i) - most);
+                matrix.extend(responses.iter().map(|response| self.narrows(response, i)));
+            }
+            if !linear.factor(&matrix, excess.len()) {
+                break;
+            }
+            linear.solve(&excess, &mut open);
+            if !open.iter().all(|open| open.is_finite()) {
+                break;
+            }
+            self.step.copy_from_slice(&full);
+            for (response, &open) in responses.iter().zip(&open) {
+                for (step, &by_open) in self.step.iter_mut().zip(response) {
+                    *step -= open * by_open;
+                }
+            }
+            self.set_moves();
+        }
+    }
+
+    /// Returns the width that the step takes furthest below its least, if any.
+    fn furthest(&self) -> Option<Width> {
         let mut worst: Option<(T, Width)> = None;
         for i in 0..self.moves.len() - 1 {
             let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
@@ -26,36 +70,42 @@ impl<T: Real> NewtonSeveral<T> {
                 worst = Some((square, i));
             }
         }
-        let (_, place) = worst?;
-        if place % 2 == 1 {
-            let row = self.system.row_of_gap(place / 2);
-            self.unit.clear();
-            self.unit.resize(self.step.len(), T::zero());
-            self.unit[row] = T::one();
-            self.linear.solve(&self.unit, &mut self.open);
-            let left = place - usize::from(self.held.left);
-            let narrows = |step: &[T]| step[left + 1] - step[left];
-            // A step of half the width closes the gap, of which the least share is left.
-            let excess = narrows(&self.step) - T::of(0.5) * self.width(place);
-            let open = excess / narrows(&self.open);
-            if open.is_finite() {
-                for (step, &by_open) in self.step.iter_mut().zip(&self.open) {
-                    *step -= open * by_open;
-                }
-                self.set_moves();
-            }
+        worst.map(|(_, i)| i)
+    }
+
+    /// Sets the right-hand side that leaves the condition of a width open. Tells whether there is
+    /// one.
+    fn leave_open(&mut self, i: Width) -> bool {
+        let contact = i / 2;
+        self.unit.clear();
+        self.unit.resize(self.step.len(), T::zero());
+        if i % 2 == 1 {
+            self.unit[self.system.row_of_gap(contact)] = T::one();
+            return true;
         }
-        Some(place)
+        if let Some(before) = contact.checked_sub(1) {
+            self.unit[self.system.row_of_closing(before)] = T::one();
+        }
+        if contact + 1 < self.on.len() {
+            self.unit[self.system.row_of_closing(contact)] = -T::one();
+        }
+        self.on.len() > 1
+    }
+
+    /// Returns the length by which a step makes a width narrower.
+    fn narrows(&self, step: &[T], i: Width) -> T {
+        let free = self.free();
+        let at = |limit: usize| match free.contains(&limit) {
+            true => step[limit - free.start],
+            false => T::zero(),
+        };
+        at(i + 1) - at(i)
     }
 
     /// Returns the least share of a width that a step leaves. A width that was kept from shrinking
     /// may shrink faster.
     fn least(&self, i: Width) -> T {
-        let times = match self.cut {
-            Some((cut, times)) if cut == Cut::Width(i) => times + 1,
-            _ => 1,
-        };
-        T::of(LEAST_LEFT.powi(times))
+        T::of(LEAST_LEFT.powi(self.cut[i] + 1))
     }
 
     pub(super) fn width(&self, i: Width) -> T {
@@ -117,9 +167,18 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Returns the first gap that is as narrow as rounding.
-    pub(super) fn closed(&self) -> Option<usize> {
-        (0..self.on.len() - 1).find(|&i| self.is_nothing(i))
+    /// Tells whether a gap is as narrow as rounding.
+    pub(super) fn is_closed(&self) -> bool {
+        (0..self.on.len() - 1).any(|i| self.is_nothing(i))
+    }
+
+    /// Tells whether a contact has vanished, or the gap after it has closed.
+    pub(in super::super::super) fn is_gone(&self, i: usize, is_gap: bool) -> bool {
+        let is_cut = |i: Width| self.cut[i] >= CUT;
+        match is_gap {
+            true => i + 1 < self.on.len() && (is_cut(2 * i + 1) || self.is_nothing(i)),
+            false => is_cut(2 * i) || self.on[i].left >= self.on[i].right,
+        }
     }
 
     /// Tells whether the gap after a contact is as narrow as rounding.
