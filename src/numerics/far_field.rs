@@ -86,12 +86,17 @@ impl<T: Real> FarField<T> {
         places: impl Iterator<Item = Interval<T>>,
         contribution: &dyn Fn(usize, T) -> T,
     ) {
-        let places: Vec<_> = places.collect();
         let (near, series) = (0..intervals.len(), [T::zero(); MAX_SIZE]);
         self.nodes.clear();
         self.of.clear();
         let nowhere = Interval { left: T::zero(), right: T::zero() };
         self.nodes.push(Node { near, places: nowhere, series, terms: 0 });
+        // A place has some interval near.
+        if intervals.len() <= ENOUGH {
+            self.of.extend(places.map(|_| 0));
+            return;
+        }
+        let places: Vec<_> = places.collect();
         if !places.is_empty() {
             self.divide(intervals, &places, 0, contribution);
         }

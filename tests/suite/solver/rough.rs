@@ -131,6 +131,24 @@ fn a_search_that_is_made_again_is_the_one_from_scratch() {
     assert!(again > 0);
 }
 
+/// Loads under which a gap lies far from a contact whose pressure takes more than 32 values: those
+/// too few to show it move the gap by more than the contacts next to it are uncertain.
+#[test]
+fn a_pressure_not_resolved_moves_gaps_far_off() {
+    for (seed, wave, noise, load) in [
+        (183, 1e-3, 4e-4, 663.3384890709345),
+        (339, 2e-3, 4e-4, 350.74800700308043),
+        (522, 3e-4, 2e-4, 302.35778300736644),
+        (1570, 0.0, 2e-4, 792.5767995985793),
+        (1995, 0.0, 4e-4, 515.0180395724742),
+        (2410, 0.0, 2e-4, 947.1278512519708),
+    ] {
+        let body = rough(seed, wave, noise);
+        let found = contact(&body).solve(Control::Load(load));
+        assert!(found.is_ok(), "{seed}: {}", found.unwrap_err());
+    }
+}
+
 #[test]
 fn under_any_other_control_too() {
     let references =
