@@ -1,9 +1,9 @@
 //! Sums and products over many intervals, seen from places between and on them.
 //!
-//! A tree halves the places. Each of its nodes takes the intervals that lie far from all its places,
-//! but not from all those of the node above, and adds their contributions to those of the node
-//! above, as one Chebyshev series. A place then sees the few intervals near to it one by one, and
-//! all others through the series of its node. For N intervals and places, the series cost
+//! A tree halves the places. Each of its nodes takes the intervals that lie far from all its
+//! places, but not from all those of the node above. It adds their contributions to those of the
+//! node above, as one Chebyshev series. A place then sees the few intervals near to it one by one,
+//! and all others through the series of its node. For N intervals and places, the series cost
 //! O(N log N) contributions.
 
 use super::chebyshev::{MAX_SIZE, Row, Table, by_size, value_at};
@@ -78,8 +78,8 @@ impl<T: Real> FarField<T> {
         Self { combine, nodes: Vec::new(), of: Vec::new() }
     }
 
-    /// Takes intervals and the places from which they will be seen, both from left to right, and the
-    /// contribution of an interval, by its number, at a far x.
+    /// Takes intervals and the places from which they will be seen, both from left to right, and
+    /// the contribution of an interval, by its number, at a far x.
     pub fn set(
         &mut self,
         intervals: &[Interval<T>],

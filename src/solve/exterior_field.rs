@@ -109,9 +109,9 @@ impl<T: Real> ExteriorField<T> {
         self.doubt
     }
 
-    /// Returns the uncertainty of the rise of the potential across a region outside the contact. The
-    /// coefficients left out fall as powers of u. They alias into the known ones: those of `ln u`
-    /// and of low powers act from afar.
+    /// Returns the uncertainty of the rise of the potential across a region outside the contact.
+    /// The coefficients left out act less and less with the distance, as powers of u. But they
+    /// alias into the known ones, those of `ln u` and of low powers, which act from afar.
     fn doubt_in(&self, room: Interval<T>) -> T {
         let size = |x: T| {
             let apart = (x - self.on.right).max(self.on.left - x).max(T::zero());

@@ -1,10 +1,10 @@
 //! Newton's method on all limits of several contacts at once.
 //!
 //! The equations and their exact Jacobian are those of the quadrature. A contact or a gap that a
-//! step would make more than two thirds narrower is held at a third, with one condition left open:
-//! its trouble does not spread to all others. Held step after step, a gap closes, and a contact does
-//! not exist: the caller starts again without all of them. So does a gap that the heights of the
-//! bodies no longer resolve.
+//! step would make more than two thirds narrower is held at a third, with one condition left open,
+//! so that its limits do not drag all others along. If it is held step after step, the gap closes,
+//! or the contact does not exist; and a gap closes that the heights of the bodies no longer
+//! resolve. The caller starts again without all of these.
 
 mod widths;
 
@@ -20,9 +20,9 @@ use std::ops::Range;
 /// Steps before the search is given up.
 const MAX_STEPS: usize = 60;
 
-/// Largest number of steps in a row in which the same width is held or the same end is passed, each
-/// time with a smaller least share. Then that contact or gap is taken not to exist: a gap at a kink,
-/// or a contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
+/// Largest number of steps in a row in which the same width is held, each time at a smaller share,
+/// or the same end is passed. Then that contact or gap is taken not to exist: a gap at a kink, or a
+/// contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
 const MAX_CUT: i32 = 9;
 
 /// Number of such steps after which a width goes together with another that is taken not to exist:
