@@ -157,7 +157,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         newton.on.clone_from(before);
         let on = &mut newton.on;
         let outcome = match stop {
-            Stop::Gone => {
+            Stop::Gone if on.len() > 1 => {
                 let mut outcome = Outcome::Lost;
                 for i in (0..on.len()).rev() {
                     if closed[i] {

@@ -37,7 +37,7 @@ impl<T: Real> NewtonSeveral<T> {
             matrix.clear();
             excess.clear();
             for &i in &self.widths {
-                // To first order the step of half the width would close it: see `advance`.
+                // In `advance` the square of a width changes in proportion to the step.
                 let least = self.least(i);
                 let most = T::of(0.5) * (T::one() - least * least) * self.width(i);
                 excess.push(self.narrows(&full, i) - most);
