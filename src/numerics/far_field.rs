@@ -225,7 +225,9 @@ mod tests {
                     };
                     let found = combine.of(of(near.clone()), field.far(k, x));
                     let error = (found - of(0..on.len())).abs() / scale;
-                    assert!(error < 1e-14, "gap {k}: {error:.1e}");
+                    // In a narrow gap the rounding of the nodes counts.
+                    let rounding = f64::EPSILON * x.abs() / gap.half_width();
+                    assert!(error < 1e-14 + rounding, "gap {k}: {error:.1e}, {rounding:.1e}");
                 }
             }
         }
