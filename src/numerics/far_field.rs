@@ -51,6 +51,8 @@ pub(crate) struct FarField<T> {
     nodes: Vec<Node<T>>,
     /// Number of the node of each place.
     of: Vec<usize>,
+    /// Room for the places.
+    places: Vec<Interval<T>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +77,7 @@ impl<T: Real> Node<T> {
 
 impl<T: Real> FarField<T> {
     pub fn new(combine: Combine) -> Self {
-        Self { combine, nodes: Vec::new(), of: Vec::new() }
+        Self { combine, nodes: Vec::new(), of: Vec::new(), places: Vec::new() }
     }
 
     /// Takes intervals and the places from which they will be seen, both from left to right, and
@@ -96,10 +98,11 @@ impl<T: Real> FarField<T> {
             self.of.extend(places.map(|_| 0));
             return;
         }
-        let places: Vec<_> = places.collect();
-        if !places.is_empty() {
-            self.divide(intervals, &places, 0, contribution);
-        }
+        let mut all = std::mem::take(&mut self.places);
+        all.clear();
+        all.extend(places);
+        self.divide(intervals, &all, 0, contribution);
+        self.places = all;
     }
 
     /// Adds the nodes of some places, below a node.

@@ -156,6 +156,7 @@ impl<T: Real> ExteriorField<T> {
 pub(crate) struct ExteriorFields<T> {
     /// Series of each contact, from left to right.
     pub each: Vec<ExteriorField<T>>,
+    on: Vec<Interval<T>>,
     /// Parts of the potential and of its slope by the contacts far from each gap.
     far: [FarField<T>; 2],
 }
@@ -163,16 +164,21 @@ pub(crate) struct ExteriorFields<T> {
 impl<T: Real> ExteriorFields<T> {
     pub fn new() -> Self {
         let far = [Combine::Sum; 2].map(FarField::new);
-        Self { each: Vec::new(), far }
+        Self { each: Vec::new(), on: Vec::new(), far }
     }
 
     /// Sums up the series of contacts far from each gap.
     pub fn gather(&mut self) {
-        let Self { each, far: [potential, slope] } = self;
-        let on: Vec<_> = each.iter().map(|field| field.on).collect();
+        let Self { each, on, far: [potential, slope] } = self;
+        // One contact has no gap.
+        if each.len() == 1 {
+            return;
+        }
+        on.clear();
+        on.extend(each.iter().map(|field| field.on));
         let gaps = on.windows(2).map(|pair| Interval { left: pair[0].right, right: pair[1].left });
-        potential.set(&on, gaps.clone(), &|i, x| each[i].potential(x));
-        slope.set(&on, gaps, &|i, x| each[i].slope(x));
+        potential.set(on, gaps.clone(), &|i, x| each[i].potential(x));
+        slope.set(on, gaps, &|i, x| each[i].slope(x));
     }
 
     /// Returns `∫ P ln|x - s| ds` over all contacts, at a place that is not inside any.
