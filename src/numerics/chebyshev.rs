@@ -247,6 +247,17 @@ pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
 }
 
+/// Returns `Σ a_k uᵏ` for |u| < 1, up to the last power that counts.
+pub(crate) fn power_series<T: Real>(coefficients: &[T], u: T) -> T {
+    let (mut power, mut terms) = (u.abs(), 1);
+    let last = power * T::epsilon();
+    while power > last && terms < coefficients.len() {
+        (power, terms) = (power * power, 2 * terms);
+    }
+    let counting = &coefficients[..terms.min(coefficients.len())];
+    counting.iter().rev().fold(T::zero(), |sum, &a| sum * u + a)
+}
+
 /// Number of coefficients treated together; [`MAX_SIZE`] is a multiple of it.
 const ABREAST: usize = 4;
 

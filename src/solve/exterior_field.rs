@@ -10,6 +10,7 @@
 //! Values at 32 angles suffice for rounding if the pressure is smooth, and for a thousandth of it
 //! otherwise; more are taken if the result depends on them.
 
+use crate::numerics::chebyshev::power_series;
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real};
 use std::f64::consts::PI;
@@ -77,12 +78,7 @@ impl<T: Real> ExteriorField<T> {
 
     /// Returns `∫ P ln|x - s| ds` at a place that is not inside the contact.
     pub fn potential(&self, x: T) -> T {
-        let half_width = self.on.half_width();
-        let right = x > self.on.centre();
-        let distance = if right { x - self.on.right } else { self.on.left - x };
-        let beyond = distance.max(T::zero()) / half_width;
-        let size = T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt();
-        let u = if right { T::one() / size } else { -T::one() / size };
+        let [u, _] = self.joukowski(x);
         let (mut sum, mut power) = (T::zero(), T::one());
         let all = self.coefficients();
         for (n, &q) in all.iter().enumerate().skip(1) {
@@ -93,7 +89,18 @@ impl<T: Real> ExteriorField<T> {
             }
             sum += q * power / T::count(n);
         }
-        T::pi() * (all[0] * (T::of(0.5) * half_width * size).ln() - sum)
+        T::pi() * (all[0] * (T::of(0.5) * self.on.half_width() / u.abs()).ln() - sum)
+    }
+
+    /// Returns u at a place that is not inside the contact, and `sqrt((x - a)(x + b))` there.
+    fn joukowski(&self, x: T) -> [T; 2] {
+        let half_width = self.on.half_width();
+        let right = x > self.on.centre();
+        let distance = if right { x - self.on.right } else { self.on.left - x };
+        let beyond = distance.max(T::zero()) / half_width;
+        let root = (beyond * (beyond + T::of(2.0))).sqrt();
+        let size = T::one() / (T::one() + beyond + root);
+        [if right { size } else { -size }, root * half_width]
     }
 
     pub fn interval(&self) -> Interval<T> {
@@ -113,36 +120,16 @@ impl<T: Real> ExteriorField<T> {
     /// The coefficients left out act less and less with the distance, as powers of u. But they
     /// alias into the known ones, those of `ln u` and of low powers, which act from afar.
     fn doubt_in(&self, room: Interval<T>) -> T {
-        let size = |x: T| {
-            let apart = (x - self.on.right).max(self.on.left - x).max(T::zero());
-            let beyond = apart / self.on.half_width();
-            T::one() + beyond + (beyond * (beyond + T::of(2.0))).sqrt()
-        };
-        let [left, right] = [room.left, room.right].map(size);
-        let (near, far) = (left.min(right), left.max(right));
-        let left_out = near.powf(-T::count(self.coefficients().len()));
-        self.doubt * (far / near).ln().min(T::one()).max(left_out)
+        let [left, right] = [room.left, room.right].map(|x| self.joukowski(x)[0].abs());
+        let (near, far) = (left.max(right), left.min(right));
+        let left_out = near.powf(T::count(self.coefficients().len()));
+        self.doubt * (near / far).ln().min(T::one()).max(left_out)
     }
 
     /// Returns `∫ P/(x - s) ds` at a place outside the contact.
     pub fn slope(&self, x: T) -> T {
-        let half_width = self.on.half_width();
-        let right = x > self.on.centre();
-        let distance = if right { x - self.on.right } else { self.on.left - x };
-        let beyond = distance.max(T::zero()) / half_width;
-        let root = (beyond * (beyond + T::of(2.0))).sqrt();
-        let size = T::one() / (T::one() + beyond + root);
-        let u = if right { size } else { -size };
-        let all = self.coefficients();
-        // From afar a contact is a line load.
-        let (mut power, mut terms) = (size, 1);
-        while power > T::epsilon() && terms < all.len() {
-            (power, terms) = (power * power, 2 * terms);
-        }
-        let series = &all[..terms.min(all.len())];
-        let sum = series.iter().rev().fold(T::zero(), |sum, &q| sum * u + q);
-        let pull = T::pi() * sum / (root * half_width);
-        if right { pull } else { -pull }
+        let [u, root] = self.joukowski(x);
+        T::pi() * power_series(self.coefficients(), u) / (root * u.signum())
     }
 
     /// Returns the load of the contact.

@@ -6,7 +6,7 @@ use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{Panel, Series, spans, within};
 use super::super::panel_set::{MAX_MISSED, PanelSet};
 use crate::gap::{Cost, Gap};
-use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
 use crate::{ContactError, Interval, Real, Side};
@@ -202,17 +202,12 @@ impl<T: Real> OneOfSeveral<T> {
         if self.panels.len() > 1 && beyond < T::of(AFAR) {
             return self.far.outside(x, distance, self.on);
         }
-        // Power series in the Joukowski variable, up to the last power that counts.
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let right = x > self.on.centre();
         let size = T::one() / (T::one() + beyond + root);
-        let (mut power, mut terms) = (size, 1);
-        while power > size * T::epsilon() && terms < self.series.1 {
-            (power, terms) = (power * power, 2 * terms);
-        }
+        // In the Joukowski variable.
         let u = if right { size } else { -size };
-        let series = &self.series.0[..terms.min(self.series.1)];
-        let sum = series.iter().rev().fold(T::zero(), |sum, &a| sum * u + a);
+        let sum = power_series(&self.series.0[..self.series.1], u);
         let sum = T::pi() * sum / (root * half_width);
         if right { -sum } else { sum }
     }
@@ -254,7 +249,7 @@ impl<T: Real> OneOfSeveral<T> {
 
 /// Returns a panel of the product over a span, and two flags: its nodes suffice for the value, and
 /// for the derivatives that dual numbers carry.
-pub(super) fn multiply<T: Real>(
+fn multiply<T: Real>(
     panel: &Panel<T>,
     x: [T; 2],
     weight: &impl Fn(T) -> T,
