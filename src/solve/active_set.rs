@@ -37,10 +37,9 @@ const MAX_CELLS: usize = 6000;
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MAX_CUTS: usize = 48;
 
-/// Least number of loaded cells in a run, which rises with the number of cells at first; the cells
-/// of shorter runs are cut.
+/// Least number of loaded cells in a run of [`FIRST_CELLS`], which rises with their number; the
+/// cells of shorter runs are cut.
 const CELLS_OF_A_RUN: usize = 4;
-const MAX_CELLS_OF_A_RUN: usize = 16;
 
 /// Mean depth of the gap of a round contact below the level of its edges, in units of F/κ: two
 /// thirds of `κ h(L)/F`, which is one.
@@ -191,7 +190,7 @@ impl<T: Real> ActiveSet<T> {
             kappa,
             load,
             at,
-            cells_of_a_run: (CELLS_OF_A_RUN * (cells / FIRST_CELLS).max(1)).min(MAX_CELLS_OF_A_RUN),
+            cells_of_a_run: CELLS_OF_A_RUN * (cells / FIRST_CELLS).max(1),
             rise: Vec::new(),
             potential: Vec::new(),
             matrix: Potential::new(),
