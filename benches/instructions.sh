@@ -75,10 +75,10 @@ counts() {
         echo
     done
 
-    printf '\nscene\tready\tstress\tshear\tapproach\tby-approach\tcertify\n'
+    printf '\nscene\tpressures\twarm-pressures\tready\tstress\tshear\tapproach\tby-approach\tcertify\n'
     for scene in parabola example4 wave; do
         printf '%s' "$scene"
-        for case in ready stress shear approach by-approach certify; do
+        for case in pressures warm-pressures ready stress shear approach by-approach certify; do
             few=2 many=6
             [ "$case" = shear ] && few=1 many=2
             less=$(instructions questions repeat "$scene" "$case" "$few")

@@ -1,5 +1,5 @@
-//! The cost of questions to a solution: the stress below it, the approach of the bodies, a
-//! certificate.
+//! The cost of questions to a solution: pressures, the stress below it, the approach of the bodies,
+//! a certificate.
 //!
 //! ```sh
 //! cargo bench --bench questions                                # the table of docs/speed.md
@@ -8,6 +8,8 @@
 //!
 //! The scenes are those of `default.rs`, of steel on steel.
 //!
+//! - pressures: the pressure at 100 places;
+//! - warm-pressures: the same, of a `Solver` that has solved loads up to 1.8 times as large;
 //! - ready: [`Solution::subsurface`], once for any number of stresses;
 //! - stress: the stress at 100 places, from 1e-3 to 4 half-widths deep;
 //! - shear: the largest shear stress;
@@ -23,14 +25,25 @@ mod scenes;
 #[path = "shared/timing.rs"]
 mod timing;
 
-use linecontact::{Contact, Control, Cost, Material, PlaneState, Reference, References, Solution};
+use linecontact::{
+    Contact, Control, Cost, Material, PlaneState, Reference, References, Solution, Solver,
+};
 use scenes::{SCENES, Scene, scene};
 use std::hint::black_box;
 use timing::time;
 
-const CASES: [&str; 6] = ["ready", "stress", "shear", "approach", "by-approach", "certify"];
+const CASES: [&str; 8] = [
+    "pressures",
+    "warm-pressures",
+    "ready",
+    "stress",
+    "shear",
+    "approach",
+    "by-approach",
+    "certify",
+];
 
-/// Number of places of `stress`, and their depths in half-widths.
+/// Number of places of pressures and stresses, and the depths of the latter in half-widths.
 const PLACES: usize = 100;
 const DEPTHS: [f64; 2] = [1e-3, 4.0];
 
@@ -51,6 +64,25 @@ fn questions(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost
     let references = References { x: on.centre(), lower: depth, upper: depth };
     let below = |solution: &Solution<'_, f64>| solution.subsurface().map(|_| none);
     match case {
+        "pressures" | "warm-pressures" => {
+            let mut solver = Solver::new();
+            if case.starts_with("warm") {
+                for factor in [1.0, 1.2, 1.5, 1.8] {
+                    solver.solve(&contact, Control::Load(factor * load)).expect(done);
+                }
+            }
+            let solution = solver.solve(&contact, Control::Load(load)).expect(done);
+            let x: [f64; PLACES] = std::array::from_fn(|i| {
+                on.left + (on.right - on.left) * (i as f64 + 0.5) / PLACES as f64
+            });
+            let mut pressures = [0.0; PLACES];
+            visit(&mut || {
+                let pressure = solution.pressure().expect(done);
+                pressure.at_many(black_box(&x), &mut pressures).expect(done);
+                black_box(&pressures);
+                none
+            });
+        }
         "ready" => visit(&mut || below(black_box(&solution)).expect(done)),
         "stress" => {
             let below = solution.subsurface().expect(done);
@@ -94,7 +126,7 @@ fn table() {
     );
     println!("|---|---|---|---|---|---|---|---|");
     for name in SCENES {
-        let [_, stress, shear, approach, by_approach, certify] = CASES.map(|case| {
+        let [_, _, _, stress, shear, approach, by_approach, certify] = CASES.map(|case| {
             let mut measured = (0.0, 0);
             questions(name, case, |call| {
                 let cost = call();
