@@ -137,7 +137,6 @@ fn find_checked<T: Real>(
     let (gap, integrator) = (contact.gap.tilted(found.tilt), &mut *work.integrator);
     if panels::several(integrator).is_none() {
         integrator.prepare(&gap, found.interval)?;
-        panels::merge(integrator, &gap);
     }
     if found.is_doubtful() {
         work.workspace.report.doubt();

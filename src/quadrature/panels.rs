@@ -104,20 +104,6 @@ pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<
     }
 }
 
-/// Prepares the only contact for many pressures: as one series, where the contact lies on several
-/// panels and one would do.
-pub(crate) fn merge<T: Real>(integrator: &mut dyn Integrator<T>, gap: &Gap<'_, T>) {
-    let Some(PanelIntegrator { panel_set, transform, is_several: false, .. }) =
-        integrator.panels_mut()
-    else {
-        return;
-    };
-    if let Some(series) = panel_set.merged(gap, transform.on) {
-        let PanelSet { panels, size, tolerance, .. } = panel_set;
-        transform.set(panels, Some(&series), transform.on, *size, *tolerance);
-    }
-}
-
 /// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
 /// feature and were sampled anew.
 ///

@@ -24,7 +24,8 @@
 //!
 //! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the
 //! series of each panel can be continued over the contact: the pressure then takes one series, and
-//! one more with a logarithm at each breakpoint. If they cannot be continued, see
+//! one more with a logarithm at each breakpoint. If they cannot be continued, one series may do for
+//! a few panels, as for two long ones beside the contact of a lighter load; otherwise see
 //! `near_far_sum.rs`.
 //!
 //! Every term has the factor w, or one that goes to zero like w, from the distances of x to the
@@ -32,9 +33,11 @@
 
 use super::half_angle::Sines;
 use super::near_far_sum::{Distance, NearFarSum, Seen};
-use super::panel::{Panel, Series, within};
+use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
-use crate::numerics::chebyshev::{MAX_SIZE, Row, by_size, second_kind, size_for, value_at, values};
+use crate::numerics::chebyshev::{
+    MAX_SIZE, Row, Table, by_size, second_kind, size_for, value_at, values,
+};
 use crate::real::fma;
 use crate::{Interval, Real};
 
@@ -44,6 +47,9 @@ pub(super) const LANES: usize = 16;
 /// Largest number of changes from one panel to the next, each with its logarithm; beyond it, groups
 /// of panels take less time.
 const MAX_CHANGES: usize = 64;
+
+/// Largest number of panels that one series may replace. (More would need more coefficients.)
+const MAX_MERGED: usize = 8;
 
 /// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
@@ -127,13 +133,16 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MAX_CHANGES || !self.reexpanded(panels, over, on);
+        let allowed = tolerance * size;
+        self.is_far = panels.len() > MAX_CHANGES
+            || !(self.reexpanded(panels, over, on) || self.merged(panels, on, allowed));
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
         }
     }
 
-    /// Continues the series over the contact; `false` if one of several grows too much on the way.
+    /// Continues the series over the contact; `false` if one of several grows too much on the way,
+    /// as where a panel reaches far beyond the contact.
     fn reexpanded(
         &mut self,
         panels: &[Panel<T>],
@@ -144,12 +153,7 @@ impl<T: Real> HilbertTransform<T> {
         (self.smooth, self.terms) = ([zero; MAX_SIZE], 1);
         self.changes.clear();
         if let Some((series, terms)) = over {
-            // Over the whole contact only `cos 0θ` has an integral.
-            let share = T::pi() / on.half_width();
-            self.terms = terms - 1;
-            for k in 1..*terms {
-                self.smooth[k - 1] = share * series[k];
-            }
+            self.set_whole(&series[..*terms], on);
             return true;
         }
         let mut before = ([zero; MAX_SIZE], 0, zero);
@@ -166,6 +170,46 @@ impl<T: Real> HilbertTransform<T> {
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
         every
+    }
+
+    /// Sets the smooth part from a series over the whole contact, where only `cos 0θ` has an
+    /// integral.
+    fn set_whole(&mut self, series: &[T], on: Interval<T>) {
+        let share = T::pi() / on.half_width();
+        self.terms = series.len() - 1;
+        for (smooth, &coefficient) in self.smooth.iter_mut().zip(&series[1..]) {
+            *smooth = share * coefficient;
+        }
+    }
+
+    /// Replaces a few panels by one series over the contact; `false` if it differs from one of them
+    /// by more than errors of size `allowed` anywhere.
+    fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+        const N: usize = MAX_SIZE;
+        if panels.len() > MAX_MERGED {
+            return false;
+        }
+        let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
+        let mut values = [T::zero(); N];
+        for (value, x) in values.iter_mut().zip(whole.nodes()) {
+            let holds = |panel: &&Panel<T>| x <= panel.x[1];
+            *value = panels.iter().find(holds).or(panels.last()).map_or(*value, |one| one.value(x));
+        }
+        whole.series = Table::of(N).coefficients(&values);
+        whole.count(N);
+        // At the nodes of each part of the contact, however short.
+        let is_met = |(panel, x): (&Panel<T>, [T; 2])| {
+            let part = Panel { n: panel.n, ..Panel::new(x) };
+            let missed = |x| (whole.value(x) - panel.value(x)).abs();
+            part.nodes().all(|x| missed(x) <= panel.tail + allowed)
+        };
+        if !spans(panels, on).all(is_met) {
+            return false;
+        }
+        self.changes.clear();
+        self.smooth = [T::zero(); N];
+        self.set_whole(whole.coefficients(), on);
+        true
     }
 
     /// Returns the change from the panel before, given by its series, terms and tail, to this one.

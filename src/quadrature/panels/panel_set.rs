@@ -10,9 +10,9 @@ mod seams;
 pub(crate) use derivative_check::Rises;
 pub(crate) use probing::MAX_MISSED;
 
-use super::panel::{Panel, Series, within};
+use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
-use crate::numerics::chebyshev::{MAX_SIZE, Row, Table, size_for};
+use crate::numerics::chebyshev::{MAX_SIZE, Row, size_for};
 use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -39,10 +39,6 @@ const STUCK: f64 = 0.25;
 /// Number of panels beyond twice the first number at which the next solve covers the span anew.
 /// (Each extension adds one or more, and every panel costs time in each evaluation.)
 const MAX_ADDED: usize = 6;
-
-/// Largest number of panels in place of which one series is tried: more have as many nodes as eight
-/// such series.
-const MAX_MERGED: usize = 8;
 
 /// Share of a span, from its left end, at which it is split if its heights contradict its slopes: a
 /// step may lie in the middle.
@@ -210,29 +206,6 @@ impl<T: Real> PanelSet<T> {
     fn panel_at(&self, x: T) -> Option<&Panel<T>> {
         let last = self.panels.len().checked_sub(1)?;
         Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
-    }
-
-    /// Returns the slope over a contact as one series, if the contact lies on several panels where
-    /// one would do, as after larger loads. The series agrees with every panel at all of its nodes.
-    pub fn merged(&self, gap: &Gap<'_, T>, on: Interval<T>) -> Option<Series<T>> {
-        const N: usize = MAX_SIZE;
-        let panels = within(&self.panels, on);
-        if !(2..=MAX_MERGED).contains(&panels.len()) || gap.breakpoints(on).next().is_some() {
-            return None;
-        }
-        let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
-        let mut values = [T::zero(); N];
-        for (value, x) in values.iter_mut().zip(whole.nodes()) {
-            *value = self.slope(x)?;
-        }
-        whole.series = Table::of(N).coefficients(&values);
-        whole.count(N);
-        let is_met = |panel: &Panel<T>| {
-            let allowed = panel.tail + self.tolerance * self.size;
-            let inside = panel.nodes().filter(|&x| on.contains(x));
-            inside.into_iter().all(|x| (whole.value(x) - panel.value(x)).abs() <= allowed)
-        };
-        panels.iter().all(is_met).then_some((whole.series, whole.counting))
     }
 
     /// Turns the panels with the bodies, which costs no sample; tells whether anything has changed.

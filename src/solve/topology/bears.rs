@@ -170,6 +170,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// there or the required load is reached.
     fn until_closed(&mut self, conditions: &Conditions<T>, low: T) -> Option<Borne<T>> {
         let (half, asked) = (T::of(0.5), conditions.load());
+        let closes = |load: T, gaps: Ends<T>| {
+            gaps[lower(gaps)] <= T::epsilon().sqrt() * load / conditions.kappa
+        };
         let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
         let (mut load, mut gaps) = shares
             .take(MAX_SHARES)
@@ -187,15 +190,21 @@ impl<T: Real> Search<'_, '_, '_, T> {
             if next.load() >= asked {
                 return Some(Borne::All(found));
             }
-            step = (next.load() - load)
-                * secant(gaps.left, closer.left).min(secant(gaps.right, closer.right));
+            let further = secant(gaps.left, closer.left).min(secant(gaps.right, closer.right));
+            step = further * (next.load() - load);
             (load, gaps) = (next.load(), closer);
+            // The rest of the gap is rounding.
+            if further > T::one() && closes(load, gaps) {
+                break;
+            }
         }
         let (found, gaps) = self.gaps_at_ends(&conditions.under(load))?;
-        let side = lower(gaps);
         // If the gap stays open, the search has failed for another reason.
-        let closes = gaps[side] <= T::epsilon().sqrt() * load / conditions.kappa;
-        if closes { Some(Borne::UpTo(self.capacity(&found, side)?)) } else { None }
+        if closes(load, gaps) {
+            Some(Borne::UpTo(self.capacity(&found, lower(gaps))?))
+        } else {
+            None
+        }
     }
 
     /// Finds the contacts under a load, and the gap left at each end of the bodies; infinite at a
