@@ -79,7 +79,8 @@ impl<T: Real> SampleCache<T> {
 }
 
 /// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by
-/// its `room`. Afterwards the cache has one sample for each target, rising too.
+/// its `room`. Afterwards the cache has one sample for each target, rising too. A first estimate
+/// is content with the series of the survey, where it has them.
 // As a call that is not inlined it costs a bare solve 2 % more instructions.
 #[inline(always)]
 pub(crate) fn sample_near<const N: usize, T: Real>(
@@ -88,6 +89,7 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     targets: &[T; N],
     room: &[T; N],
     cache: &mut SampleCache<T>,
+    is_estimate: bool,
     cost: &mut Cost,
 ) -> Result<(), ContactError<T>> {
     const { assert!(N <= MAX_TARGETS) };
@@ -119,6 +121,14 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
+    if is_estimate {
+        let own = cache.guides.iter().flatten().filter(|(piece, _)| *piece == index);
+        if let Some(samples) = own.filter_map(|(_, guide)| batch.by_series(guide)).next() {
+            cache.curve_samples.set(ends, &samples);
+            cache.curve_samples.are_guessed = true;
+            return Ok(());
+        }
+    }
     for guide in &mut cache.guides {
         if let Some((_, guide)) = guide.take_if(|(piece, _)| *piece == index)
             && cache.curve_samples.len() == 0
@@ -146,6 +156,15 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     /// Replaces the known samples by samples near the targets.
     fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let (targets, ends) = (self.targets, self.ends);
+        let mut curve_samples = [ends[0]; N];
+        if known.are_guessed {
+            // Good enough to aim at the targets, not to search between them.
+            let is_near = self.batch(known, &mut curve_samples, cost)?;
+            known.set(ends, if is_near { &curve_samples } else { &[] });
+            if is_near {
+                return Ok(());
+            }
+        }
         // On a range much longer than the span of the targets their places are uncertain: one is
         // found, and the others are sought from there.
         let [first, last] = [targets[0], targets[N - 1]];
@@ -163,7 +182,6 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             let found = self.find(0, [ends[0], leftmost], cost)?;
             known.set(ends, &[found, leftmost]);
         }
-        let mut curve_samples = [ends[0]; N];
         if !self.batch(known, &mut curve_samples, cost)? {
             self.find_missed(known, &mut curve_samples, cost)?;
         }
@@ -198,7 +216,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             let [one, other] = [&row[left], &row[right]];
             let [from_left, to_right] = [target - one.x, other.x - target];
             let nearer = if from_left < to_right { one } else { other };
-            if self.is_near(i, nearer) && is_finite(nearer.slope) {
+            if self.is_near(i, nearer) && is_finite(nearer.slope) && !known.are_guessed {
                 curve_samples[i] = *nearer;
                 continue;
             }

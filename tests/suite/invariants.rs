@@ -32,12 +32,14 @@ fn answer(contact: &Contact<f64>, load: Control<f64>) -> Answer {
     let solution = contact.solve(load).unwrap_or_else(|error| panic!("{error}"));
     let on = solution.hull();
     let pressure = solution.pressure().expect("pressures");
+    let error = solution.limits_error().expect("limits that were sought") * on.half_width();
     let pressures = PLACES.map(|z| {
         let x = on.centre() + on.half_width() * z;
-        let estimate = pressure.estimate(x, &mut Cost::default()).expect("a pressure");
-        [estimate.value, estimate.error]
+        let at = |x| pressure.estimate(x, &mut Cost::default()).expect("a pressure");
+        // The place is as uncertain as the limits; beside a jump the pressure is steep.
+        let beside = at(x + error + 2.0 * EPSILON * x.abs()).value;
+        [at(x).value, at(x).error + (beside - at(x).value).abs()]
     });
-    let error = solution.limits_error().expect("limits that were sought") * on.half_width();
     Answer { left: on.left, right: on.right, load: solution.load(), error, pressures }
 }
 

@@ -25,11 +25,13 @@ impl<T: Real> CurveSample<T> {
 #[derive(Clone, Debug)]
 pub(super) struct CurveSamples<T> {
     pub row: Vec<CurveSample<T>>,
+    /// True if the points between the ends are on an approximate series.
+    pub are_guessed: bool,
 }
 
 impl<T: Real> CurveSamples<T> {
     pub fn new() -> Self {
-        Self { row: Vec::new() }
+        Self { row: Vec::new(), are_guessed: false }
     }
 
     /// Returns the number of points between the ends.
@@ -43,6 +45,7 @@ impl<T: Real> CurveSamples<T> {
 
     /// Replaces all points.
     pub fn set(&mut self, [left, right]: [CurveSample<T>; 2], inner: &[CurveSample<T>]) {
+        self.are_guessed = false;
         self.row.clear();
         self.row.reserve(MAX_TARGETS + 2);
         self.row.push(left);

@@ -1,4 +1,4 @@
-//! First points of a piece, near the targets by an approximate series.
+//! First points of a piece, near the targets by an approximate series or on it.
 
 use super::TargetBatch;
 use super::curve_samples::{CurveSample, CurveSamples};
@@ -8,6 +8,20 @@ use crate::gap::survey::Series;
 use crate::real::is_finite;
 
 impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
+    /// Returns the points of a series at the targets; `None` beyond its range, or where rounding
+    /// counts.
+    pub fn by_series(&self, guide: &Series<T>) -> Option<[CurveSample<T>; N]> {
+        let [from, to] = self.piece.x();
+        if self.targets[N - 1] - self.targets[0] < T::epsilon().sqrt() * (to - from) {
+            return None;
+        }
+        let mut samples = [self.ends[0]; N];
+        for (sample, &target) in samples.iter_mut().zip(self.targets) {
+            *sample = guide.sample_near(target)?;
+        }
+        Some(samples)
+    }
+
     /// Evaluates points where a guide has the targets, all in one batch, and keeps them if they
     /// rise.
     pub fn follow(&self, guide: &Series<T>, known: &mut CurveSamples<T>, cost: &mut Cost) {

@@ -5,6 +5,7 @@
 //! mismatch and the last coefficients measure the error of the series: a wave too fine for them
 //! shows in the mismatch.
 
+use crate::gap::CurveSample;
 use crate::numerics::chebyshev::{Table, evaluate, values};
 use crate::profile::{Noise, Piece};
 use crate::{CurvePoint, Real};
@@ -142,6 +143,18 @@ impl<T: Real> Series<T> {
             return None;
         }
         Some(self.k(self.parameter(x)))
+    }
+
+    /// Returns the point of the series at x, where [`parameter_near`](Self::parameter_near) knows
+    /// its parameter.
+    pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
+        let k = self.parameter_near(x)?;
+        let t = self.t(k);
+        let ([x], [dx]) = evaluate(&self.x, &[t]);
+        let ([y], [dy]) = evaluate(&self.y, &[t]);
+        let by_k = T::of(2.0) / (self.k[1] - self.k[0]);
+        let slope = dy / dx;
+        slope.is_finite().then_some(CurveSample { k, x, y, dx: by_k * dx, slope })
     }
 
     /// Returns x, height and slope at t.

@@ -133,9 +133,8 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * tail;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        let allowed = tolerance * size;
         self.is_far = panels.len() > MAX_CHANGES
-            || !(self.reexpanded(panels, over, on) || self.merged(panels, on, allowed));
+            || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
         }
@@ -183,8 +182,8 @@ impl<T: Real> HilbertTransform<T> {
     }
 
     /// Replaces a few panels by one series over the contact; `false` if it differs from one of them
-    /// by more than errors of size `allowed` anywhere.
-    fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
+    /// by more than rounding anywhere.
+    fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
         const N: usize = MAX_SIZE;
         if panels.len() > MAX_MERGED {
             return false;
@@ -197,11 +196,12 @@ impl<T: Real> HilbertTransform<T> {
         }
         whole.series = Table::of(N).coefficients(&values);
         whole.count(N);
+        let rounding = self.rounding.slope;
         // At the nodes of each part of the contact, however short.
         let is_met = |(panel, x): (&Panel<T>, [T; 2])| {
             let part = Panel { n: panel.n, ..Panel::new(x) };
             let missed = |x| (whole.value(x) - panel.value(x)).abs();
-            part.nodes().all(|x| missed(x) <= panel.tail + allowed)
+            part.nodes().all(|x| missed(x) <= rounding)
         };
         if !spans(panels, on).all(is_met) {
             return false;

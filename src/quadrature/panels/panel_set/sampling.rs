@@ -268,7 +268,7 @@ impl<T: Real> PanelSet<T> {
     ) -> Result<[[T; N]; 2], ContactError<T>> {
         let bodies = [Body::Lower, Body::Upper].into_iter().zip(rooms);
         for ((body, room), trace) in bodies.zip(&mut self.traces) {
-            sample_near(gap, body, places, room, trace, &mut self.cost)?;
+            sample_near(gap, body, places, room, trace, self.coarse, &mut self.cost)?;
         }
         let reach = T::of(0.5) * (x[1] - x[0]);
         let wanted = offsets.map(|offset| reach + offset);
