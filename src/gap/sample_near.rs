@@ -8,11 +8,10 @@
 //! distance to its neighbours is approached by a few steps of Newton's rule, as is the first target
 //! where only the far ends of a piece are known. If they do not succeed, the user's strategy
 //! searches for the target and is stopped as soon as it is near, by the value zero there. Where the
-//! [survey](super::survey) knows the piece, its series give the approximate places of the first
-//! targets: one batch, and no single point.
+//! [survey](super::survey) knows the piece, its series serve for a first estimate: no point is
+//! evaluated for it.
 
 mod curve_samples;
-mod guided;
 mod inverse_hermite;
 
 pub(crate) use curve_samples::CurveSample;
@@ -38,7 +37,7 @@ pub(crate) struct SampleCache<T> {
     /// Number of the piece they lie on.
     piece: Option<usize>,
     curve_samples: CurveSamples<T>,
-    /// Approximate series of some pieces, each until its piece is first sampled.
+    /// Approximate series of some pieces, for first estimates.
     pub guides: [Option<(usize, Series<T>)>; 2],
     /// True if `X(k) = x` needs no solving: then there is no `Y`, and the samples are exactly at
     /// their targets.
@@ -129,13 +128,6 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
             return Ok(());
         }
     }
-    for guide in &mut cache.guides {
-        if let Some((_, guide)) = guide.take_if(|(piece, _)| *piece == index)
-            && cache.curve_samples.len() == 0
-        {
-            batch.follow(&guide, &mut cache.curve_samples, cost);
-        }
-    }
     batch.take(&mut cache.curve_samples, cost).map_err(|error| turns(piece, error))
 }
 
@@ -153,6 +145,20 @@ struct TargetBatch<'s, const N: usize, T: Real> {
 }
 
 impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
+    /// Returns the points of a series at the targets; `None` beyond its range, or where rounding
+    /// counts.
+    pub fn by_series(&self, guide: &Series<T>) -> Option<[CurveSample<T>; N]> {
+        let [from, to] = self.piece.x();
+        if self.targets[N - 1] - self.targets[0] < T::epsilon().sqrt() * (to - from) {
+            return None;
+        }
+        let mut samples = [self.ends[0]; N];
+        for (sample, &target) in samples.iter_mut().zip(self.targets) {
+            *sample = guide.sample_near(target)?;
+        }
+        Some(samples)
+    }
+
     /// Replaces the known samples by samples near the targets.
     fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let (targets, ends) = (self.targets, self.ends);

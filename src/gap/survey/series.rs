@@ -136,24 +136,17 @@ impl<T: Real> Series<T> {
         ((self.k[1] - self.k[0]) / (other.k[1] - other.k[0])).abs()
     }
 
-    /// Returns the approximate parameter of the curve at x; `None` outside the outermost points.
-    pub fn parameter_near(&self, x: T) -> Option<T> {
+    /// Returns the point of the series at x; `None` outside the outermost points.
+    pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
         let between = [self.rows[0].x, self.rows[NODES - 1].x];
         if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
             return None;
         }
-        Some(self.k(self.parameter(x)))
-    }
-
-    /// Returns the point of the series at x, where [`parameter_near`](Self::parameter_near) knows
-    /// its parameter.
-    pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
-        let k = self.parameter_near(x)?;
-        let t = self.t(k);
+        let t = self.parameter(x);
         let ([x], [dx]) = evaluate(&self.x, &[t]);
         let ([y], [dy]) = evaluate(&self.y, &[t]);
         let by_k = T::of(2.0) / (self.k[1] - self.k[0]);
-        let slope = dy / dx;
+        let (k, slope) = (self.k(t), dy / dx);
         slope.is_finite().then_some(CurveSample { k, x, y, dx: by_k * dx, slope })
     }
 
