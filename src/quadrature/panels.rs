@@ -255,22 +255,22 @@ impl<T: Real> PanelIntegrator<T> {
         Ok(self.remember(on))
     }
 
-    /// Returns the number of nodes that should suffice, from the decay of the first estimate's
-    /// coefficients.
+    /// Returns the number of nodes that should suffice, from the first ratio of the coefficients two
+    /// apart. Next to a root, as at the side of a circle, the ratios rise from it like 2 - 1/m.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([decay, half_width]) = self.decay else { return LEAST };
         let shrunk = on.half_width() / half_width;
-        let decay = decay * shrunk * shrunk;
-        let mut expected = T::one();
-        for n in (2..=MAX_SIZE).step_by(2) {
-            expected *= decay;
-            // Coefficients may fall more slowly than the first of them.
-            let left = expected * T::of(20.0) * decay;
+        let (first, mut left) = (decay * shrunk * shrunk, T::one());
+        for m in 1..=MAX_SIZE / 2 {
+            left *= (first * (T::of(2.0) - T::one() / T::count(m))).min(T::one());
+            let n = 2 * m;
             if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
-        LEAST
+        // Where the first ratio would do, few panels of many nodes.
+        let would_do = first.powi(MAX_SIZE as i32 / 2) <= self.panel_set.tolerance;
+        if would_do { MAX_SIZE } else { LEAST }
     }
 }
 
