@@ -269,7 +269,7 @@ impl<T: Real> PanelIntegrator<T> {
             }
         }
         // Where the first ratio would do, few panels of many nodes.
-        let would_do = first.powi(MAX_SIZE as i32 / 2) <= self.panel_set.tolerance;
+        let would_do = first.powf(T::count(MAX_SIZE / 2)) <= self.panel_set.tolerance;
         if would_do { MAX_SIZE } else { LEAST }
     }
 }
