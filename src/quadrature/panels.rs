@@ -255,8 +255,8 @@ impl<T: Real> PanelIntegrator<T> {
         Ok(self.remember(on))
     }
 
-    /// Returns the number of nodes that should suffice, from the first ratio of the coefficients two
-    /// apart. Next to a root, as at the side of a circle, the ratios rise from it like 2 - 1/m.
+    /// Returns the number of nodes that should suffice, from the first ratio of the coefficients
+    /// two apart. Next to a root, as at the side of a circle, the ratios rise from it like 2 - 1/m.
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([decay, half_width]) = self.decay else { return LEAST };
         let shrunk = on.half_width() / half_width;
