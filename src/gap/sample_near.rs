@@ -120,7 +120,8 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
-    if is_estimate {
+    // Derivatives are exact only where the points are aimed by points of the curve.
+    if is_estimate && T::COMPONENTS == 1 {
         let own = cache.guides.iter().flatten().filter(|(piece, _)| *piece == index);
         if let Some(samples) = own.filter_map(|(_, guide)| batch.by_series(guide)).next() {
             cache.curve_samples.set(ends, &samples);

@@ -34,6 +34,7 @@
 use super::half_angle::Sines;
 use super::near_far_sum::{Distance, NearFarSum, Seen};
 use super::panel::{Panel, Series, spans, within};
+use super::panel_set::FINEST;
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{
     MAX_SIZE, Row, Table, by_size, second_kind, size_for, value_at, values,
@@ -196,12 +197,18 @@ impl<T: Real> HilbertTransform<T> {
         }
         whole.series = Table::of(N).coefficients(&values);
         whole.count(N);
-        let rounding = self.rounding.slope;
+        let size = |part| values.iter().fold(T::zero(), |max, g| max.max(g.component(part).abs()));
+        let allowed = |part| match part {
+            0 => self.rounding.slope,
+            part => T::of(FINEST) * T::epsilon() * size(part),
+        };
         // At the nodes of each part of the contact, however short.
         let is_met = |(panel, x): (&Panel<T>, [T; 2])| {
             let part = Panel { n: panel.n, ..Panel::new(x) };
-            let missed = |x| (whole.value(x) - panel.value(x)).abs();
-            part.nodes().all(|x| missed(x) <= rounding)
+            part.nodes().all(|x| {
+                let missed = whole.value(x) - panel.value(x);
+                (0..T::COMPONENTS).all(|part| missed.component(part).abs() <= allowed(part))
+            })
         };
         if !spans(panels, on).all(is_met) {
             return false;
