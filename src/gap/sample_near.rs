@@ -120,7 +120,7 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
-    // Derivatives are exact only where the points are aimed by points of the curve.
+    // A series has no exact derivatives: dual numbers need points of the curve.
     if is_estimate && T::COMPONENTS == 1 {
         let own = cache.guides.iter().flatten().filter(|(piece, _)| *piece == index);
         if let Some(samples) = own.filter_map(|(_, guide)| batch.by_series(guide)).next() {
@@ -148,7 +148,7 @@ struct TargetBatch<'s, const N: usize, T: Real> {
 impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     /// Returns the points of a series at the targets; `None` beyond its range, or where rounding
     /// counts.
-    pub fn by_series(&self, guide: &Series<T>) -> Option<[CurveSample<T>; N]> {
+    fn by_series(&self, guide: &Series<T>) -> Option<[CurveSample<T>; N]> {
         let [from, to] = self.piece.x();
         if self.targets[N - 1] - self.targets[0] < T::epsilon().sqrt() * (to - from) {
             return None;

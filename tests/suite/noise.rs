@@ -48,7 +48,7 @@ fn check_noise(powers: std::ops::Range<i32>) {
     println!(
         "{powers:?}: {evaluations} of {count}, at most {most}; {beyond} beyond their estimate"
     );
-    assert!(evaluations <= 1300 * count && most <= 13_000, "{evaluations} of {count}, {most}");
+    assert!(evaluations <= 1200 * count && most <= 10_000, "{evaluations} of {count}, {most}");
     assert!(50 * beyond <= count, "{beyond} of {count}");
 }
 

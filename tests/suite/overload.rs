@@ -179,7 +179,8 @@ fn bodies_bear_the_same_whatever_is_asked_and_the_error_is_cheap() {
         }
         println!("{name}: {first:?}; evaluations {worst:?}, at half of it {at_half}");
         // Half the load costs almost nothing if the gap is soon proved convex.
-        let at_half = at_half.max(550);
+        // A slope like a logarithm takes 5 000 for any load that comes close to the end.
+        let at_half = at_half.max(if name.starts_with("k ln") { 550 } else { 200 });
         if worst.iter().any(|&worst| worst > 20 * at_half) {
             faults.push(format!("{name}: {worst:?} > 20 {at_half}"));
         }

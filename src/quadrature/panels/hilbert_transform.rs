@@ -49,9 +49,6 @@ pub(super) const LANES: usize = 16;
 /// of panels take less time.
 const MAX_CHANGES: usize = 64;
 
-/// Largest number of panels that one series may replace. (More would need more coefficients.)
-const MAX_MERGED: usize = 8;
-
 /// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
     pub left: [T; LANES],
@@ -186,9 +183,6 @@ impl<T: Real> HilbertTransform<T> {
     /// by more than rounding anywhere.
     fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
         const N: usize = MAX_SIZE;
-        if panels.len() > MAX_MERGED {
-            return false;
-        }
         let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
         let mut values = [T::zero(); N];
         for (value, x) in values.iter_mut().zip(whole.nodes()) {
