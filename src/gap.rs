@@ -173,12 +173,22 @@ pub struct Cost {
     /// whole: for their heights, including the inversion of `X(k) = x` there, and for checks of the
     /// result of another quadrature.
     pub heights: usize,
+    /// Number of searches by [`Contact::inversion`](crate::Contact::inversion) and
+    /// [`Contact::limit_search`](crate::Contact::limit_search), besides those for heights. Panels
+    /// invert only where a few of Newton's steps are not enough.
+    pub searches: usize,
+    /// Number of values of a function taken in these searches.
+    pub search_values: usize,
 }
 
 impl std::fmt::Display for Cost {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { samples, evaluations, heights } = self;
-        write!(f, "{samples} samples by {evaluations} evaluations, and {heights} for heights")
+        let Self { samples, evaluations, heights, searches, search_values } = self;
+        write!(f, "{samples} samples by {evaluations} evaluations, and {heights} for heights")?;
+        if *searches > 0 {
+            write!(f, "; {searches} searches with {search_values} values")?;
+        }
+        Ok(())
     }
 }
 
@@ -195,6 +205,8 @@ impl std::ops::AddAssign for Cost {
         self.samples = self.samples.saturating_add(other.samples);
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
         self.heights = self.heights.saturating_add(other.heights);
+        self.searches = self.searches.saturating_add(other.searches);
+        self.search_values = self.search_values.saturating_add(other.search_values);
     }
 }
 

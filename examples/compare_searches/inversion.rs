@@ -1,7 +1,7 @@
 //! Part 1: solving `X(k) = x`, each time from the whole domain and without an initial guess.
 
 use super::curves::{self, Profile};
-use super::{NAMES, Tally, searches};
+use super::{Tally, searches};
 use linecontact::search::{Bracket, LimitSearch, SearchError};
 use linecontact::{Curve, CurvePoint, ParametricProfile};
 use std::f64::consts::FRAC_PI_2;
@@ -155,19 +155,19 @@ pub fn cold() -> Tally {
     );
     let mut tally = Tally::default();
     for case in cases() {
-        for (i, search) in searches().iter().enumerate() {
-            let outcome = invert(&case, &**search);
+        for (i, (search, strategy)) in searches().into_iter().enumerate() {
+            let outcome = invert(&case, &*strategy);
             let Outcome { evaluations, most, errors: [k, x], excess, .. } = outcome;
             let name = if i == 0 { case.name } else { "" };
             let mean = evaluations as f64 / f64::from(TARGETS);
-            print!("{name:<26} {:<10} {mean:>7.1} {most:>5} {k:>9.1e} {x:>9.1e}", NAMES[i]);
+            print!("{name:<26} {search:<10} {mean:>7.1} {most:>5} {k:>9.1e} {x:>9.1e}");
             println!(" {excess:>8.2}");
-            tally.count(i, mean);
+            tally.count(search, mean.round() as usize);
             if excess > MAX_EXCESS {
-                tally.fail(i, "k is less accurate than the numbers allow");
+                tally.fail(search, "k is less accurate than the numbers allow");
             }
             if let Some(error) = outcome.failure {
-                tally.fail(i, &error.to_string());
+                tally.fail(search, &error.to_string());
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Parts 2 and 3: one search for the limits `a` and `b`, and one for the inversions that it needs.
 
 use super::scenes::{self, Scene};
-use super::{NAMES, Tally, searches};
-use linecontact::{Contact, ContactError, Control, Cost, Interval};
+use super::{Tally, searches};
+use linecontact::{Contact, ContactError, Control, Cost, Interval, Midpoint};
 use std::f64::consts::PI;
 
 /// Result for one contact.
@@ -29,44 +29,44 @@ fn solve(scene: &Scene, contact: &Contact<'_, f64>) -> Outcome {
 }
 
 impl Tally {
-    fn add(&mut self, strategy: usize, outcome: &Outcome) {
-        self.count(strategy, outcome.cost.evaluations as f64);
+    fn add(&mut self, search: &'static str, outcome: &Outcome) {
+        self.count(search, outcome.cost.search_values);
         if let Some(text) = &outcome.failure {
-            self.fail(strategy, text);
+            self.fail(search, text);
         }
     }
 }
 
 fn head(what: &str) {
     println!(
-        "{:<24} {what:<10} {:>8} {:>11} {:>9} {:>9}",
-        "contact", "samples", "evaluations", "err(a)", "err(b)"
+        "{:<24} {what:<10} {:>8} {:>7} {:>11} {:>9} {:>9}",
+        "contact", "searches", "values", "evaluations", "err(a)", "err(b)"
     );
 }
 
-fn row(scene: &Scene, i: usize, outcome: &Outcome) {
+fn row(contact: &str, search: &str, outcome: &Outcome) {
     let Outcome { cost, errors: [a, b], .. } = outcome;
-    let (name, Cost { samples, evaluations, .. }) = (if i == 0 { scene.name } else { "" }, cost);
-    println!("{name:<24} {:<10} {samples:>8} {evaluations:>11} {a:>9.1e} {b:>9.1e}", NAMES[i]);
+    let Cost { evaluations, searches, search_values, .. } = cost;
+    print!("{contact:<24} {search:<10} {searches:>8} {search_values:>7} {evaluations:>11}");
+    println!(" {a:>9.1e} {b:>9.1e}");
 }
 
 /// Part 2: tries each search for the limits, from the solver's own start.
 pub fn limits() -> Result<Tally, ContactError<f64>> {
     println!();
-    println!("# 2. Search for the limits a and b; inversion by the default, Newton. Samples are");
+    println!("# 2. Searches for the limits a and b; inversion by the default, Newton. Values are");
+    println!("# those of the functions searched, evaluations those of the curves. Errors are");
     println!(
-        "# values of the gap's slope, evaluations calls of the curves. Errors are relative to"
+        "# relative to a or b, or to the half-width where it is smaller, against closed forms"
     );
-    println!(
-        "# a or b, or to the half-width where it is smaller, against closed forms and 25 digits."
-    );
+    println!("# and 25 digits.");
     head("search");
     let mut tally = Tally::default();
     for scene in scenes::all() {
-        for (i, search) in searches().iter().enumerate() {
-            let outcome = solve(&scene, &scene.contact()?.limit_search(&**search));
-            row(&scene, i, &outcome);
-            tally.add(i, &outcome);
+        for (i, (search, strategy)) in searches().into_iter().enumerate() {
+            let outcome = solve(&scene, &scene.contact()?.limit_search(&*strategy));
+            row(if i == 0 { scene.name } else { "" }, search, &outcome);
+            tally.add(search, &outcome);
         }
     }
     Ok(tally)
@@ -90,51 +90,53 @@ const STARTS: [Start; 4] = [
 /// Part 2, continued: repeats the comparison from poor starts.
 pub fn poor_starts() -> Result<Tally, ContactError<f64>> {
     println!();
-    println!("# 2, continued: evaluations from poor starts, and the largest error of a and b");
+    println!("# 2, continued: function values from poor starts, and the largest error of a and b");
     print!("{:<24} {:<20}", "contact", "start");
-    println!("{}  {:>9}", NAMES.map(|name| format!(" {name:>9}")).concat(), "error");
+    for (search, _) in searches() {
+        print!("  {search:>9}");
+    }
+    println!("  {:>9}", "error");
     let mut tally = Tally::default();
     for scene in scenes::all() {
         let (half_width, centre) = (0.5 * (scene.a + scene.b), 0.5 * (scene.a - scene.b));
         for (i, start) in STARTS.iter().enumerate() {
             let middle = centre + start.shift * half_width;
             let reach = start.width * half_width;
+            let start_at = Interval { left: middle - reach, right: middle + reach };
             let name = if i == 0 { scene.name } else { "" };
             print!("{name:<24} {:<20}", start.name);
-            let mut outcomes = Vec::new();
-            for search in &searches() {
-                let contact = scene.contact()?.limit_search(&**search);
-                let outcome = solve(
-                    &scene,
-                    &contact.start(Interval { left: middle - reach, right: middle + reach }),
-                );
-                print!(" {:>9}", outcome.cost.evaluations);
-                outcomes.push(outcome);
+            let (mut outcomes, mut largest) = (Vec::new(), 0f64);
+            for (search, strategy) in searches() {
+                let contact = scene.contact()?.limit_search(&*strategy).start(start_at);
+                let outcome = solve(&scene, &contact);
+                print!("  {:>9}", outcome.cost.search_values);
+                largest = outcome.errors.into_iter().fold(largest, f64::max);
+                outcomes.push((search, outcome));
             }
-            let errors = outcomes.iter().flat_map(|outcome| outcome.errors);
-            println!("  {:>9.1e}", errors.fold(0.0, f64::max));
-            for (i, outcome) in outcomes.iter().enumerate() {
-                tally.add(i, outcome);
+            println!("  {largest:>9.1e}");
+            for (search, outcome) in &outcomes {
+                tally.add(search, outcome);
             }
         }
     }
     Ok(tally)
 }
 
-/// Part 3: tries each search for the inversions, with the default search for the limits.
+/// Part 3: tries each search for the inversions, with the default search for the limits, on the
+/// paper's rule: panels invert by a few of Newton's steps.
 pub fn inversions() -> Result<Tally, ContactError<f64>> {
     println!();
-    println!(
-        "# 3. Inversion within a contact, from the neighbouring sample; limits by the default,"
-    );
-    println!("# Brent");
+    println!("# 3. Inversion within a contact by the paper's rule, from the neighbouring sample;");
+    println!("# limits by the default, Newton on both at once");
     head("inversion");
     let mut tally = Tally::default();
+    let rule = Midpoint::default();
     for scene in scenes::paper() {
-        for (i, search) in searches().iter().enumerate() {
-            let outcome = solve(&scene, &scene.contact()?.inversion(&**search));
-            row(&scene, i, &outcome);
-            tally.add(i, &outcome);
+        for (i, (search, strategy)) in searches().into_iter().enumerate() {
+            let contact = scene.contact()?.quadrature(&rule).inversion(&*strategy);
+            let outcome = solve(&scene, &contact);
+            row(if i == 0 { scene.name } else { "" }, search, &outcome);
+            tally.add(search, &outcome);
         }
     }
     Ok(tally)

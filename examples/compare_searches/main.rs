@@ -1,4 +1,5 @@
-//! Compares the four searches in the two places where the solver takes one.
+//! Compares searches in the two places where the solver takes one: the four of the crate, and one
+//! of this example, the Illinois method.
 //!
 //! Run with `cargo run --release --example compare_searches`. Lines that start with `#` explain the
 //! table below them. The run fails if a search fails or is less exact than the data allow.
@@ -6,48 +7,53 @@
 #[allow(dead_code, reason = "Example 1 has given limits")]
 #[path = "../paper/curves.rs"]
 mod curves;
+mod illinois;
 mod inversion;
 mod limits;
 mod scenes;
 
+use illinois::Illinois;
 use linecontact::ContactError;
 use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
+use std::collections::BTreeMap;
 
-const NAMES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
+/// Search under its name.
+type Named = (&'static str, Box<dyn LimitSearch<f64>>);
 
-fn searches() -> [Box<dyn LimitSearch<f64>>; 4] {
-    [
-        Box::<Bisection>::default(),
-        Box::<Secant>::default(),
-        Box::<Brent>::default(),
-        Box::<Newton>::default(),
+/// Returns the searches to compare. One of your own is a line more.
+fn searches() -> Vec<Named> {
+    vec![
+        ("bisection", Box::<Bisection>::default()),
+        ("secant", Box::<Secant>::default()),
+        ("Brent", Box::<Brent>::default()),
+        ("Newton", Box::<Newton>::default()),
+        ("Illinois", Box::new(Illinois)),
     ]
 }
 
-/// Evaluations by each strategy, with equal weight for every problem, and the number of failures.
+/// Counts by each search, with equal weight for every problem, and the number of failures.
 #[derive(Default)]
 struct Tally {
-    logarithms: [f64; 4],
-    problems: [usize; 4],
+    /// Logarithms of the counts.
+    logarithms: BTreeMap<&'static str, Vec<f64>>,
     failures: usize,
 }
 
 impl Tally {
-    fn count(&mut self, strategy: usize, evaluations: f64) {
-        self.logarithms[strategy] += evaluations.max(1.0).ln();
-        self.problems[strategy] += 1;
+    fn count(&mut self, search: &'static str, count: usize) {
+        self.logarithms.entry(search).or_default().push((count.max(1) as f64).ln());
     }
 
-    fn fail(&mut self, strategy: usize, why: &str) {
-        println!("    {} failed: {why}", NAMES[strategy]);
+    fn fail(&mut self, search: &str, why: &str) {
+        println!("    {search} failed: {why}");
         self.failures += 1;
     }
 
     fn winner(&self) -> String {
-        let mean = |i: usize| (self.logarithms[i] / self.problems[i] as f64).exp();
-        let mut order = [0, 1, 2, 3];
-        order.sort_by(|&i, &j| mean(i).total_cmp(&mean(j)));
-        order.map(|i| format!("{} {:.0}", NAMES[i], mean(i))).join(", ")
+        let mean = |of: &Vec<f64>| (of.iter().sum::<f64>() / of.len() as f64).exp();
+        let mut means: Vec<_> = self.logarithms.iter().map(|(name, of)| (mean(of), name)).collect();
+        means.sort_by(|one, other| one.0.total_cmp(&other.0));
+        means.iter().map(|(mean, name)| format!("{name} {mean:.0}")).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -58,11 +64,11 @@ pub(crate) fn main() -> Result<(), ContactError<f64>> {
     let warm = limits::inversions()?;
 
     println!();
-    println!("# Evaluations, geometric mean over the rows of a table, the fewest first");
+    println!("# Function values, geometric mean over the rows of a table, the fewest first");
     println!("X(k) = x from the whole domain:      {}", cold.winner());
     println!("limits, from the solver's start:     {}", limits.winner());
     println!("limits, from poor starts:            {}", poor.winner());
-    println!("contact, by the search that inverts: {}", warm.winner());
+    println!("X(k) = x from the sample next to it: {}", warm.winner());
     assert_eq!([cold.failures, limits.failures, poor.failures, warm.failures], [0; 4]);
     Ok(())
 }

@@ -11,12 +11,16 @@ use pyo3::prelude::*;
 
 type Pair = (f64, f64);
 
+/// Fields of a [`Cost`].
+type Counts = (usize, usize, usize, usize, usize);
+
 fn pair(on: &Interval<f64>) -> Pair {
     (on.left, on.right)
 }
 
-fn counts(cost: Cost) -> (usize, usize, usize) {
-    (cost.samples, cost.evaluations, cost.heights)
+fn counts(cost: Cost) -> Counts {
+    let Cost { samples, evaluations, heights, searches, search_values } = cost;
+    (samples, evaluations, heights, searches, search_values)
 }
 
 fn start(start: Start) -> &'static str {
@@ -58,7 +62,7 @@ type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>);
 type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
 
 /// Least ratio of pressures, least gap, spacing and cost.
-type Proof = (Option<Pair>, Option<Pair>, f64, (usize, usize, usize));
+type Proof = (Option<Pair>, Option<Pair>, f64, Counts);
 
 /// Abscissa x, depth and value.
 type Largest = (f64, f64, f64);
@@ -170,7 +174,7 @@ impl Solution {
     }
 
     #[getter]
-    fn cost(&self) -> (usize, usize, usize) {
+    fn cost(&self) -> Counts {
         counts(self.0.cost())
     }
 

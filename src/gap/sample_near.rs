@@ -347,8 +347,10 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
         let bracket = bracket.guess(newton(left, right, target));
         let mut best = None;
+        cost.searches += 1;
         let function = |k: T| {
             cost.evaluations += 1;
+            cost.search_values += 1;
             let sample = CurveSample::new(k, self.piece.curve.at(k));
             self.check(i, &sample)?;
             best = Some(sample);

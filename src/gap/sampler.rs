@@ -181,7 +181,9 @@ impl<T: Real> Sampler<T> {
         } else {
             let order = if rises { [0, 1] } else { [1, 0] };
             let [(lo, f_lo), (hi, f_hi)] = order.map(|i| (piece.k[i], ends[i] - x));
+            self.cost.searches += 1;
             let function = |k: T| {
+                self.cost.search_values += 1;
                 let here = at(k);
                 last = Some(here);
                 turned = turned.or(last.filter(turns));

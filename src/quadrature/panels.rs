@@ -260,9 +260,7 @@ impl<T: Real> PanelIntegrator<T> {
     fn expected_size(&self, on: Interval<T>) -> usize {
         let Some([decay, half_width]) = self.decay else { return LEAST };
         let shrunk = on.half_width() / half_width;
-        let first = decay * shrunk * shrunk;
-        // Below 1/30 the first ratio is mostly too large, and the size with it twice too large.
-        let mut left = (T::of(30.0) * first).min(T::one());
+        let (first, mut left) = (decay * shrunk * shrunk, T::one());
         for m in 1..=MAX_SIZE / 2 {
             left *= (first * (T::of(2.0) - T::one() / T::count(m))).min(T::one());
             let n = 2 * m;

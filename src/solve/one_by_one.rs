@@ -220,7 +220,9 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
         let [mut lo, mut hi] = [bracket.lo, bracket.hi];
+        self.cost.searches += 1;
         let function = |unknown| {
+            self.cost.search_values += 1;
             let trial = attempt(self, unknown)?;
             *best = nearer(trial, *best, condition);
             let value = condition(&trial.residual);

@@ -12,8 +12,11 @@ fn intervals_and_numbers() {
     let on = Interval { left: -0.2, right: 0.25 };
     assert_eq!(on.to_string(), "[-0.2, 0.25]");
     assert_eq!(format!("{on:.3} {on:.1e}"), "[-0.200, 0.250] [-2.0e-1, 2.5e-1]");
-    let cost = Cost { samples: 3, evaluations: 2, heights: 1 };
+    let cost = Cost { samples: 3, evaluations: 2, heights: 1, ..Cost::default() };
     assert_eq!(cost.to_string(), "3 samples by 2 evaluations, and 1 for heights");
+    let cost = Cost { searches: 4, search_values: 30, ..cost };
+    let all = "3 samples by 2 evaluations, and 1 for heights; 4 searches with 30 values";
+    assert_eq!(cost.to_string(), all);
     let estimate = Estimate { value: 0.1 + 0.2, error: 4.44e-17 };
     assert_eq!(estimate.to_string(), "0.30000000000000004 ± 4.4e-17");
     let peak = Peak { x: 0.0, pressure: 1234567.8f32 };

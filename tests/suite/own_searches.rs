@@ -3,10 +3,11 @@
 
 use crate::common::{Strategy, graph, on_flat};
 use linecontact::quadrature::Quadrature;
-use linecontact::search::{Brent, SearchError, StoppingCriteria};
+use linecontact::search::{Bracket, Brent, LimitSearch, Root, SearchError, StoppingCriteria};
 use linecontact::{
     Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Panels,
 };
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 #[test]
 fn a_sloppy_search_for_the_limits_shows() {
@@ -77,5 +78,61 @@ fn an_inversion_that_stops_where_it_begins_is_an_error() {
         let SearchError::NotConverged { x: k, residual } = source else { panic!("{source}") };
         let there = (40.0 * k).sinh() / 40f64.sinh();
         assert!((there - x - residual).abs() < 1e-12 && residual.abs() > 1e-3, "{source}");
+    }
+}
+
+/// Brent's method that counts its searches and the values of their functions.
+#[derive(Default)]
+struct Counting {
+    searches: AtomicUsize,
+    values: AtomicUsize,
+}
+
+impl LimitSearch<f64> for Counting {
+    fn find(
+        &self,
+        f: &mut dyn FnMut(f64) -> f64,
+        bracket: &Bracket<f64>,
+    ) -> Result<Root<f64>, SearchError<f64>> {
+        self.searches.fetch_add(1, Relaxed);
+        let counted = &mut |x| {
+            self.values.fetch_add(1, Relaxed);
+            f(x)
+        };
+        Brent::default().find(counted, bracket)
+    }
+}
+
+#[test]
+fn searches_and_their_values_are_counted() {
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
+        CurvePoint { x, y: x * x / 2.0 + x.powi(3) / 5.0, dx, dy: (x + 0.6 * x * x) * dx }
+    });
+    let rule = Midpoint::default();
+    let of = |own: [Option<&Counting>; 2], quadrature: Option<&dyn Quadrature<f64>>| {
+        let mut contact = Contact::new(&Flat, &body).unwrap().single_interval(true);
+        if let Some(quadrature) = quadrature {
+            contact = contact.quadrature(quadrature);
+        }
+        if let Some(own) = own[0] {
+            contact = contact.inversion(own);
+        }
+        if let Some(own) = own[1] {
+            contact = contact.limit_search(own);
+        }
+        let cost = contact.solve(Control::Load(0.02)).unwrap().cost();
+        [cost.searches, cost.search_values]
+    };
+    let counted = |own: &Counting| [&own.searches, &own.values].map(|count| count.load(Relaxed));
+    // Newton's method finds both limits at once.
+    assert_eq!(of([None; 2], None), [0; 2]);
+    for quadrature in [None, Some(&rule as &dyn Quadrature<f64>)] {
+        let both = [Counting::default(), Counting::default()];
+        let found = of([Some(&both[0]), Some(&both[1])], quadrature);
+        let [inversion, limits] = [0, 1].map(|i| counted(&both[i]));
+        assert_eq!(found, [0, 1].map(|i| inversion[i] + limits[i]));
+        assert!(limits[0] > 0 && limits[1] > limits[0], "{limits:?}");
+        assert!(inversion[0] > 0 && inversion[1] > inversion[0], "{inversion:?}");
     }
 }

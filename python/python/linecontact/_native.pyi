@@ -27,7 +27,7 @@ _Elastic = tuple[float, float] | None
 _References = tuple[float, tuple[str, float], tuple[str, float]]
 _Prescribed = tuple[str, list[float], _References | None]
 _Shear = tuple[float, float, float]
-_Counts = tuple[int, int, int]
+_Counts = tuple[int, int, int, int, int]
 _Convexity = Literal["unknown", "straight", "convex", "concave"]
 _Columns = tuple[_Array, _Array, _Array, _Array, _Array]
 

@@ -108,11 +108,18 @@ class Cost(NamedTuple):
         Number of points of the curves.
     heights : int
         Number of further points, for the heights of the bodies as a whole.
+    searches : int
+        Number of searches for the parameter of an abscissa or for the limits, besides those for
+        heights.
+    search_values : int
+        Number of values of a function taken in these searches.
     """
 
     samples: int
     evaluations: int
     heights: int
+    searches: int
+    search_values: int
 
 
 class Attempt(NamedTuple):

@@ -339,13 +339,14 @@ impl<T: Real> PanelSet<T> {
             if trial.split && may {
                 splits += 1;
                 let level = trial.level + 1;
-                let Candidate { wave, hides, .. } = trial;
-                let half = |x| Candidate { level, wave, hides, ..Candidate::new(x) };
+                let Candidate { wave, hides, sparse, .. } = trial;
+                let half = |x| Candidate { level, wave, hides, sparse, ..Candidate::new(x) };
                 let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
                 for half in [&mut one, &mut other] {
                     half.falls = half.falls_below(&trial);
+                    half.sparse |= half.split && half.panel.tail >= T::of(2.0) * trial.panel.tail;
                 }
                 // Noise is as large in both halves. So is a wave that is not resolved yet, as long
                 // as it is not faint.

@@ -214,7 +214,13 @@ impl Integrator<f64> for Same {
         Ok(Estimate { value: self.0, error: self.0 })
     }
     fn cost(&self) -> Cost {
-        Cost { samples: usize::MAX, evaluations: usize::MAX, heights: usize::MAX }
+        Cost {
+            samples: usize::MAX,
+            evaluations: usize::MAX,
+            heights: usize::MAX,
+            searches: usize::MAX,
+            search_values: usize::MAX,
+        }
     }
 }
 

@@ -28,6 +28,8 @@ pub(super) struct Candidate<T> {
     pub level: usize,
     /// True if another halving should help, whatever the level.
     pub falls: bool,
+    /// True if a halving has doubled the error, as of noise: parts start with the fewest nodes.
+    pub sparse: bool,
     /// True if the span is part of a wave that looked like noise.
     pub wave: bool,
     /// True if the heights contradict the slopes.
@@ -39,9 +41,9 @@ pub(super) struct Candidate<T> {
 impl<T: Real> Candidate<T> {
     /// Returns an untried candidate.
     pub fn new(x: [T; 2]) -> Self {
-        let (panel, zero) = (Panel::new(x), T::zero());
-        let (falls, wave, hides) = (false, false, false);
-        Self { panel, split: false, allowed: zero, level: 0, falls, wave, hides, derivatives: zero }
+        let [split, falls, sparse, wave, hides] = [false; 5];
+        let (panel, [allowed, derivatives]) = (Panel::new(x), [T::zero(); 2]);
+        Self { panel, split, allowed, level: 0, falls, sparse, wave, hides, derivatives }
     }
 
     /// Tells whether the error is smaller than on the whole span. Assumes so if the numbers of
