@@ -2,8 +2,8 @@
 
 use linecontact::search::{Bracket, LimitSearch, Root, SearchError};
 
-/// Illinois method: the secant between the ends of a sign change, where an end that has stayed twice
-/// counts with half its value (Dowell and Jarratt, *BIT* 11, 1971, 168).
+/// Illinois method: the secant between the ends of a sign change, where an end that has stayed
+/// twice counts with half its value (Dowell and Jarratt, *BIT* 11, 1971, 168).
 pub struct Illinois;
 
 impl LimitSearch<f64> for Illinois {
